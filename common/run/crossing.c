@@ -73,16 +73,39 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
     return inside;
 }
 
+/* Whether the box of some group of particles moves: a gauge at rest may lie in it for a while. */
+static bool any_moves(const struct run *r)
+{
+    char names[PARAM_KIN_MAX][64], key[96];
+    const int n = params_kin(r->params, "sph", names);
+    bool moves = false;
+    for (int k = 0; k < n; k++) {
+        snprintf(key, sizeof key, ":%.63s.box_velocity", names[k]);
+        moves = moves || params_given(r->params, key);
+        snprintf(key, sizeof key, ":%.63s.box_follows", names[k]);
+        moves = moves || params_given(r->params, key);
+    }
+    return moves;
+}
+
 void crossing_deal(struct run *r)
 {
     const struct scene *c = &r->scene;
     const int up = scene_still_axis(c);
+    const bool shared = r->coupled && c->has_sph && c->has_fv,
+               particles = strncmp(r->name, "sph", 3) == 0;
     double box[PARAM_KIN_MAX][2][3];
-    const int n = peek_boxes(r, strncmp(r->name, "sph", 3) == 0 ? r->name : NULL, box);
+    const int n = shared ? peek_boxes(r, particles ? r->name : NULL, box) : 0;
+    const bool both = !shared || (!r->crossed && any_moves(r));
     for (int k = 0; k < c->nprobes; k++) {
-        r->gauge_inside[k] = false;
+        const struct scene_probe *g = c->probes + k;
+        bool inside = false;
         for (int q = 0; q < n; q++)
-            r->gauge_inside[k] = r->gauge_inside[k] || holds(c, up, box[q], c->probes + k);
+            inside = inside || holds(c, up, box[q], g);
+        if (shared && (g->body[0] || (!r->crossed && !probe_is_point(g))))
+            r->gauge_elsewhere[k] = !particles; /* what moves, and a surface that is theirs alone */
+        else
+            r->gauge_elsewhere[k] = !both && inside != particles;
     }
 }
 

@@ -13,8 +13,9 @@ bool crossing_box(const struct run *r, const char *group, double box[2][3]);
  * along an axis across gravity, or below its top.
  * Collective over r->comm. */
 bool crossing_find(const struct run *r);
-/* Deals out the gauges: r->gauge_inside, of FV those in any box, of SPH those in its own. Of a
- * crossing case; collective over r->comm. */
+/* Deals out the gauges of the scene: r->gauge_elsewhere. In a coupled job SPH reads those in its
+ * box, at its start, and those of bodies, FV those outside; of points both where a box moves under
+ * no surface. Collective over r->comm. */
 void crossing_deal(struct run *r);
 /* Height of the water above the domain's floor at the start, along axis a, m. */
 double crossing_depth(const struct scene *c, int a);

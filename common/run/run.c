@@ -161,7 +161,7 @@ static int read_case(struct life *l)
         wave_gauges_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
         r->crossed = crossing_find(r);
-    if (r->crossed)
+    if (l->faults.n == 0)
         crossing_deal(r);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);

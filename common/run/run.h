@@ -35,10 +35,9 @@ struct run {
     bool restart;                 /* state comes from the restart file */
     bool coupled;
     bool crossed; /* coupled, and the free surface crosses open sides of sph.box: crossing.h */
-    bool
-        gauge_inside[PROBES_MAX]; /* crossed: a gauge is that SPH's in whose box it lies, or FV's */
-    const struct partner *partner; /* NULL when alone */
-    void *partner_ctx;             /* its state (struct cpl *) */
+    bool gauge_elsewhere[PROBES_MAX]; /* a partner reads the gauge: crossing_deal */
+    const struct partner *partner;    /* NULL when alone */
+    void *partner_ctx;                /* its state (struct cpl *) */
     struct timers timers;
     struct summary *summary;
     double t, dt; /* s: current time, last step */

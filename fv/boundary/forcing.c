@@ -9,6 +9,7 @@
 #include "blocked.h"
 #include "fv_sides.h"
 #include "mesh_bc.h"
+#include "parted.h"
 
 /* Visits all cells of all parts with their ghosts: at (int[3]) of part p has place c. */
 #define ALL_CELLS(s, p, at, c)                                                                     \
@@ -293,6 +294,7 @@ struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2]
             forcing_list_fixes(s, f, a);
     }
     f->net = net_of(s, f);
+    f->parted = partner ? parted_create(s, f->forced) : NULL;
     if (s->m)
         given_rows_create(s, f);
     return f;
@@ -310,6 +312,7 @@ void forcing_free(struct forcing **fp)
     mem_free(f->partner);
     mem_free(f->known);
     given_rows_free(&f->gradient);
+    parted_free(&f->parted);
     for (int a = 0; a < 3; a++) {
         mem_free(f->fix[a]);
         mem_free(f->face[a]);
@@ -484,6 +487,14 @@ static void take_off(const struct fv *s, int a, int64_t i, double excess, double
         f->sign[a][i] * excess * (grid_face_area(&s->grid, c, a) / grid_flow_area(&s->grid, c, a));
 }
 
+/* The part that the computed cell beside a face of the outline lies in. */
+static int face_part(const struct fv *s, int a, int64_t i)
+{
+    const struct forcing *f = s->forcing;
+    const int64_t c = f->face[a][i];
+    return f->parted->of[f->sign[a][i] > 0 ? c - grid_part(&s->grid, c, NULL)->stride[a] : c];
+}
+
 /* Flux outwards through the outline, and its area; of all ranks. */
 static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
 {
@@ -498,12 +509,59 @@ static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
             }
 }
 
+/* Net flux of the outline's faces of each part, m^dim/s, and their area; of all ranks. */
+static void sum_parts(const struct fv *s, double *const U[3], double flux[PARTS_MAX],
+                      double area[PARTS_MAX])
+{
+    const struct forcing *f = s->forcing;
+    double sums[2][PARTS_MAX] = {{0.0}};
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++) {
+            const int k = face_part(s, a, i);
+            const int64_t c = f->face[a][i];
+            if (!f->counts[a][i])
+                continue;
+            sums[0][k] += f->sign[a][i] * U[a][c] * grid_flow_area(&s->grid, c, a);
+            sums[1][k] += grid_face_area(&s->grid, c, a);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2 * PARTS_MAX, MPI_DOUBLE, MPI_SUM, s->comm);
+    memcpy(flux, sums[0], sizeof sums[0]);
+    memcpy(area, sums[1], sizeof sums[1]);
+}
+
+/* What flows out of a floating part through its sides flows in through its interface with the
+ * partners; the other parts take what is then left of the interface's net flux, for the partners'
+ * density is constant in the mean. */
+static void balance_parts(const struct fv *s, double *const U[3])
+{
+    const struct forcing *f = s->forcing;
+    const struct parted *p = f->parted;
+    double net[PARTS_MAX], flux[PARTS_MAX], area[PARTS_MAX], excess[PARTS_MAX], left[2] = {0.0};
+    parted_net_fluxes(p, s, U, net);
+    sum_parts(s, U, flux, area);
+    for (int k = 0; k < p->n; k++) {
+        excess[k] = p->floats[k] && area[k] > 0.0 ? net[k] / area[k] : 0.0;
+        left[0] += flux[k] - excess[k] * area[k];
+        left[1] += p->floats[k] ? 0.0 : area[k];
+    }
+    for (int k = 0; k < p->n; k++)
+        if (!p->floats[k] && left[1] > 0.0)
+            excess[k] = left[0] / left[1];
+    for (int a = 0; a < f->dim; a++)
+        for (int64_t i = 0; i < f->nface[a]; i++)
+            take_off(s, a, i, excess[face_part(s, a, i)], U[a]);
+}
+
 /* Takes the net flux out, where the outline does and no surface lets it in; sides: theirs counts.
  */
 static void balance(const struct fv *s, bool sides, double *const U[3])
 {
     const struct forcing *f = s->forcing;
     double sums[2];
+    if (f->parted) {
+        balance_parts(s, U);
+        return;
+    }
     if (s->surface || f->net == NET_OTHERS)
         return;
     sides = sides && f->net == NET_SIDES;

@@ -34,6 +34,7 @@ enum net_flux {
 };
 
 struct one_sided; /* given_cells.c */
+struct parted;    /* parted.h */
 
 struct forcing {
     int dim;
@@ -65,6 +66,7 @@ struct forcing {
                    does */
     bool imposed; /* some rank gives cells the exact velocity */
     enum net_flux net;
+    struct parted *parted; /* NULL: all computed cells are one part, or each has an outlet */
     double *v[3], *v_next[3], *v_old[3]; /* [npartner + nrim] partner's velocities at t0, t1, and
                                             the coupling step before */
     double inflow; /* m/s: added to the flow through the interface, into the free cells, whose

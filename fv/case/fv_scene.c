@@ -317,7 +317,7 @@ static void check_shores(const struct run *r, struct faults *f)
     char key[32];
     for (int k = 0; k < r->scene.nprobes; k++) {
         snprintf(key, sizeof key, "probes.[%d].at", k);
-        if (r->scene.probes[k].kind == PROBE_SHORE && r->crossed && !r->gauge_inside[k])
+        if (r->scene.probes[k].kind == PROBE_SHORE && r->crossed && !r->gauge_elsewhere[k])
             params_fault(r->params, f, key,
                          "probe \"%s\": (%g, %g) m lies in fv's part, and only sph reads a shore; "
                          "put it into sph.box",

@@ -320,7 +320,7 @@ static void check_probes(const struct run *r, struct faults *f, const struct mes
         const struct scene_probe *p = r->scene.probes + k;
         char key[32];
         snprintf(key, sizeof key, "probes.[%d].at", k);
-        if (fv_probe_mine(r, k) && p->kind != PROBE_DISCHARGE && !is_covered(r, m, o, p))
+        if (!r->gauge_elsewhere[k] && p->kind != PROBE_DISCHARGE && !is_covered(r, m, o, p))
             params_fault(r->params, f, key,
                          "probe \"%s\": no block has computed cells around (%g, %g, %g) m", p->name,
                          p->at[0], p->at[1], p->at[2]);

@@ -11,9 +11,9 @@
 #include "../../common/files/h5.h"
 #include "../../common/run/watch.h"
 #include "../../coupler/cpl.h"
-#include "../boundary/forcing.h"
 #include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
+#include "../boundary/parted.h"
 #include "../boundary/still.h"
 #include "../grid/mesh.h"
 #include "../surface/levelset.h"
@@ -390,6 +390,10 @@ void fv_coupling_create(struct fv *s)
     if (s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2])
         moved_box_prepare(s, (const double(*)[2][3])all);
     s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
+    if (s->forcing && s->forcing->parted && s->prm.integrator == INTEGRATOR_NEWTON)
+        refuse(k,
+               "fv.integrator: newton solves for one pressure, and sph.box cuts the flow in parts "
+               "that have one each: take rk3 or bdf2, or leave fv a way around the box");
     if (!s->forcing)
         refuse(k, "no cell of fv lies wholly in the box that sph gives: refine fv.cells (or the "
                   "blocks), enlarge sph.box or lower coupling.overlap");
@@ -433,21 +437,58 @@ void fv_coupling_free(struct fv *s)
     moved_box_free(s);
 }
 
+/* Pa: the partner's pressure over ours in the computed cells beside its own: sum and number by
+ * part of the flow, all in one where it has no parts. */
+static void compare_pressure(const struct fv *s, double sum[2][PARTS_MAX])
+{
+    const struct link *k = s->link;
+    const struct forcing *f = s->forcing;
+    double x[3];
+    memset(sum, 0, 2 * sizeof *sum);
+    for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
+        const int64_t c = f->partner[i];
+        const int part = f->parted ? f->parted->of[c] : 0;
+        if (!k->mask[i])
+            continue;
+        grid_place(&s->grid, c, x);
+        sum[0][part] += k->p[i] - fv_pressure(s, c) - fv_still_pressure(s, x);
+        sum[1][part] += 1.0;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sum, 2 * PARTS_MAX, MPI_DOUBLE, MPI_SUM, s->comm);
+}
+
+/* A part that floats is told the level of its pressure by the partner: a share of the difference
+ * a coupling step, for the partner's own answers to it within some of them, later where it takes
+ * smoothed pressures. If all parts float their mean stays: the partner's pressure is over it. */
+static void follow_levels(struct fv *s)
+{
+    const struct parted *p = s->forcing->parted;
+    const double share = 0.5 / (1.0 + s->link->course->memory), rho = s->run->scene.fluid.rho;
+    double sum[2][PARTS_MAX], more[PARTS_MAX] = {0.0}, mean = 0.0, cells = 0.0;
+    compare_pressure(s, sum);
+    for (int k = 0; k < p->n; k++) {
+        more[k] = sum[1][k] > 0.0 ? share * sum[0][k] / sum[1][k] / rho : 0.0;
+        mean += more[k] * p->cells[k];
+        cells += p->cells[k];
+    }
+    for (int k = 0; k < p->n && parted_all_float(p); k++)
+        more[k] -= mean / cells;
+    parted_shift(p, s, more);
+}
+
 /* A flow of constant density knows its pressure up to a constant: the partner has it. */
 static void find_datum(struct fv *s)
 {
-    struct link *k = s->link;
-    const struct forcing *f = s->forcing;
-    double sum[2] = {0.0, 0.0}, x[3];
-    for (int64_t i = f->npartner; i < f->npartner + f->nrim; i++) {
-        if (!k->mask[i])
-            continue;
-        grid_place(&s->grid, f->partner[i], x);
-        sum[0] += k->p[i] - fv_pressure(s, f->partner[i]) - fv_still_pressure(s, x);
-        sum[1] += 1.0;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    s->partners.pressure = sum[1] > 0.0 ? sum[0] / sum[1] : s->partners.pressure;
+    const struct parted *p = s->forcing->parted;
+    double sum[2][PARTS_MAX], all[2] = {0.0, 0.0};
+    if (p)
+        follow_levels(s);
+    compare_pressure(s, sum);
+    for (int part = 0; part < PARTS_MAX; part++)
+        if (!p || parted_all_float(p) || !p->floats[part])
+            for (int q = 0; q < 2; q++)
+                all[q] += sum[q][part];
+    s->partners.pressure = all[1] > 0.0 ? all[0] / all[1] : s->partners.pressure;
 }
 
 static void put(struct fv *s)
@@ -714,11 +755,11 @@ void fv_coupling_window_begin(void *state, double t0, double t1)
 void fv_coupling_window_end(void *state, double t1)
 {
     struct fv *s = state;
+    if (s->forcing && !s->surface)
+        find_datum(s);
     course_take(s, s->link->course);
     if (s->surface)
         water_budget_close(s, &s->link->of_water, t1 - s->forcing->t0);
-    if (s->forcing && !s->surface)
-        find_datum(s);
 }
 
 void coupling_save(const struct fv *s, struct h5 *f)

@@ -11,22 +11,14 @@
 #include "output.h"
 #include "probe_flow.h"
 
-bool fv_probe_mine(const struct run *r, int k)
-{
-    if (r->coupled && r->scene.probes[k].body[0])
-        return false; /* bodies that move are sph's there */
-    if (r->crossed)
-        return !r->gauge_inside[k];
-    return probe_is_point(r->scene.probes + k) || !r->coupled;
-}
-
 int fv_probe_columns(const struct run *r, const char **columns)
 {
     static char names[3 * PROBES_MAX][PARAM_TEXT_SIZE + 12];
     const int dim = r->scene.domain.dim;
     int n = 0;
     for (int k = 0; k < r->scene.nprobes; k++)
-        for (int a = 0; a < probe_columns(r->scene.probes + k, dim) && fv_probe_mine(r, k); a++) {
+        for (int a = 0; a < probe_columns(r->scene.probes + k, dim) && !r->gauge_elsewhere[k];
+             a++) {
             probe_heading(r->scene.probes + k, dim, a, names[n], sizeof names[n]);
             columns[n] = names[n];
             n++;
@@ -90,13 +82,13 @@ void fv_probe(struct fv *s, double *values)
     int n = 0;
     for (int k = 0; k < scene->nprobes; k++) {
         const struct scene_probe g = placed(s, scene->probes + k);
-        n += fv_probe_mine(s->run, k) ? share_of(s, &g, here + n) : 0;
+        n += !s->run->gauge_elsewhere[k] ? share_of(s, &g, here + n) : 0;
     }
     MPI_Allreduce(MPI_IN_PLACE, here, n, MPI_DOUBLE, MPI_SUM, s->comm);
     const double *from = here;
     for (int k = 0; k < scene->nprobes; k++) {
         const struct scene_probe g = placed(s, scene->probes + k);
-        if (!fv_probe_mine(s->run, k))
+        if (s->run->gauge_elsewhere[k])
             continue;
         from += read_out(s, &g, from, values);
         values += probe_columns(&g, s->dim);

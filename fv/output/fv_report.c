@@ -113,7 +113,7 @@ void fv_row(void *state, double *values)
     }
     fv_probe(s, values + n);
     for (int k = 0; k < s->run->scene.nprobes; k++)
-        n += fv_probe_mine(s->run, k) ? probe_columns(s->run->scene.probes + k, s->dim) : 0;
+        n += !s->run->gauge_elsewhere[k] ? probe_columns(s->run->scene.probes + k, s->dim) : 0;
     watches_values(s->watches, values + n);
 }
 

@@ -24,8 +24,7 @@ struct picture;
 void fv_draw(const struct run *r, const struct fv_params *prm, struct picture *p);
 
 /* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
- * Of a coupled job those that are not its partner's. */
-bool fv_probe_mine(const struct run *r, int k);
+ * Of a coupled job those that no partner reads. */
 int fv_probe_columns(const struct run *r, const char **columns);
 void fv_probe(struct fv *s, double *values);
 

@@ -9,7 +9,7 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/bc.h"
-#include "../boundary/forcing.h"
+#include "../boundary/parted.h"
 #include "../operators/helmholtz.h"
 #include "../surface/levelset.h"
 #include "backend.h"
@@ -240,6 +240,10 @@ static double remove_mean(const struct fv *s, double *restrict x)
 {
     double sums[2] = {0.0, 0.0};
     zero_idle(s, x);
+    if (s->forcing && s->forcing->parted) {
+        parted_remove_means(s->forcing->parted, s, x);
+        return dot(s, x, x);
+    }
     if (!own(s)->singular)
         return dot(s, x, x);
     sums[0] = helmholtz_dot(s, x, x);

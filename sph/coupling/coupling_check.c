@@ -250,40 +250,50 @@ static bool gives(const struct run *r, const struct sph_params *prm, const struc
     return true;
 }
 
-/* Whether fv's flow beside an end of axis a has an outlet that sets its pressure. */
-static bool has_outlet(const struct scene *c, int a, int up)
+bool coupling_cuts(const struct run *r, const struct sph_params *prm, int a)
 {
-    for (int side = 0; side < 2 * c->domain.dim; side++) {
-        const struct scene_wall *w = scene_wall_of(c, SIDE_X_MIN + side);
-        if ((side / 2 != a || side % 2 == up) && w && w->kind == WALL_OUTFLOW && !w->carried)
-            return true;
+    const struct scene_domain *d = &r->scene.domain;
+    double lo[3], hi[3];
+    bool across = a < d->dim && !d->periodic[a] && !r->crossed;
+    zones_given_box(r, prm, lo, hi);
+    for (int b = 0; b < d->dim; b++) {
+        const double near = 1e-6 * prm->dx;
+        across = across && (b == a ? lo[b] > d->min[b] + near && hi[b] < d->max[b] - near
+                                   : lo[b] < d->min[b] + near && hi[b] > d->max[b] - near);
     }
-    return false;
+    return across;
 }
 
-/* What sph gives from wall to wall cuts fv's flow in two. One without an outlet knows neither its
- * level of pressure nor where what sph gives too much is to go: the projection has no solution. */
-static void check_parted(const struct run *r, const struct sph_params *prm,
-                         const struct box_water *w, struct faults *f)
+bool coupling_has_outlet(const struct run *r, int end)
 {
-    const struct scene *c = &r->scene;
-    const struct scene_domain *d = &c->domain;
-    const bool blocks = params_has_group(r->params, "blocks"); /* whose sides are their own */
-    for (int a = 0; a < d->dim && !r->crossed && !blocks; a++) {
-        bool across = !d->periodic[a];
-        for (int b = 0; b < d->dim; b++) {
-            const double near = 1e-6 * prm->dx;
-            across =
-                across &&
-                (b == a ? w->given[0][b] > d->min[b] + near && w->given[1][b] < d->max[b] - near
-                        : w->given[0][b] < d->min[b] + near && w->given[1][b] > d->max[b] - near);
-        }
-        if (across && !(has_outlet(c, a, 0) && has_outlet(c, a, 1)))
+    const int a = end / 2, up = end % 2;
+    bool any = false;
+    for (int side = 0; side < 2 * r->scene.domain.dim; side++) {
+        const struct scene_wall *w = scene_wall_of(&r->scene, SIDE_X_MIN + side);
+        any = any || ((side / 2 != a || side % 2 == up) && w && w->kind == WALL_OUTFLOW);
+    }
+    return any;
+}
+
+/* What sph gives from wall to wall cuts fv's flow in parts. One without an outlet takes the level
+ * of its pressure from sph, on uniform cells; between two boxes nothing would say how much flows.
+ */
+static void check_parted(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    const bool blocks = params_has_group(r->params, "blocks");
+    char names[PARAM_KIN_MAX][64];
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        const bool several = params_kin(r->params, "sph", names) > 1,
+                   shut = !coupling_has_outlet(r, 2 * a) || !coupling_has_outlet(r, 2 * a + 1);
+        if (coupling_cuts(r, prm, a) && (several || (blocks && shut)))
             params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
-                         "cuts fv's flow in two along %c, and what lies %s has no outlet of its "
-                         "own: nothing sets its pressure. Leave fv a way around it: end the box "
-                         "before one of the sides that it reaches now",
-                         axes[a], has_outlet(c, a, 1) ? "below" : "above");
+                         "cuts fv's flow in two along %c, and %s. Leave fv a way around the box: "
+                         "end it before one of the sides that it reaches now%s",
+                         axes[a],
+                         several ? "what lies between several boxes would have no sides of its own"
+                                 : "blocks beyond it have no outlet among the walls, which would "
+                                   "set their pressure",
+                         several ? "" : "; or take fv.cells, which need none");
     }
 }
 
@@ -302,7 +312,7 @@ void coupling_check(const struct run *r, const struct sph_params *prm, struct fa
         check_side(r, prm, &w, side, f);
     if (!gives(r, prm, &w, f))
         return;
-    check_parted(r, prm, &w, f);
+    check_parted(r, prm, f);
     if (f->n == 0)
         check_water(r, &w, f);
     coupling_check_bodies(r, prm, f);

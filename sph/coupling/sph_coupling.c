@@ -94,6 +94,23 @@ static void eval_surface(void *ctx, double t, int n, const double *x, double *ph
     cpl_patch_eval(k->c, k->patch_phi, t, n, x, phi, gphi);
 }
 
+/* Beyond one end of a box from wall to wall fv knows what flows, and the pressure up to a level
+ * that it takes from here; beyond the other, with an outlet, it knows the pressure. Each end takes
+ * what is known there alone: rho c times the error of a mean velocity is more than the pressure
+ * that drives a slow flow. */
+static void choose_halves(struct sph *s)
+{
+    struct zones *z = s->zones;
+    for (int a = 0; a < s->dim; a++) {
+        const bool below = coupling_has_outlet(s->run, 2 * a),
+                   above = coupling_has_outlet(s->run, 2 * a + 1);
+        if (!coupling_cuts(s->run, &s->prm, a) || below == above)
+            continue;
+        z->own_p[2 * a] = z->own_u[2 * a + 1] = above;
+        z->own_p[2 * a + 1] = z->own_u[2 * a] = below;
+    }
+}
+
 void sph_coupling_create(struct sph *s)
 {
     struct sph_link *k = NEW(struct sph_link, 1);
@@ -123,6 +140,7 @@ void sph_coupling_create(struct sph *s)
         check(k, cpl_points(k->c, named(s->run, "place"), s->dim, 0.0, &k->place));
         check(k, cpl_field(k->c, k->place, named(s->run, "way"), "m", 9, CPL_PUT, 0, &k->way));
     }
+    choose_halves(s);
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
     s->zones->watched = overlap_create(s);

@@ -7,6 +7,11 @@
 
 /* coupling_check.c: what a coupled job cannot be. */
 void coupling_check(const struct run *r, const struct sph_params *prm, struct faults *f);
+/* coupling_check.c: whether what sph gives reaches from wall to wall and cuts fv's flow in two
+ * along axis a. Whether fv's flow beyond end `end' of the box (2 a: below, 2 a + 1: above) has an
+ * outlet, which sets its pressure. */
+bool coupling_cuts(const struct run *r, const struct sph_params *prm, int a);
+bool coupling_has_outlet(const struct run *r, int end);
 /* coupling_solids.c: of what is allowed, and better otherwise. */
 void coupling_warn(const struct run *r, const struct sph_params *prm);
 /* Publishes sph.box and sph.free. */

@@ -259,7 +259,7 @@ static void advise(const struct run *r, const struct sph_params *prm, const stru
     const double h = least_cell(r), c0 = w->gain > gain_most ? windows_c0(r, prm) : 0.0;
     char mend[160] = "a wider coupling.overlap, or a box whose open sides lie nearer to walls";
     if (h < cells_least * prm->dx * (1.0 - 1e-9))
-        log_warn("fv.cells: cells of %.3g m are %.2g times sph.dx; below %g the programs' errors "
+        log_warn("fv.cells: cells of %.3g m are %.3g times sph.dx; below %g the programs' errors "
                  "grow, as much as twofold at 1: fewer cells, or refine sph.dx",
                  h, h / prm->dx, cells_least);
     if (c0 > 0.0)

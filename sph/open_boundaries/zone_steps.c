@@ -259,8 +259,17 @@ static double gained(const struct sph *s)
  * of impacts. */
 static const double level_memory = 10.0;
 
+static bool any_side(const bool *has, int dim)
+{
+    bool any = false;
+    for (int side = 0; side < 2 * dim; side++)
+        any = any || has[side];
+    return any;
+}
+
 /* A full box holds what it held at the start: volumes in the zones do not know it, and what they
- * gained goes out by the faces. Under a free surface mass goes in and out with the waves, and a
+ * gained goes out by the faces, unless a side takes its pressure from outside alone: mass
+ * follows that. Under a free surface mass goes in and out with the waves, and a
  * partner of constant density knows its pressure up to a level: SPH's own is taken. Alone that
  * would let the column drain: what the region holds beyond its start and what has flown in adds ten
  * times the weight of the missing layer. */
@@ -273,7 +282,7 @@ void zones_gauge(struct sph *s)
     z->gauge = 0.0;
     if (z->surface) /* one pressure, 0 on the surface of both */
         return;
-    if (!s->surface && s->run->scene.coupling.keep_mass)
+    if (!s->surface && s->run->scene.coupling.keep_mass && !any_side(z->own_u, s->dim))
         openings_let_out(o, gained(s));
     if (!s->surface || g == 0.0)
         return;

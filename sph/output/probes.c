@@ -15,12 +15,6 @@
 #include "discharge_gauge.h"
 #include "shore.h"
 
-/* Where a surface crosses, fv reads the gauges outside of the box that stand. */
-static bool is_mine(const struct run *r, int k)
-{
-    return !r->crossed || r->gauge_inside[k] || r->scene.probes[k].body[0];
-}
-
 /* The gauge where it is now. */
 static struct scene_probe placed(const struct sph *s, const struct scene_probe *g)
 {
@@ -40,7 +34,8 @@ int probes_columns(const struct run *r, const char **names)
     const struct scene *c = &r->scene;
     int n = 0;
     for (int k = 0; k < c->nprobes; k++)
-        for (int a = 0; a < probe_columns(c->probes + k, c->domain.dim) && is_mine(r, k); a++)
+        for (int a = 0; a < probe_columns(c->probes + k, c->domain.dim) && !r->gauge_elsewhere[k];
+             a++)
             probe_heading(c->probes + k, c->domain.dim, a, text[n++], sizeof text[0]);
     for (int k = 0; k < c->nbodies; k++)
         for (int a = 0; a < 3 * (c->domain.dim - 1); a++, n++)
@@ -150,7 +145,7 @@ void probes_row(struct sph *s, double *values)
 {
     const struct scene *c = &s->run->scene;
     for (int k = 0; k < c->nprobes; k++) {
-        if (!is_mine(s->run, k))
+        if (s->run->gauge_elsewhere[k])
             continue;
         const struct scene_probe g = placed(s, c->probes + k);
         if (g.kind == PROBE_VELOCITY)
