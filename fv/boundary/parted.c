@@ -90,6 +90,7 @@ struct parted *parted_create(const struct fv *s, const unsigned char *forced)
         most = b->cells[a] > most ? b->cells[a] : most;
     int *part = NEW(int, most);
     struct parted *p = NEW(struct parted, 1);
+    p->forced = forced;
     p->n = s->m || s->surface ? 0 : find_cut(s, forced, &axis, part);
     if (p->n > 1) {
         const int last = b->cells[axis] - 1;
@@ -133,7 +134,7 @@ bool parted_all_float(const struct parted *p)
 void parted_remove_means(const struct parted *p, const struct fv *s, double *x)
 {
     double mean[PARTS_MAX] = {0.0};
-    const unsigned char *forced = s->forcing->forced;
+    const unsigned char *forced = p->forced;
     BLOCK_NEAR (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             mean[p->of[i]] += x[i];
@@ -148,7 +149,7 @@ void parted_remove_means(const struct parted *p, const struct fv *s, double *x)
 void parted_net_fluxes(const struct parted *p, const struct fv *s, double *const U[3],
                        double net[PARTS_MAX])
 {
-    const unsigned char *forced = s->forcing->forced;
+    const unsigned char *forced = p->forced;
     memset(net, 0, PARTS_MAX * sizeof *net);
     for (int a = 0; a < s->b.dim; a++) {
         const int64_t d = s->b.stride[a];

@@ -6,12 +6,13 @@
 #ifndef FV_PARTED_H
 #define FV_PARTED_H
 
-#include "forcing.h"
+#include "../fv.h"
 
 enum { PARTS_MAX = 2 * PARTNERS_MAX };
 
 struct parted {
-    int n;                   /* parts, at most PARTS_MAX */
+    const unsigned char *forced; /* [size] of struct forcing, borrowed: 0: computed */
+    int n;                       /* parts, at most PARTS_MAX */
     signed char *of;         /* [size] part of each cell, those of ghosts and imposed ones, too */
     bool floats[PARTS_MAX];  /* no side gives its pressure */
     double cells[PARTS_MAX]; /* computed ones, of all ranks */

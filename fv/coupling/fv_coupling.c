@@ -11,6 +11,7 @@
 #include "../../common/files/h5.h"
 #include "../../common/run/watch.h"
 #include "../../coupler/cpl.h"
+#include "../boundary/forcing.h"
 #include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
 #include "../boundary/parted.h"

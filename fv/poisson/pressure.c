@@ -9,6 +9,7 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/bc.h"
+#include "../boundary/forcing.h"
 #include "../boundary/parted.h"
 #include "../operators/helmholtz.h"
 #include "../surface/levelset.h"
