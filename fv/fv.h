@@ -119,6 +119,23 @@ struct fv_totals {
     double fastest;             /* m/s: largest |u_a| in the rows of the series */
 };
 
+/* What the stages of a step leave to those of the next, and their scratch; time/stages.h. */
+struct stage_fields {
+    double *psi[3];          /* m^2/s^2: start of the next step's solve; rk3 and blocks: of each
+                              * stage, bdf2 on uniform cells: the first */
+    double *start[3];        /* blocks: what the solver iterates on, likewise */
+    double *N[3], *N_old[3]; /* m/s^2: convection now and before (rk3: of a stage; bdf2: a step) */
+    double *u_old[3];        /* m/s: of the step before; bdf2, newton; else NULL */
+    double *step_p[3];       /* m/s^2: gradient of the pressure at the step's start */
+};
+
+/* On blocks that move, what the fringe has beyond its interpolation; else NULL; time/moving.h. */
+struct fringe_jumps {
+    double *psi;      /* m^2/s^2 */
+    double *delta[3]; /* m/s */
+    double *z;        /* psi of the volumes, without an outflow */
+};
+
 /* What a coupled job adds to the flow, all 0 alone; coupling/ fills it. */
 struct fv_partners {
     int n;
@@ -158,22 +175,16 @@ struct fv {
     double *u[3];     /* m/s: cell averages, with ghosts */
     double *p;        /* m^2/s^2: p/rho, of the last step's end (rk3: at t - dt/6) */
     double *p_before; /* of the step before */
-    double
-        *psi[3]; /* of each stage: start of the next step's solve; rk3 and bdf2 use [0..2], [0] */
-    double *start[3]; /* blocks: of each stage, start of the next solve */
     double *U[3]; /* m/s, on blocks m^dim/s: projected flux through the lower face of each cell */
-    double *N[3], *N_old[3]; /* convection now and before (rk3: of a stage; bdf2: of a step) */
-    double *u_old[3];        /* bdf2, newton; else NULL */
-    double *rhs[3], *delta[3], *work[3], *step_p[3]; /* scratch: right side, increment, CG; Gc p */
+    struct stage_fields stages;
+    double *rhs[3], *delta[3], *work[3]; /* scratch: right side, increment, CG */
     double *step_work;
     double *krylov[4][3]; /* scratch of the viscous solve with walls, else NULL */
     struct gravity gravity;
     double *face, *flux; /* scratch */
     double *faces[3];    /* blocks: scratch; the first is face */
     struct moving *moving;
-    double *jump; /* m^2/s^2: of blocks that move: psi in the fringe beyond its interpolation */
-    double *change[3];  /* m/s: the same of delta */
-    double *zw;         /* of blocks that move, without an outflow: psi of the volumes */
+    struct fringe_jumps fringe;
     double *free;       /* blocks: 1: computed, 0: not */
     double *scale;      /* blocks: of the viscous rows */
     double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left

@@ -36,7 +36,7 @@
 /* What is solved for along axis a, and its scratch. */
 static void make_vectors(struct fv *s, int a)
 {
-    double **const all[] = {&s->u[a], &s->U[a], &s->N[a], &s->N_old[a], &s->rhs[a], &s->step_p[a]};
+    double **const all[] = {&s->u[a], &s->U[a], &s->rhs[a]};
     const bool walls = s->bc || s->surface || s->blocked || s->b.rows, viscous = s->nu > 0.0;
     const int scratch = s->m ? 4 : viscous && walls ? 2 : 0;
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
@@ -49,8 +49,6 @@ static void make_vectors(struct fv *s, int a)
         s->work[a] = NEW(double, s->size);
     for (int k = 0; k < scratch; k++)
         s->krylov[k][a] = NEW(double, s->size);
-    if (s->prm.integrator != INTEGRATOR_RK3)
-        s->u_old[a] = NEW(double, s->size);
 }
 
 void fv_make_fields(struct fv *s)
@@ -60,12 +58,7 @@ void fv_make_fields(struct fv *s)
     s->flux = NEW(double, s->size);
     for (int a = 0; a < s->dim; a++)
         make_vectors(s, a);
-    for (int a = 0; a < 3; a++) {
-        if (s->m || a == 0 || s->prm.integrator == INTEGRATOR_RK3)
-            s->psi[a] = NEW(double, s->size);
-        if (s->m)
-            s->start[a] = NEW(double, s->size);
-    }
+    stage_fields_create(s);
     if (s->m) {
         if (s->dim < 3) /* stays 0 */
             s->u[2] = NEW(double, s->size);
@@ -202,7 +195,7 @@ static void project_start(struct fv *s)
     projection(s, s->t, 0, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->totals.start_iterations = s->totals.iterations;
     s->totals.iterations = 0;
-    memset(s->psi[0], 0, (size_t)s->size * sizeof(double));
+    memset(s->stages.psi[0], 0, (size_t)s->size * sizeof(double));
     measure(s);
     set_limit(s);
 }
@@ -342,14 +335,13 @@ void fv_free(struct fv **sp)
     carried_free(&s->outflows);
     levels_free(&s->levels);
     watches_free(&s->watches);
+    stage_fields_free(s);
     double *const one[] = {s->p,    s->p_before, s->m ? NULL : s->face, s->flux, s->step_work,
                            s->free, s->scale};
     for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
         mem_free(one[k]);
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a],     s->U[a],      s->N[a],     s->N_old[a],
-                               s->rhs[a],   s->step_p[a], s->delta[a], s->work[a],
-                               s->u_old[a], s->psi[a],    s->start[a], s->faces[a]};
+        double *const all[] = {s->u[a], s->U[a], s->rhs[a], s->delta[a], s->work[a], s->faces[a]};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             mem_free(all[k]);
         for (int k = 0; k < 4; k++)

@@ -80,8 +80,8 @@ void mesh_state_start(struct fv *s)
     projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->totals.start_iterations = s->totals.iterations;
     s->totals.iterations = 0;
-    memset(s->start[2], 0, (size_t)s->size * sizeof(double));
-    memset(s->psi[2], 0, (size_t)s->size * sizeof(double));
+    memset(s->stages.start[2], 0, (size_t)s->size * sizeof(double));
+    memset(s->stages.psi[2], 0, (size_t)s->size * sizeof(double));
     measure(s);
 }
 
@@ -153,11 +153,7 @@ void mesh_state_create(struct fv *s)
 void mesh_state_free(struct fv *s)
 {
     mesh_bc_free(&s->sides);
-    moving_free(&s->moving);
-    mem_free(s->jump);
-    for (int a = 0; a < 3; a++)
-        mem_free(s->change[a]);
-    mem_free(s->zw);
+    moving_free(s);
     overset_free(&s->search);
     mesh_free(&s->m);
 }

@@ -131,9 +131,9 @@ static void start_residual(struct fv *s, double c)
 {
     double *restrict L = s->krylov[2][0];
     mesh_fill(s->m, s->dim, s->delta);
-    for (int a = 0; a < s->dim && s->change[0]; a++)
+    for (int a = 0; a < s->dim && s->fringe.delta[0]; a++)
         for (int64_t i = 0; i < s->size; i++)
-            s->delta[a][i] += s->change[a][i];
+            s->delta[a][i] += s->fringe.delta[a][i];
     mesh_bc_velocity(s, BC_CHANGE, s->delta);
     for (int a = 0; a < s->dim; a++) {
         const double *restrict d = s->delta[a];

@@ -418,10 +418,10 @@ static void renew(struct fv *s, void *of, bool hierarchy)
     if (!p->singular)
         return;
     for (int k = 0; k < p->n; k++)
-        p->zw[k] = s->zw[p->rows->place[k]];
+        p->zw[k] = s->fringe.z[p->rows->place[k]];
     solve_volumes(s, p);
     for (int k = 0; k < p->n; k++)
-        s->zw[p->rows->place[k]] = p->zw[k];
+        s->fringe.z[p->rows->place[k]] = p->zw[k];
 }
 
 static void free_matrices(void **of)
@@ -461,7 +461,7 @@ static void set_shift(struct fv *s, void *of, double shift)
 static bool solve(struct fv *s, void *of, double *b, double tol, double *x, double *psi, double *c)
 {
     struct mesh_pressure *p = of;
-    for (int k = 0; k < p->n && s->jump; k++)
+    for (int k = 0; k < p->n && s->fringe.psi; k++)
         b[k] *= s->m->status[p->rows->place[k]] == CELL_FRINGE ? p->fringe : 1.0;
     const double kept = in_pinned_row(p, b);
     const bool good = solve_pinned(s, p, b, tol, x);

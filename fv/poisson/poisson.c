@@ -88,8 +88,8 @@ static bool negligible(struct fv *s, const double *div)
     double sum[2] = {0.0, 0.0};
     FLOW_ROWS (s, c, n) {
         sum[0] += squares(s->free + c, div + c, n);
-        for (int64_t i = c; i < c + n && s->jump; i++)
-            if (s->m->status[i] == CELL_FRINGE && s->jump[i] != 0.0)
+        for (int64_t i = c; i < c + n && s->fringe.psi; i++)
+            if (s->m->status[i] == CELL_FRINGE && s->fringe.psi[i] != 0.0)
                 sum[0] = INFINITY;
         for (int a = 0; a < s->dim; a++)
             sum[1] += squares(s->free + c, s->U[a] + c, n);
@@ -135,8 +135,8 @@ static bool solve_rows(struct fv *s, double tau, double *div, double tol, double
     for (int k = 0; k < p->n; k++) {
         p->x[k] = start[p->place[k]];
         p->b[k] = -div[p->place[k]] / tau;
-        if (s->jump && s->m->status[p->place[k]] == CELL_FRINGE)
-            p->b[k] = s->jump[p->place[k]];
+        if (s->fringe.psi && s->m->status[p->place[k]] == CELL_FRINGE)
+            p->b[k] = s->fringe.psi[p->place[k]];
     }
     const bool good = p->by->solve(s, p->of, p->b, tolerance(s, tol), p->x, p->psi, &c);
     for (int k = 0; k < p->n; k++)

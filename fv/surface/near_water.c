@@ -96,8 +96,8 @@ static void leave(struct fv *s, int64_t c)
     for (int a = 0; a < s->dim; a++)
         s->u[a][c] = s->U[a][c] = f->open[a][c] = 0.0;
     for (int k = 0; k < 3; k++)
-        if (s->psi[k])
-            s->psi[k][c] = 0.0;
+        if (s->stages.psi[k])
+            s->stages.psi[k][c] = 0.0;
 }
 
 static void leave_row(struct fv *s, int j, int k, const int old[2], const int now[2])

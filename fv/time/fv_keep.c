@@ -27,8 +27,8 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     names[n++] = "p";
     f[n] = s->p_before;
     names[n++] = "p_before";
-    if (s->zw) {
-        f[n] = s->zw;
+    if (s->fringe.z) {
+        f[n] = s->fringe.z;
         names[n++] = "zw";
     }
     if (s->surface) {
@@ -48,8 +48,8 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     for (int a = 0; a < 3; a++) {
         double *const all[] = {s->u[a],
                                s->U[a],
-                               s->N[a],
-                               s->u_old[a],
+                               s->stages.N[a],
+                               s->stages.u_old[a],
                                viscous_keeps_increment(s) ? s->delta[a] : NULL,
                                s->outflows ? s->outflows->kept[a] : NULL};
         for (int k = 0; k < 6; k++)
@@ -57,7 +57,7 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
                 f[n] = all[k];
                 names[n++] = vector[k][a];
             }
-        double *const of_solves[] = {s->psi[a], s->start[a]};
+        double *const of_solves[] = {s->stages.psi[a], s->stages.start[a]};
         for (int k = 0; k < 2; k++)
             if (of_solves[k]) {
                 f[n] = of_solves[k];

@@ -158,8 +158,8 @@ void pressure_start(struct fv *s)
     }
     outflow_start(s);
     for (int a = 0; a < 3; a++) {
-        if (s->psi[a])
-            memset(s->psi[a], 0, bytes);
+        if (s->stages.psi[a])
+            memset(s->stages.psi[a], 0, bytes);
         if (a < s->dim) {
             mem_free(keep[0][a]);
             mem_free(keep[1][a]);

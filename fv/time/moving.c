@@ -87,17 +87,17 @@ struct moving *moving_create(struct fv *s)
     }
     v->t_cut = v->t_rows = s->t;
     v->least = least_height(m);
-    s->jump = mesh_field(m);
+    s->fringe.psi = mesh_field(m);
     for (int a = 0; a < m->dim; a++)
-        s->change[a] = mesh_field(m);
+        s->fringe.delta[a] = mesh_field(m);
     if (!mesh_bc_pressure_given(s))
-        s->zw = mesh_field(m);
+        s->fringe.z = mesh_field(m);
     return v;
 }
 
-void moving_free(struct moving **vp)
+void moving_free(struct fv *s)
 {
-    struct moving *v = *vp;
+    struct moving *v = s->moving;
     if (!v)
         return;
     for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
@@ -108,10 +108,14 @@ void moving_free(struct moving **vp)
         mem_free(v->now[a]);
         mem_free(a < 3 ? v->push[a] : NULL);
         mem_free(a < 3 ? v->first[a] : NULL);
+        mem_free(a < 3 ? s->fringe.delta[a] : NULL);
     }
+    mem_free(s->fringe.psi);
+    mem_free(s->fringe.z);
+    s->fringe = (struct fringe_jumps){.psi = NULL};
     mem_free(v->local);
     mem_free(v);
-    *vp = NULL;
+    s->moving = NULL;
 }
 
 /* --- what cells are --- */
@@ -172,7 +176,7 @@ static int carried(const struct fv *s, double **f)
     if (s->surface)
         f[n++] = s->surface->phi;
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->u_old[a], s->psi[a], s->start[a]};
+        double *const all[] = {s->u[a], s->stages.u_old[a], s->stages.psi[a], s->stages.start[a]};
         for (int k = 0; k < 4; k++)
             if (all[k])
                 f[n++] = all[k];
@@ -199,7 +203,7 @@ static void fill_born_before(struct fv *s)
 {
     swap_status(s->m, s->moving);
     mesh_motion_place(s->m, s->t - s->step.dt);
-    overset_interpolate(s->m, s->m->search, s->moving->born, s->dim, s->u_old);
+    overset_interpolate(s->m, s->m->search, s->moving->born, s->dim, s->stages.u_old);
     mesh_motion_place(s->m, s->t);
     swap_status(s->m, s->moving);
 }
@@ -333,7 +337,7 @@ void moving_begin_implicit(struct fv *s, double dt)
     timer_start(&s->run->timers, "overlap");
     mesh_fill(m, 1, &s->p);
     mesh_fill(m, m->dim, s->u);
-    mesh_fill(m, m->dim, s->u_old);
+    mesh_fill(m, m->dim, s->stages.u_old);
     for (int k = 0; k < m->nblocks; k++)
         memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
     cut(s, s->t + dt);
@@ -386,9 +390,9 @@ static double pressure_at(const struct fv *s)
 
 void moving_gradient(struct fv *s)
 {
-    mesh_fill(s->m, s->dim, s->step_p);
+    mesh_fill(s->m, s->dim, s->stages.step_p);
     for (int a = 0; a < s->dim; a++)
-        memcpy(s->moving->first[a], s->step_p[a], (size_t)s->size * sizeof(double));
+        memcpy(s->moving->first[a], s->stages.step_p[a], (size_t)s->size * sizeof(double));
 }
 
 /* g = the gradient of the step's start as it has turned until t, ghosts and all. */
@@ -419,7 +423,7 @@ void moving_turn_pressure(struct fv *s, double tau)
     s->moving->tau = tau;
     if (s->surface)
         return;
-    turn_gradient(s, s->t + pressure_at(s) * s->step.dt_now, s->step_p);
+    turn_gradient(s, s->t + pressure_at(s) * s->step.dt_now, s->stages.step_p);
 }
 
 void moving_convection(struct fv *s, double *const N[3])
@@ -430,7 +434,7 @@ void moving_convection(struct fv *s, double *const N[3])
         PART_ROWS (m->part + q, none, none, c, n)
             for (int64_t i = c; i < c + n; i++)
                 for (int a = 0; a < m->dim && was[i] != CELL_COMPUTED; a++)
-                    s->N_old[a][i] = N[a][i];
+                    s->stages.N_old[a][i] = N[a][i];
 }
 
 void moving_stage(struct fv *s, double t)
@@ -448,9 +452,10 @@ void moving_stage(struct fv *s, double t)
         memcpy(v->now[m->dim], s->p, (size_t)s->size * sizeof(double));
         mesh_exchange(m, &m->fringe, m->dim + 1, v->now);
         for (int64_t c = 0; c < s->size; c++) {
-            s->jump[c] = f * (v->now[m->dim][c] - s->p[c]);
+            s->fringe.psi[c] = f * (v->now[m->dim][c] - s->p[c]);
             for (int a = 0; a < m->dim; a++)
-                v->push[a][c] = (1.0 - f) * v->first[a][c] + f * v->now[a][c] - s->step_p[a][c];
+                v->push[a][c] =
+                    (1.0 - f) * v->first[a][c] + f * v->now[a][c] - s->stages.step_p[a][c];
         }
     }
     timer_stop(&s->run->timers, "overlap");
@@ -471,7 +476,7 @@ void moving_fill(struct fv *s, double *const u[3])
 void moving_change(struct fv *s)
 {
     const struct mesh *m = s->m;
-    double *const *delta = s->change;
+    double *const *delta = s->fringe.delta;
     for (int a = 0; a < m->dim; a++)
         memcpy(delta[a], s->u[a], (size_t)s->size * sizeof(double));
     moving_fill(s, delta);
@@ -542,13 +547,13 @@ bool moving_restore(struct fv *s, struct h5 *f)
         return false;
     if (s->m->has_fringe && fresh > 0.0 && !s->surface) {
         double *zw = mesh_field(s->m);
-        if (s->zw)
-            memcpy(zw, s->zw, (size_t)s->size * sizeof(double));
+        if (s->fringe.z)
+            memcpy(zw, s->fringe.z, (size_t)s->size * sizeof(double));
         cut(s, t_rows);
         v->fresh = 0.0;
         renew_matrix(s);
-        if (s->zw)
-            memcpy(s->zw, zw, (size_t)s->size * sizeof(double));
+        if (s->fringe.z)
+            memcpy(s->fringe.z, zw, (size_t)s->size * sizeof(double));
         mem_free(zw);
     }
     v->fresh = fresh;

@@ -12,7 +12,7 @@ struct h5;
 
 /* NULL: no block moves. */
 struct moving *moving_create(struct fv *s);
-void moving_free(struct moving **v);
+void moving_free(struct fv *s);
 /* m->status and s->free, of what the blocks' cells are. */
 void moving_set_free(struct fv *s);
 /* What the cells are in the step of s->step.dt_now that begins; values of new ones. */
@@ -38,7 +38,7 @@ void moving_turn_pressure(struct fv *s, double tau);
 void moving_convection(struct fv *s, double *const N[3]);
 /* Blocks, walls and donors at the time of a stage. */
 void moving_stage(struct fv *s, double t);
-/* s->change: what delta has in the fringe beyond its interpolation. */
+/* s->fringe.delta of a stage. */
 void moving_change(struct fv *s);
 void moving_end(struct fv *s);
 /* Cells that moving blocks pass a second now or within a step, 1/s. */

@@ -243,7 +243,7 @@ static void give_levels(struct fv *s)
 {
     struct newton *w = s->newton;
     newton_unpack(s, w->q1, s->p, s->u);
-    newton_unpack(s, w->q2, s->p_before, s->u_old);
+    newton_unpack(s, w->q2, s->p_before, s->stages.u_old);
     moving_back(s);
 }
 
@@ -252,10 +252,10 @@ static void take_levels(struct fv *s)
 {
     struct newton *w = s->newton;
     newton_pack(s, s->p, s->u, w->q1);
-    newton_pack(s, s->p_before, s->u_old, w->q2);
+    newton_pack(s, s->p_before, s->stages.u_old, w->q2);
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
     for (int a = 0; a < s->dim; a++)
-        memcpy(s->u_old[a], s->u[a], (size_t)s->size * sizeof(double));
+        memcpy(s->stages.u_old[a], s->u[a], (size_t)s->size * sizeof(double));
     outflow_begin(s);
 }
 

@@ -158,13 +158,14 @@ static void evaluate(struct fv *s)
 {
     struct newton *w = s->newton;
     complete(s);
-    mesh_convection(s, s->N);
+    mesh_convection(s, s->stages.N);
     for (int a = 0; a < s->dim; a++) {
         if (s->nu > 0.0)
             mesh_viscous(s, s->u[a], s->delta[a]);
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++)
-                s->rhs[a][i] = s->N[a][i] + w->G[a][i] - s->delta[a][i] - s->gravity.periodic[a];
+                s->rhs[a][i] =
+                    s->stages.N[a][i] + w->G[a][i] - s->delta[a][i] - s->gravity.periodic[a];
     }
     s->ops->to_index(s);
     mesh_divergence(s, s->U, s->face);

@@ -29,7 +29,7 @@ static void end_surface_stage(struct fv *s, double tau, double *psi, bool last)
 
 void projection(struct fv *s, double t, int stage, double tau, double tol)
 {
-    double *psi = s->psi[stage];
+    double *psi = s->stages.psi[stage];
     start(s, "operators");
     stage_predict_fluxes(s, t);
     stop(s, "operators");
@@ -81,7 +81,8 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
 {
     for (int a = 0; a < s->dim; a++) {
         double *restrict r = s->rhs[a];
-        const double *restrict g = s->step_p[a], *restrict N = s->N[a], *restrict M = s->N_old[a];
+        const double *restrict g = s->stages.step_p[a], *restrict N = s->stages.N[a],
+                               *restrict M = s->stages.N_old[a];
         const double drive = s->gravity.periodic[a];
         if (s->nu > 0.0)
             s->ops->viscous(s, a, r);
@@ -108,8 +109,8 @@ static void begin_step(struct fv *s)
 static void step_convection(struct fv *s)
 {
     start(s, "convection");
-    swap(s->N, s->N_old);
-    stage_convection(s, s->N);
+    swap(s->stages.N, s->stages.N_old);
+    stage_convection(s, s->stages.N);
     stop(s, "convection");
 }
 
@@ -127,12 +128,12 @@ static void add_pressure(struct fv *s, const double *restrict psi)
  * the surface does in all of them. The last one alone balances walls' accelerations of t - dt/6. */
 static void add_mean_pressure(struct fv *s)
 {
-    add_pressure(s, s->psi[2]);
+    add_pressure(s, s->stages.psi[2]);
     FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++) {
             s->p[i] = 0.0;
             for (int k = 0; k < 3; k++)
-                s->p[i] += (rk3_alpha[k] + rk3_beta[k]) * s->psi[k][i];
+                s->p[i] += (rk3_alpha[k] + rk3_beta[k]) * s->stages.psi[k][i];
         }
 }
 
@@ -159,7 +160,7 @@ static bool step_rk3(struct fv *s, double dt)
         const double t_stage = t + rk3_at[k] * dt, ab = rk3_alpha[k] + rk3_beta[k];
         step_convection(s);
         start(s, "viscous");
-        stage_set_slip(s, ab * dt, s->psi[k]);
+        stage_set_slip(s, ab * dt, s->stages.psi[k]);
         stage_rhs(s, dt, ab, rk3_gamma[k], rk3_zeta[k]);
         stage_set_sides(s, t_stage, rk3_at[k] * dt);
         good = add_increment(s, rk3_beta[k] * dt, t_stage, before > 0.0 ? ab * dt / before : 0.0) &&
@@ -171,7 +172,7 @@ static bool step_rk3(struct fv *s, double dt)
     if (s->surface && s->m)
         add_mean_pressure(s);
     else
-        add_pressure(s, s->psi[2]);
+        add_pressure(s, s->stages.psi[2]);
     return good;
 }
 
@@ -179,7 +180,7 @@ static bool step_rk3(struct fv *s, double dt)
 static void add_history(struct fv *s, double weight)
 {
     for (int a = 0; a < s->dim; a++) {
-        double *restrict rhs = s->rhs[a], *restrict old = s->u_old[a];
+        double *restrict rhs = s->rhs[a], *restrict old = s->stages.u_old[a];
         const double *restrict u = s->u[a];
         for (int64_t i = 0; i < s->size; i++) {
             rhs[i] += weight * (u[i] - old[i]);
@@ -200,12 +201,12 @@ static bool step_bdf2(struct fv *s, double dt)
     begin_step(s);
     /* fringes interpolate from air, too, where it would be that of two steps before */
     for (int a = 0; s->surface && grid_overlaps(&s->grid) && a < s->dim; a++)
-        memset(s->N_old[a], 0, (size_t)s->size * sizeof(double));
+        memset(s->stages.N_old[a], 0, (size_t)s->size * sizeof(double));
     step_convection(s);
     for (int a = 0; s->surface && a < s->dim; a++)
-        extension_scalar(s, s->N[a]); /* for cells that the next step finds wet */
+        extension_scalar(s, s->stages.N[a]); /* for cells that the next step finds wet */
     start(s, "viscous");
-    stage_set_slip(s, tau, s->psi[0]);
+    stage_set_slip(s, tau, s->stages.psi[0]);
     /* increment from u^n: (1 - tau L) d = tau [L u - (1+r) N + r N_old - Gc p] + (c2/c0)(u^n -
      * u^n-1) */
     stage_rhs(s, tau, 1.0, 1.0 + r, -r);
@@ -214,7 +215,7 @@ static bool step_bdf2(struct fv *s, double dt)
     const bool good = add_increment(s, tau, s->t + dt, 0.0);
     stop(s, "viscous");
     projection(s, s->t + dt, 0, tau, last_tolerance(s));
-    add_pressure(s, s->psi[0]);
+    add_pressure(s, s->stages.psi[0]);
     return good;
 }
 

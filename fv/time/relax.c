@@ -25,8 +25,8 @@ bool relax_zones(struct fv *s, double dt)
             for (int a = 0; a < s->dim; a++) {
                 const double change = gone * (u_w[a] - s->u[a][i]);
                 s->u[a][i] += change;
-                if (s->u_old[a])
-                    s->u_old[a][i] += change;
+                if (s->stages.u_old[a])
+                    s->stages.u_old[a][i] += change;
             }
         }
     sides_velocity(s, BC_GIVEN, s->u);

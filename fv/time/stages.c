@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stages.h"
 
+#include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/levels.h"
 #include "../boundary/mesh_bc.h"
@@ -14,6 +15,34 @@
 
 #include <math.h>
 
+void stage_fields_create(struct fv *s)
+{
+    struct stage_fields *f = &s->stages;
+    const bool rk3 = s->prm.integrator == INTEGRATOR_RK3;
+    for (int a = 0; a < s->dim; a++) {
+        f->N[a] = NEW(double, s->size);
+        f->N_old[a] = NEW(double, s->size);
+        f->step_p[a] = NEW(double, s->size);
+        f->u_old[a] = rk3 ? NULL : NEW(double, s->size);
+    }
+    for (int k = 0; k < 3; k++) {
+        f->psi[k] = s->m || k == 0 || rk3 ? NEW(double, s->size) : NULL;
+        f->start[k] = s->m ? NEW(double, s->size) : NULL;
+    }
+}
+
+void stage_fields_free(struct fv *s)
+{
+    struct stage_fields *f = &s->stages;
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {f->psi[a],   f->start[a], f->N[a],
+                               f->N_old[a], f->u_old[a], f->step_p[a]};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            mem_free(all[k]);
+    }
+    *f = (struct stage_fields){.psi = {NULL}};
+}
+
 void stage_pressure_gradient(struct fv *s)
 {
     grid_fill(&s->grid, 1, &s->p);
@@ -21,7 +50,7 @@ void stage_pressure_gradient(struct fv *s)
         grid_fill(&s->grid, 1, &s->p);
     if (s->moving)
         moving_begin(s);
-    s->ops->pressure_gradient(s, s->p, s->step_p);
+    s->ops->pressure_gradient(s, s->p, s->stages.step_p);
     if (s->moving)
         moving_gradient(s);
 }
@@ -38,7 +67,7 @@ static void begin_born(struct fv *s, double *const N[3])
 {
     for (int64_t c = 0; c < s->size; c++)
         for (int a = 0; a < s->dim && s->partners.born[c]; a++)
-            s->N_old[a][c] = N[a][c];
+            s->stages.N_old[a][c] = N[a][c];
 }
 
 void stage_convection(struct fv *s, double *const N[3])
@@ -89,7 +118,8 @@ void stage_predict_fluxes(struct fv *s, double t)
 bool stage_solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     levels_fluxes(s, tau);
-    return poisson_solve(s, tau, s->ops->divergence(s, tau), tol, s->start[stage], s->psi[stage]);
+    return poisson_solve(s, tau, s->ops->divergence(s, tau), tol, s->stages.start[stage],
+                         s->stages.psi[stage]);
 }
 
 /* m/s^2: of differences of pressure between sides. */

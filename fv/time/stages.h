@@ -7,6 +7,10 @@
 #include "../operators/flow_ops.h"
 #include "steps.h"
 
+/* s->stages, all 0. */
+void stage_fields_create(struct fv *s);
+void stage_fields_free(struct fv *s);
+
 /* step_p = grad p of the step's start, p without its odd-even mode. */
 void stage_pressure_gradient(struct fv *s);
 /* What the next projection will take off the velocity of the sides. */

@@ -404,11 +404,11 @@ static int state(struct fv *s, double **f)
     f[n++] = s->p;
     f[n++] = s->p_before;
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->psi[a],
+        double *const all[] = {s->stages.psi[a],
                                s->u[a],
                                s->U[a],
-                               s->u_old[a],
-                               s->prm.integrator == INTEGRATOR_BDF2 ? s->N[a] : NULL,
+                               s->stages.u_old[a],
+                               s->prm.integrator == INTEGRATOR_BDF2 ? s->stages.N[a] : NULL,
                                s->outflows ? s->outflows->kept[a] : NULL};
         for (int k = 0; k < (a < s->dim ? 6 : 1); k++) {
             if (all[k])

@@ -33,7 +33,8 @@ static inline double bench_triad(struct fv *s)
 {
     double best = INFINITY;
     for (int repeat = 0; repeat < 8; repeat++) {
-        double *restrict x = s->rhs[0], *restrict y = s->N[0], *restrict z = s->N_old[0];
+        double *restrict x = s->rhs[0], *restrict y = s->stages.N[0],
+                         *restrict z = s->stages.N_old[0];
         const double t = cpu_time();
         for (int n = 0; n < 10; n++)
             for (int64_t i = 0; i < s->size; i++)

@@ -31,10 +31,10 @@ static void call(struct fv *s, int kernel)
         mesh_viscous(s, s->u[0], s->krylov[1][0]);
         break;
     case 1:
-        mesh_convection(s, s->N);
+        mesh_convection(s, s->stages.N);
         break;
     case 2:
-        mesh_gradient(s, s->p, s->step_p);
+        mesh_gradient(s, s->p, s->stages.step_p);
         break;
     default:
         mesh_face_velocities(s, s->u, s->krylov[2]);

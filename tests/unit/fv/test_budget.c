@@ -18,18 +18,18 @@ static void rates(struct fv *s, double sums[4])
     memset(sums, 0, 4 * sizeof(double));
     memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
     sides_velocity(s, BC_GIVEN, s->u);
-    s->ops->convection(s, s->N);
+    s->ops->convection(s, s->stages.N);
     grid_fill(&s->grid, 1, &s->p);
-    s->ops->pressure_gradient(s, s->p, s->step_p);
+    s->ops->pressure_gradient(s, s->p, s->stages.step_p);
     for (int a = 0; a < s->dim; a++) {
         double part[3] = {0.0, 0.0, 0.0};
         s->ops->viscous(s, a, s->rhs[a]);
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 const double V = grid_volume(&s->grid, i) * (s->free ? s->free[i] : 1.0);
-                part[0] -= rho * V * s->N[a][i];
+                part[0] -= rho * V * s->stages.N[a][i];
                 part[1] += rho * V * s->rhs[a][i];
-                part[2] -= rho * V * s->step_p[a][i];
+                part[2] -= rho * V * s->stages.step_p[a][i];
             }
         MPI_Allreduce(MPI_IN_PLACE, part, 3, MPI_DOUBLE, MPI_SUM, s->comm);
         sums[a] = part[0] + part[1] + part[2];
