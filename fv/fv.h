@@ -60,20 +60,21 @@ struct fv_params {
     const struct blocked_params *boxes; /* borrowed from case/ for the whole run */
 };
 
-struct mesh_bc;  /* their sides; boundary/mesh_sides.h */
-struct poisson;  /* poisson/poisson.h */
-struct overset;  /* search in blocks; grid/overset.h */
-struct flow_ops; /* operators/flow_ops.h */
-struct moving;   /* blocks that move; time/moving.h; NULL: none do */
-struct bc;       /* walls and openings; bc.h; NULL: none */
-struct blocked;  /* boxes cut out; boundary/blocked.h; NULL: none */
-struct forcing;  /* cells whose velocity is imposed; forcing.h; NULL: none */
-struct outflows; /* convective outflows; outflow.h; NULL: none */
-struct levels;   /* openings of given pressure under a surface; levels.h; NULL: newton */
-struct surface;  /* free surface; levelset.h; NULL: none */
-struct newton;   /* the implicit integrator; newton.h; NULL: another one */
-struct link;     /* place in a coupled job; fv_coupling.c; NULL alone */
-struct watches;  /* figures that a sound run keeps small; watches.h */
+struct mesh_bc;        /* their sides; boundary/mesh_sides.h */
+struct poisson;        /* poisson/poisson.h */
+struct overset;        /* search in blocks; grid/overset.h */
+struct flow_ops;       /* operators/flow_ops.h */
+struct viscous_solver; /* operators/viscous_solver.h; NULL: no viscosity */
+struct moving;         /* blocks that move; time/moving.h; NULL: none do */
+struct bc;             /* walls and openings; bc.h; NULL: none */
+struct blocked;        /* boxes cut out; boundary/blocked.h; NULL: none */
+struct forcing;        /* cells whose velocity is imposed; forcing.h; NULL: none */
+struct outflows;       /* convective outflows; outflow.h; NULL: none */
+struct levels;         /* openings of given pressure under a surface; levels.h; NULL: newton */
+struct surface;        /* free surface; levelset.h; NULL: none */
+struct newton;         /* the implicit integrator; newton.h; NULL: another one */
+struct link;           /* place in a coupled job; fv_coupling.c; NULL alone */
+struct watches;        /* figures that a sound run keeps small; watches.h */
 
 /* Gravity as the equations hold it; boundary/still.h. */
 struct gravity {
@@ -159,8 +160,7 @@ struct fv {
     int64_t size; /* of a field */
     int nparts;   /* of this rank */
     const struct part *part;
-    double cells_a_side; /* the square or cubic root of how many there are */
-    struct part whole;   /* that of the uniform grid */
+    struct part whole; /* that of the uniform grid */
     const struct flow_ops *ops;
     struct exact exact;
     double nu;
@@ -177,19 +177,14 @@ struct fv {
     double *p_before; /* of the step before */
     double *U[3]; /* m/s, on blocks m^dim/s: projected flux through the lower face of each cell */
     struct stage_fields stages;
-    double *rhs[3], *delta[3], *work[3]; /* scratch: right side, increment, CG */
-    double *step_work;
-    double *krylov[4][3]; /* scratch of the viscous solve with walls, else NULL */
+    struct viscous_solver *viscous;
+    double *rhs[3], *delta[3]; /* scratch: right side, increment */
     struct gravity gravity;
     double *face, *flux; /* scratch */
     double *faces[3];    /* blocks: scratch; the first is face */
     struct moving *moving;
     struct fringe_jumps fringe;
     double *free;       /* blocks: 1: computed, 0: not */
-    double *scale;      /* blocks: of the viscous rows */
-    double stiffest;    /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
-                         * to solve for */
-    bool symmetric;     /* blocks: mesh_viscous_symmetric */
     double dissipation; /* blocks: of newton's convection, 0 for the others */
     bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
     struct bc *bc;

@@ -20,6 +20,7 @@
 #include "../grid/mesh.h"
 #include "../grid/rows.h"
 #include "../operators/blocked_cells.h"
+#include "../operators/viscous_solver.h"
 #include "../output/output.h"
 #include "../poisson/poisson.h"
 #include "../surface/fraction.h"
@@ -37,18 +38,12 @@
 static void make_vectors(struct fv *s, int a)
 {
     double **const all[] = {&s->u[a], &s->U[a], &s->rhs[a]};
-    const bool walls = s->bc || s->surface || s->blocked || s->b.rows, viscous = s->nu > 0.0;
-    const int scratch = s->m ? 4 : viscous && walls ? 2 : 0;
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         *all[k] = NEW(double, s->size);
-    if (s->m || viscous)
+    if (s->m || s->nu > 0.0)
         s->delta[a] = NEW(double, s->size);
     if (s->m)
         s->faces[a] = NEW(double, s->size);
-    else if (viscous)
-        s->work[a] = NEW(double, s->size);
-    for (int k = 0; k < scratch; k++)
-        s->krylov[k][a] = NEW(double, s->size);
 }
 
 void fv_make_fields(struct fv *s)
@@ -63,13 +58,10 @@ void fv_make_fields(struct fv *s)
         if (s->dim < 3) /* stays 0 */
             s->u[2] = NEW(double, s->size);
         s->free = NEW(double, s->size);
-        s->scale = NEW(double, s->size);
         s->face = s->faces[0];
         return;
     }
     s->face = NEW(double, s->size);
-    if (s->dim == 3)
-        s->step_work = NEW(double, s->size);
 }
 
 /* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */
@@ -249,6 +241,7 @@ static void create_grid(struct fv *s)
     s->surface = levelset_create(s);
     fv_make_fields(s);
     fill(s);
+    s->viscous = viscous_solver_create(s);
     fill_fluxes(s);
     make_forcing(s);
     empty_hole(s);
@@ -264,15 +257,6 @@ static void create_grid(struct fv *s)
     measure(s);
     set_limit(s);
     s->watches = fv_watches_create(s);
-}
-
-static double cells_a_side(const struct fv *s)
-{
-    int64_t n = 0;
-    for (int k = 0; k < s->nparts; k++)
-        n += (int64_t)s->part[k].n[0] * s->part[k].n[1] * s->part[k].n[2];
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->comm);
-    return pow((double)n, 1.0 / s->dim);
 }
 
 struct fv *fv_create(struct run *r, struct h5 *f)
@@ -292,7 +276,6 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         mesh_state_create(s);
     else
         create_grid(s);
-    s->cells_a_side = cells_a_side(s);
     if (f && !fv_restore(s, f)) {
         fv_free(&s);
         return NULL;
@@ -336,16 +319,14 @@ void fv_free(struct fv **sp)
     levels_free(&s->levels);
     watches_free(&s->watches);
     stage_fields_free(s);
-    double *const one[] = {s->p,    s->p_before, s->m ? NULL : s->face, s->flux, s->step_work,
-                           s->free, s->scale};
+    viscous_solver_free(s);
+    double *const one[] = {s->p, s->p_before, s->m ? NULL : s->face, s->flux, s->free};
     for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
         mem_free(one[k]);
     for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->U[a], s->rhs[a], s->delta[a], s->work[a], s->faces[a]};
+        double *const all[] = {s->u[a], s->U[a], s->rhs[a], s->delta[a], s->faces[a]};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             mem_free(all[k]);
-        for (int k = 0; k < 4; k++)
-            mem_free(s->krylov[k][a]);
     }
     mem_free(s->history);
     if (s->m)

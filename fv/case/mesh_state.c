@@ -8,6 +8,7 @@
 #include "../fv.h"
 #include "../grid/mesh.h"
 #include "../operators/mesh_ops.h"
+#include "../operators/viscous_solver.h"
 #include "../output/mesh_output.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
@@ -39,7 +40,7 @@ static void fill(struct fv *s)
         const struct part *p = m->part + q;
         int i[3];
         PART_CELLS (p, i, c) {
-            double u[3], pr, diagonal = 0.0;
+            double u[3], pr;
             if (m->status[c] == CELL_HOLE && !all)
                 continue;
             cell_exact(s, p, i, 0.0, u, &pr, NULL);
@@ -48,15 +49,12 @@ static void fill(struct fv *s)
             const struct mesh_block *b = m->block + p->block;
             const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
             fv_shape_velocity(s, b->centre[mesh_cell(b, at)], NULL, u);
-            for (int a = 0; a < m->dim; a++) {
+            for (int a = 0; a < m->dim; a++)
                 s->u[a][c] = u[a];
-                diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
-            }
             pr -= scene_has_wave(&s->run->scene) ? fv_still_pressure(s, b->centre[mesh_cell(b, at)])
                                                  : 0.0;
             s->p[c] = s->p_before[c] = at_rest ? 0.0 : pr / s->run->scene.fluid.rho;
             s->free[c] = m->status[c] == CELL_COMPUTED;
-            s->scale[c] = 1.25 * s->nu * diagonal / m->V[c];
             least = fmin(least, m->V[c]);
             most = fmax(most, m->V[c]);
         }
@@ -116,8 +114,7 @@ void mesh_state_create(struct fv *s)
     }
     fv_make_fields(s);
     fill(s);
-    s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
-    s->symmetric = mesh_viscous_symmetric(s);
+    s->viscous = viscous_solver_create(s);
     mesh_bc_create(s);
     s->moving = moving_create(s);
     s->surface = levelset_create(s);

@@ -9,7 +9,7 @@
 #include "../boundary/fv_sides.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/overset.h"
-#include "../operators/mesh_ops.h"
+#include "../operators/viscous_solver.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
 #include "../surface/surface_forced.h"
@@ -174,8 +174,7 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char wh
 
 static void renew_pressure(struct fv *s)
 {
-    if (s->m)
-        s->stiffest = mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
+    viscous_solver_renew(s);
     poisson_free(&s->poisson);
     poisson_create(s);
 }

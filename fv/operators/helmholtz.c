@@ -7,9 +7,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "viscous_solver.h"
+
 double helmholtz_tolerance(const struct fv *s)
 {
-    const double side = 32.0 / s->cells_a_side;
+    const double side = 32.0 / s->viscous->cells_a_side;
     if (s->prm.tol_viscous > 0.0)
         return s->prm.tol_viscous;
     return fmin(s->forcing ? 1e-5 : s->m ? 1e-4 : 1e-3, 1e-3 * side * side);

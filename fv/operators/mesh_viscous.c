@@ -10,6 +10,7 @@
 #include "helmholtz.h"
 #include "mesh_ops.h"
 #include "operators.h"
+#include "viscous_solver.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,6 +20,7 @@ static const int none[3] = {0, 0, 0};
 /* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. */
 static void apply(struct fv *s, double c, double *const x[3], double *const out[3])
 {
+    const double *scale = s->viscous->scale;
     if (s->surface)
         extension_apply(s, x, EXTEND_CHANGE, STENCILS);
     mesh_fill(s->m, s->m->dim, x);
@@ -28,7 +30,7 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
         for (int q = 0; q < s->m->nparts; q++)
             PART_ROWS (s->m->part + q, none, none, at, n)
                 for (int64_t i = at; i < at + n; i++)
-                    out[a][i] = s->free[i] * (x[a][i] - c * out[a][i]) / (1.0 + c * s->scale[i]);
+                    out[a][i] = s->free[i] * (x[a][i] - c * out[a][i]) / (1.0 + c * scale[i]);
     }
 }
 
@@ -96,7 +98,7 @@ static double step_row(const double *restrict x, const double *restrict L, const
 static double step(struct fv *s, const struct helmholtz_course *k, double *const x[3],
                    double *const r[3], double *const y[3])
 {
-    double sum = 0.0, *L = s->krylov[2][0];
+    double sum = 0.0, *L = s->viscous->work[2][0];
     mesh_fill(s->m, s->dim, x);
     mesh_bc_velocity(s, BC_ZERO, x);
     for (int a = 0; a < s->dim; a++) {
@@ -129,7 +131,7 @@ static double square(const struct fv *s, double *const x[3])
 /* rhs -= (1 - c L) delta, delta with what sides change. */
 static void start_residual(struct fv *s, double c)
 {
-    double *restrict L = s->krylov[2][0];
+    double *restrict L = s->viscous->work[2][0];
     mesh_fill(s->m, s->dim, s->delta);
     for (int a = 0; a < s->dim && s->fringe.delta[0]; a++)
         for (int64_t i = 0; i < s->size; i++)
@@ -149,13 +151,14 @@ enum { FEW = 24 }; /* steps of Chebyshev's iteration: beyond, BiCGStab finds the
 
 bool mesh_viscous_solve(struct fv *s, double c, double tol)
 {
+    const struct viscous_solver *v = s->viscous;
     const struct helmholtz h = {.s = s,
                                 .c = c,
-                                .largest = s->stiffest,
+                                .largest = v->stiffest,
                                 .apply = apply,
                                 .zero = s->m->has_fringe || s->surface ? zero : NULL,
                                 .step = step,
-                                .work = {s->krylov[0], s->krylov[1], s->krylov[2], s->krylov[3]}};
+                                .work = {v->work[0], v->work[1], v->work[2], v->work[3]}};
     for (int a = 0; a < s->dim; a++)
         zero(s, s->rhs[a]);
     const double whole = square(s, s->rhs);
@@ -163,19 +166,19 @@ bool mesh_viscous_solve(struct fv *s, double c, double tol)
     const double rr = square(s, s->rhs), share = tol * tol * fmax(1.0, whole / rr);
     if (!(rr > 0.0) || share >= 1.0)
         return rr == rr;
-    if (s->stiffest > 0.0 && s->surface && helmholtz_is_weak(&h, sqrt(share))) {
+    if (v->stiffest > 0.0 && s->surface && helmholtz_is_weak(&h, sqrt(share))) {
         helmholtz_once(&h, s->delta, s->rhs);
         return true;
     }
-    if (s->stiffest > 0.0 && !s->surface && rr < 1e300 &&
+    if (v->stiffest > 0.0 && !s->surface && rr < 1e300 &&
         helmholtz_steps(&h, rr, share * rr) <= FEW &&
         helmholtz_chebyshev(&h, s->delta, s->rhs, rr, share * rr, NULL))
         return true;
     for (int a = 0; a < s->dim; a++)
         FLOW_ROWS (s, at, n)
             for (int64_t i = at; i < at + n; i++)
-                s->rhs[a][i] /= 1.0 + c * s->scale[i];
+                s->rhs[a][i] /= 1.0 + c * v->scale[i];
     const double scaled = square(s, s->rhs);
-    return (s->symmetric && !s->surface ? helmholtz_cg : helmholtz_bicgstab)(
+    return (v->symmetric && !s->surface ? helmholtz_cg : helmholtz_bicgstab)(
         &h, s->delta, s->rhs, scaled, share * scaled);
 }

@@ -13,6 +13,7 @@
 #include "blocked_cells.h"
 #include "helmholtz.h"
 #include "operators.h"
+#include "viscous_solver.h"
 
 void viscous_row(const double *restrict q, const int64_t *stride, const double *c, int dim,
                  int64_t n, double *restrict out)
@@ -302,7 +303,7 @@ bool viscous_keeps_increment(const struct fv *s)
 {
     const struct forcing *f = s->forcing;
     return s->nu > 0.0 && !s->surface && s->prm.integrator == INTEGRATOR_RK3 &&
-           (s->bc || s->blocked || s->b.rows || s->stiffest > 0.0) &&
+           (s->bc || s->blocked || s->b.rows || viscous_stiffest(s) > 0.0) &&
            !(f && (f->imposed || f->from_partner));
 }
 
@@ -341,9 +342,9 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
     if (s->blocked || s->surface || (s->forcing && s->forcing->nlocal > 0)) {
         helmholtz(s, q, c, start, s->face);
         if (s->blocked) { /* start - c L start */
-            memset(s->work[q], 0, (size_t)s->b.size * sizeof(double));
-            blocked_add_slip(s, q, s->work[q]);
-            helmholtz_add(s, -c, s->work[q], s->face);
+            memset(s->viscous->work[0][q], 0, (size_t)s->b.size * sizeof(double));
+            blocked_add_slip(s, q, s->viscous->work[0][q]);
+            helmholtz_add(s, -c, s->viscous->work[0][q], s->face);
         }
         sums[1] += helmholtz_dot(s, rhs, rhs);
         helmholtz_add(s, -1.0, s->face, rhs);
@@ -361,14 +362,14 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
 {
     const struct block *b = &s->b;
     const bool walls = s->bc || s->blocked || b->rows;
-    double sums[2] = {0.0, 0.0}, *const scratch[3] = {s->face, s->flux, s->step_work};
+    double sums[2] = {0.0, 0.0}, *(*work)[3] = s->viscous->work;
     const struct helmholtz h = {.s = s,
                                 .c = c,
                                 .largest = walls || s->surface ? largest_eigenvalue(s) : 0.0,
                                 .apply = apply,
                                 .zero = s->surface ? surface_zero : NULL,
                                 .step = step,
-                                .work = {s->work, s->krylov[0], s->krylov[1], scratch}};
+                                .work = {work[0], work[1], work[2], work[3]}};
     block_halo(b, b->dim, delta);
     for (int a = 0; a < b->dim; a++)
         start_residual(s, a, c, delta[a], rhs[a], sums);

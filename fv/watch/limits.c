@@ -18,6 +18,7 @@
 #include "../boundary/carried.h"
 #include "../boundary/still.h"
 #include "../grid/mesh_motion.h"
+#include "../operators/viscous_solver.h"
 #include "../surface/levelset.h"
 
 #define RK3_CFL 1.1      /* default */
@@ -319,7 +320,7 @@ static double friction_rate(const struct fv *s)
  * largest eigenvalue of the viscous terms. */
 static void lower_start(struct step_limit *l, const struct fv *s)
 {
-    const double stiffest = s->stiffest > 0.0 ? s->stiffest : friction_rate(s);
+    const double stiffest = viscous_stiffest(s) > 0.0 ? viscous_stiffest(s) : friction_rate(s);
     const double later =
         s->moving ? MOVED_STIFF / fmax(stiffest, 1e-300) : START_SHARE * fabs(s->t);
     if (stiffest > 0.0 && s->prm.integrator != INTEGRATOR_NEWTON)

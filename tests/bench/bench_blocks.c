@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "../../fv/operators/mesh_ops.h"
+#include "../../fv/operators/viscous_solver.h"
 #include "../../fv/poisson/poisson.h"
 #include "../../fv/time/stages.h"
 #include "../unit/fv/mesh_case.h"
@@ -28,7 +29,7 @@ static void call(struct fv *s, int kernel)
 {
     switch (kernel) {
     case 0:
-        mesh_viscous(s, s->u[0], s->krylov[1][0]);
+        mesh_viscous(s, s->u[0], s->viscous->work[1][0]);
         break;
     case 1:
         mesh_convection(s, s->stages.N);
@@ -37,7 +38,7 @@ static void call(struct fv *s, int kernel)
         mesh_gradient(s, s->p, s->stages.step_p);
         break;
     default:
-        mesh_face_velocities(s, s->u, s->krylov[2]);
+        mesh_face_velocities(s, s->u, s->viscous->work[2]);
     }
 }
 

@@ -1,0 +1,93 @@
+/* viscous_solver.c - see viscous_solver.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "viscous_solver.h"
+
+#include <math.h>
+
+#include "../../common/base/mem.h"
+#include "../boundary/mesh_bc.h"
+#include "../grid/mesh.h"
+#include "mesh_ops.h"
+
+static double cells_a_side(const struct fv *s)
+{
+    int64_t n = 0;
+    for (int k = 0; k < s->nparts; k++)
+        n += (int64_t)s->part[k].n[0] * s->part[k].n[1] * s->part[k].n[2];
+    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->comm);
+    return pow((double)n, 1.0 / s->dim);
+}
+
+static double *diagonal_of(const struct fv *s)
+{
+    const struct mesh *m = s->m;
+    double *scale = NEW(double, s->size);
+    for (int q = 0; q < m->nparts; q++) {
+        const struct part *p = m->part + q;
+        int i[3];
+        PART_CELLS (p, i, c) {
+            double diagonal = 0.0;
+            for (int a = 0; a < m->dim; a++)
+                diagonal += m->G[a][a][c] + m->G[a][a][c + p->stride[a]];
+            scale[c] = 1.25 * s->nu * diagonal / m->V[c];
+        }
+    }
+    return scale;
+}
+
+static double stiffest_of(const struct fv *s)
+{
+    return s->m && mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
+}
+
+/* Between periodic sides of uniform cells conjugate gradients need but the first and the last. */
+static void make_work(const struct fv *s, struct viscous_solver *v)
+{
+    const bool walls = s->bc || s->surface || s->blocked || s->b.rows;
+    const int sets = s->m ? 4 : walls ? 3 : 1;
+    for (int k = 0; k < sets; k++)
+        for (int a = 0; a < s->dim; a++)
+            v->work[k][a] = NEW(double, s->size);
+    if (s->m)
+        return;
+    v->work[3][0] = s->face;
+    v->work[3][1] = s->flux;
+    if (s->dim == 3)
+        v->work[3][2] = NEW(double, s->size);
+}
+
+struct viscous_solver *viscous_solver_create(const struct fv *s)
+{
+    if (s->nu == 0.0)
+        return NULL;
+    struct viscous_solver *v = NEW(struct viscous_solver, 1);
+    v->cells_a_side = cells_a_side(s);
+    make_work(s, v);
+    if (s->m) {
+        v->scale = diagonal_of(s);
+        v->symmetric = mesh_viscous_symmetric(s);
+    }
+    v->stiffest = stiffest_of(s);
+    return v;
+}
+
+void viscous_solver_free(struct fv *s)
+{
+    struct viscous_solver *v = s->viscous;
+    if (!v)
+        return;
+    for (int k = 0; k < 4; k++)
+        for (int a = 0; a < 3; a++)
+            if (v->work[k][a] != s->face && v->work[k][a] != s->flux)
+                mem_free(v->work[k][a]);
+    mem_free(v->scale);
+    mem_free(v);
+    s->viscous = NULL;
+}
+
+void viscous_solver_renew(struct fv *s)
+{
+    if (s->viscous)
+        s->viscous->stiffest = stiffest_of(s);
+}
+
+double viscous_stiffest(const struct fv *s) { return s->viscous ? s->viscous->stiffest : 0.0; }
