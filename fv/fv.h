@@ -7,7 +7,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../common/base/fit.h"
 #include "../common/run/run.h"
 #include "../common/scene/exact.h"
 #include "grid/grid.h"
@@ -47,6 +46,7 @@ struct fv_params {
     double graded[3];    /* m, rows: see rows.h; rows 0: all even */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */
+    double dissipation;  /* of newton's convection on blocks, 0 for the others */
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int surface;         /* enum fv_surface */
     int volume;          /* enum fv_volume: how the surface keeps its water */
@@ -55,6 +55,7 @@ struct fv_params {
     /* what follows from these and from the scene */
     bool water;                         /* there is a free surface */
     bool errors;                        /* those against the exact solution are measured */
+    bool ring;                          /* block 0 is a ring whose walls make Couette flow */
     struct mesh_blocks blocks;          /* n 0: cells */
     int nboxes;                         /* boxes cut out of cells */
     const struct blocked_params *boxes; /* borrowed from case/ for the whole run */
@@ -169,9 +170,6 @@ struct fv {
     struct flow_maxima max;
     struct fv_speeds speed;
     struct fv_totals totals;
-    bool has_exact;
-    int ring; /* block whose walls make Couette flow in a ring (initial.field = couette); -1: none
-               */
     double *u[3];     /* m/s: cell averages, with ghosts */
     double *p;        /* m^2/s^2: p/rho, of the last step's end (rk3: at t - dt/6) */
     double *p_before; /* of the step before */
@@ -184,9 +182,7 @@ struct fv {
     double *faces[3];    /* blocks: scratch; the first is face */
     struct moving *moving;
     struct fringe_jumps fringe;
-    double *free;       /* blocks: 1: computed, 0: not */
-    double dissipation; /* blocks: of newton's convection, 0 for the others */
-    bool uneven; /* blocks: volumes differ: volume averages are not averages in index space */
+    double *free; /* blocks: 1: computed, 0: not */
     struct bc *bc;
     struct blocked *blocked;
     struct forcing *forcing;
@@ -196,14 +192,11 @@ struct fv {
     struct surface *surface;
     struct mesh_bc *sides;
     struct poisson *poisson;
-    struct overset *search; /* of the gauges; NULL: none */
     struct newton *newton;
-    struct fit swing; /* of a standing wave: what swings, sampled */
     struct link *link;
     struct fv_partners partners;
-    struct watches *watches; /* watches.h */
-    int nhistory;
-    double (*history)[3]; /* t, force x, force y of each row of the series */
+    struct watches *watches;
+    struct fv_output *output;
 };
 
 /* Rows of all cells of this rank: c is the place of a row's first cell, len its length. */

@@ -8,7 +8,7 @@
 /* Couette flow in a ring: u_theta = A r + B/r. */
 static void ring_at(const struct fv *s, const double *x, double *u, double *p, double *w)
 {
-    const struct mesh_block_params *b = s->m->block[s->ring].prm;
+    const struct mesh_block_params *b = s->m->block[0].prm;
     const double a2 = b->radius[0] * b->radius[0], b2 = b->radius[1] * b->radius[1];
     const double A = (b->spin[1] * b2 - b->spin[0] * a2) / (b2 - a2),
                  B = (b->spin[0] - b->spin[1]) * a2 * b2 / (b2 - a2);
@@ -27,7 +27,7 @@ static void ring_at(const struct fv *s, const double *x, double *u, double *p, d
 
 void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, double *p, double *w)
 {
-    if (s->ring >= 0)
+    if (s->prm.ring)
         ring_at(s, x, u, p, w);
     else
         exact_point(&s->exact, x, t, u, p, w);

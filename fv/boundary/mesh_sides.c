@@ -284,7 +284,7 @@ void mesh_bc_time(struct fv *s, double t)
     for (int k = 0; k < s->sides->n; k++) {
         struct side *d = s->sides->side + k;
         const size_t bytes = (size_t)(d->width * (d->n[1] + 2 * d->g[1])) * sizeof(double);
-        const bool changes = d->moves || (d->kind == MESH_EXACT && s->ring < 0);
+        const bool changes = d->moves || (d->kind == MESH_EXACT && !s->prm.ring);
         for (int q = 0; q < s->m->dim; q++)
             memcpy(d->w_old[q], d->w[q], bytes);
         if (changes || !s->sides->set)

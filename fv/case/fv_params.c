@@ -72,6 +72,7 @@ const struct fv_params *fv_params_of(const struct run *r)
 {
     given.water = surface_wanted(r);
     given.errors = fv_measures_errors(r);
+    given.ring = mesh_ring(r);
     for (int k = 0; k < mesh_given_count; k++)
         mesh_given[k].number = k;
     given.blocks = (struct mesh_blocks){mesh_given_count, mesh_given};

@@ -221,7 +221,6 @@ static void create_grid(struct fv *s)
     double length[3];
     for (int a = 0; a < 3; a++)
         length[a] = d->max[a] - d->min[a];
-    s->has_exact = fv_measures_errors(s->run);
     block_create(&s->b, s->run->comm, d->dim, s->prm.cells, d->min, length, d->periodic);
     make_rows(s);
     s->dim = d->dim;
@@ -232,7 +231,6 @@ static void create_grid(struct fv *s)
     s->part = &s->whole;
     s->grid = (struct grid){d->dim, 1, &s->whole, &s->b, NULL};
     s->ops = &even_ops;
-    s->ring = -1;
     s->blocked = blocked_create(s);
     s->bc = bc_create(s);
     if (s->prm.upwind < 0.0)
@@ -276,6 +274,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         mesh_state_create(s);
     else
         create_grid(s);
+    s->output = output_create(s);
     if (f && !fv_restore(s, f)) {
         fv_free(&s);
         return NULL;
@@ -313,11 +312,11 @@ void fv_free(struct fv **sp)
         fraction_free(&s->surface->fraction);
     near_water_free(s);
     levelset_free(&s->surface);
-    fit_free(&s->swing);
     bc_free(&s->bc);
     carried_free(&s->outflows);
     levels_free(&s->levels);
     watches_free(&s->watches);
+    output_free(&s->output);
     stage_fields_free(s);
     viscous_solver_free(s);
     double *const one[] = {s->p, s->p_before, s->m ? NULL : s->face, s->flux, s->free};
@@ -328,7 +327,6 @@ void fv_free(struct fv **sp)
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             mem_free(all[k]);
     }
-    mem_free(s->history);
     if (s->m)
         mesh_state_free(s);
     else

@@ -32,7 +32,7 @@
 static void fill(struct fv *s)
 {
     const struct mesh *m = s->m;
-    const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->ring >= 0;
+    const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->prm.ring;
     const bool all =
         m->moves || s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2];
     double least = INFINITY, most = 0.0;
@@ -61,7 +61,7 @@ static void fill(struct fv *s)
     }
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m->comm);
-    s->uneven = most > (1.0 + 1e-9) * least;
+    s->m->uneven = most > (1.0 + 1e-9) * least;
     for (int q = 0; q < m->nparts; q++) { /* no number in a ghost is a NaN or a zero volume */
         const struct part *p = m->part + q;
         for (int64_t c = p->base; c < p->base + p->size; c++)
@@ -104,13 +104,11 @@ void mesh_state_create(struct fv *s)
     s->part = s->m->part;
     s->grid = (struct grid){s->dim, s->nparts, s->part, NULL, s->m};
     s->ops = &block_ops;
-    s->ring = mesh_ring(r) ? 0 : -1;
-    s->has_exact = fv_measures_errors(r);
     if (s->prm.upwind < 0.0)
         s->prm.upwind = limits_upwind(r, mesh_bc_has_walls(s->m), (double)s->m->cells);
     if (s->prm.integrator == INTEGRATOR_NEWTON) {
         s->prm.upwind = 0.0;
-        s->dissipation = newton_dissipation(s);
+        s->prm.dissipation = newton_dissipation(s);
     }
     fv_make_fields(s);
     fill(s);
@@ -123,8 +121,6 @@ void mesh_state_create(struct fv *s)
     else if (s->m->has_given)
         s->forcing = forcing_create(s, 0, NULL, false);
     poisson_create(s);
-    if (r->scene.nprobes > 0)
-        s->search = overset_search(r, s->m);
     sides_velocity(s, BC_GIVEN, s->u);
     if (s->outflows) {
         outflow_start(s);
@@ -151,6 +147,5 @@ void mesh_state_free(struct fv *s)
 {
     mesh_bc_free(&s->sides);
     moving_free(s);
-    overset_free(&s->search);
     mesh_free(&s->m);
 }

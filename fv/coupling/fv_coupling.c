@@ -286,7 +286,7 @@ static void start_forced(struct fv *s, double before)
     f->t1 = s->t;
     f->t0 = s->t - before;
     f->t_old = s->t - 2.0 * before;
-    const bool past = exact_has_past(&s->exact) && s->has_exact;
+    const bool past = exact_has_past(&s->exact) && s->prm.errors;
     f->levels = past ? 3 : 1;
     for (int64_t i = 0; i < f->npartner + f->nrim; i++)
         for (int m = 0; m < 3; m++) {
@@ -359,7 +359,7 @@ static void remember(struct fv *s)
 /* Velocities before the start, where an exact solution knows them. */
 static void start_past(struct fv *s, double before)
 {
-    const bool exact = exact_has_past(&s->exact) && s->has_exact;
+    const bool exact = exact_has_past(&s->exact) && s->prm.errors;
     double u[3];
     for (int m = 0; m < 2; m++)
         for (int a = 0; a < s->dim; a++)

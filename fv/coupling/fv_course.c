@@ -172,10 +172,10 @@ static void exact_level(struct fv *s, struct course *c, double t, double *q)
 void course_start(struct fv *s, struct course *c, double before)
 {
     c->t_tried = -INFINITY;
-    const bool past = exact_has_past(&s->exact) && s->has_exact;
+    const bool past = exact_has_past(&s->exact) && s->prm.errors;
     for (int m = past ? COURSE_LEVELS - 1 : 0; m >= 0; m--) {
         shift(c, s->t - m * before);
-        if (s->has_exact) /* in forced cells, too */
+        if (s->prm.errors) /* in forced cells, too */
             exact_level(s, c, c->t[0], c->q[0]);
         else
             look(s, c, c->q[0]);

@@ -100,6 +100,7 @@ struct mesh {
     int64_t given_cells;  /* of all blocks, near computed ones */
     struct mesh_boxes given;
     bool has_fringe, has_given, moves;
+    bool uneven; /* volumes differ: volume averages are not averages in index space */
     int64_t nfringe;
     struct mesh_fringe *fringes;
     double *S[3][3];       /* m^(dim-1): of the lower face along a, component */

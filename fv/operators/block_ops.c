@@ -36,7 +36,7 @@ static void to_index(struct fv *s)
         FLOW_ROWS (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 s->rhs[a][i] *= s->free[i];
-    if (!s->uneven)
+    if (!s->m->uneven)
         return;
     mesh_fill(s->m, s->dim, s->rhs);
     for (int a = 0; a < s->dim; a++) {

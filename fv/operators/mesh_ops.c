@@ -257,10 +257,10 @@ void mesh_convection(struct fv *s, double *const N[3])
                 layers(m->dim, a, 0, down, up);
                 PART_ROWS (p, down, up, c, n)
                     product_row(U[a] + c, s->faces[0] + c, tangent, nt, n, true, s->flux + c);
-                if (s->dissipation > 0.0)
+                if (s->prm.dissipation > 0.0)
                     PART_ROWS (p, down, up, c, n)
                         add_dissipation(s->u[k] + c, U[a] + c, m->G[a][a] + c, m->V + c,
-                                        p->stride[a], n, s->dissipation, s->speed.scene,
+                                        p->stride[a], n, s->prm.dissipation, s->speed.scene,
                                         s->flux + c);
                 add_difference(p, a, s->flux, a == 0, N[k]);
             }
@@ -406,7 +406,7 @@ static void shift_average(const struct fv *s, double sign, double *q, double *wo
 {
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
-    if (!s->uneven)
+    if (!s->m->uneven)
         return;
     for (int r = 0; r < m->nparts; r++) {
         const struct part *p = m->part + r;

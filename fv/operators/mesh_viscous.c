@@ -36,7 +36,7 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
 
 bool mesh_viscous_symmetric(const struct fv *s)
 {
-    int plain = !s->uneven && !s->m->has_fringe && !s->m->moves;
+    int plain = !s->m->uneven && !s->m->has_fringe && !s->m->moves;
     for (int q = 0; q < s->nparts; q++)
         plain = plain && s->part[q].kind == PART_EVEN;
     for (int k = 0; k < s->m->nblocks; k++)

@@ -65,7 +65,7 @@ void fv_energies(struct fv *s, double sum[2])
     if (s->surface)
         return;
     COMPUTED_CELLS (s, part, i, c, of) {
-        if (s->has_exact)
+        if (s->prm.errors)
             cell_exact(s, part, i, s->t, u, &p, &w);
         for (int a = 0; a < s->dim; a++) {
             sum[0] += 0.5 * of.volume * s->u[a][c] * s->u[a][c];

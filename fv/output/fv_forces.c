@@ -74,9 +74,10 @@ int fv_forces(struct fv *s, double *values)
     }
     if (!moment)
         return n;
-    GROW(s->history, s->nhistory, s->nhistory + 1);
-    s->history[s->nhistory][0] = s->t;
-    memcpy(s->history[s->nhistory++] + 1, bodies, sizeof bodies);
+    struct fv_output *o = s->output;
+    GROW(o->history, o->nhistory, o->nhistory + 1);
+    o->history[o->nhistory][0] = s->t;
+    memcpy(o->history[o->nhistory++] + 1, bodies, sizeof bodies);
     return n;
 }
 
@@ -85,15 +86,16 @@ int fv_forces(struct fv *s, double *values)
 static void summarise_swing(const struct fv *s)
 {
     struct summary *to = s->run->summary;
+    const struct fv_output *o = s->output;
     double mean[2] = {0.0, 0.0}, least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
     double first = 0.0, last = 0.0, weight = 0.0;
     int from = 1, crossings = 0;
-    while (from < s->nhistory && s->history[from][0] < 0.5 * s->run->scene.time.end)
+    while (from < o->nhistory && o->history[from][0] < 0.5 * s->run->scene.time.end)
         from++;
-    if (s->nhistory - from < 8)
+    if (o->nhistory - from < 8)
         return;
-    for (int k = from; k < s->nhistory; k++) {
-        const double *a = s->history[k - 1], *b = s->history[k];
+    for (int k = from; k < o->nhistory; k++) {
+        const double *a = o->history[k - 1], *b = o->history[k];
         weight += b[0] - a[0];
         for (int q = 0; q < 2; q++) {
             mean[q] += 0.5 * (a[1 + q] + b[1 + q]) * (b[0] - a[0]);
@@ -104,8 +106,8 @@ static void summarise_swing(const struct fv *s)
     for (int q = 0; q < 2; q++)
         mean[q] /= weight;
     bool low = false; /* a crossing counts after the lower half of the range has been reached */
-    for (int k = from; k < s->nhistory; k++) {
-        const double *a = s->history[k - 1], *b = s->history[k];
+    for (int k = from; k < o->nhistory; k++) {
+        const double *a = o->history[k - 1], *b = o->history[k];
         low = low || b[2] < mean[1] - 0.25 * (most[1] - least[1]);
         if (!low || b[2] < mean[1])
             continue;

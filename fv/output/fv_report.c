@@ -98,7 +98,7 @@ void fv_row(void *state, double *values)
     values[1] = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
     s->totals.fastest = fmax(s->totals.fastest, values[1]);
     values[2] = flow_largest_divergence(s);
-    if (s->has_exact) {
+    if (s->prm.errors) {
         struct norm norms[NORMS];
         fv_errors(s, norms);
         values[n++] = velocity_error(s->run, norms);
@@ -144,11 +144,11 @@ void fv_finish(void *state)
     summary_int(r->summary, "cells", llround(cells));
     if (r->scene.initial.U > 0.0)
         summary_real(r->summary, "max_speed_over_U", s->totals.fastest / r->scene.initial.U);
-    if (s->has_exact)
+    if (s->prm.errors)
         summarise_errors(s);
     fv_energies(s, sum);
     summary_real(r->summary, "drift.energy",
-                 s->has_exact && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
+                 s->prm.errors && sum[1] > 0.0 ? sum[0] / sum[1] - 1.0 : NAN);
     summary_real(r->summary, "divergence", flow_largest_divergence(s));
     fv_summarise_forces(s);
     if (s->surface)

@@ -8,6 +8,7 @@
 #include "../grid/overset.h"
 #include "../surface/levelset.h"
 #include "mesh_output.h"
+#include "output.h"
 #include "probe_flow.h"
 
 static bool mesh_covers(const struct fv *s, const struct overset *o, const double *x)
@@ -33,7 +34,7 @@ static void levels_along(struct fv *s, const double *at, int up, bool down, doub
     for (int n = 0; n <= ALONG; n++) {
         double x[3] = {at[0], at[1], at[2]};
         x[up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
-        phi[n] = mesh_value_at(s, s->search, x, 2, s->surface->phi);
+        phi[n] = mesh_value_at(s, s->output->search, x, 2, s->surface->phi);
     }
     MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
@@ -45,7 +46,7 @@ static bool is_known(const struct fv *s, const double *at, int up)
     for (int n = 0; n <= ALONG && s->partners.past[0][0]; n++) {
         double x[3] = {at[0], at[1], at[2]};
         x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / ALONG;
-        if (mesh_covers(s, s->search, x))
+        if (mesh_covers(s, s->output->search, x))
             return true;
     }
     return !s->partners.past[0][0];
@@ -76,21 +77,21 @@ static double level_at(struct fv *s, const double *x)
 static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUES])
 {
     for (int a = 0; a < s->dim; a++)
-        here[a] = mesh_value_at(s, s->search, x, 2, s->u[a]);
-    here[3] = s->surface ? mesh_value_at(s, s->search, x, 2, s->surface->phi) : 0.0;
+        here[a] = mesh_value_at(s, s->output->search, x, 2, s->u[a]);
+    here[3] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : 0.0;
 }
 
 bool mesh_is_out(const struct fv *s, const double *x)
 {
-    return (s->m->moves || s->partners.past[0][0]) && !mesh_covers(s, s->search, x);
+    return (s->m->moves || s->partners.past[0][0]) && !mesh_covers(s, s->output->search, x);
 }
 
 static void point_of(const struct fv *s, const double *x, int nq, double *const *q, double *here)
 {
     const int width = q[0] || s->surface ? 2 : 0;
     for (int a = 0; a < nq; a++)
-        here[a] = mesh_value_at(s, s->search, x, width, q[a]);
-    here[nq] = s->surface ? mesh_value_at(s, s->search, x, 2, s->surface->phi) : -1.0;
+        here[a] = mesh_value_at(s, s->output->search, x, width, q[a]);
+    here[nq] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : -1.0;
 }
 
 static double discharge_of(struct fv *s, const struct scene_probe *g)

@@ -5,6 +5,17 @@
 
 #include "../fv.h"
 
+/* What outputs keep from row to row. */
+struct fv_output {
+    struct overset *search; /* blocks: of the gauges; NULL: none */
+    int nhistory;
+    double (*history)[3]; /* blocks: s, N: t, force x, force y of each row of the series */
+};
+
+/* output_state.c: the grid must be there. Collective. */
+struct fv_output *output_create(const struct fv *s);
+void output_free(struct fv_output **o);
+
 /* fv_io.c, fv_errors.c */
 /* Averages over the volumes of cells as snapshots have them, m/s, Pa, 1/s. */
 enum output_field { OUTPUT_VELOCITY, OUTPUT_PRESSURE, OUTPUT_VORTICITY };

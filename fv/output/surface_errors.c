@@ -217,7 +217,7 @@ static void summarise_swing(struct fv *s)
     if (s->run->coupled || s->exact.field != FIELD_STANDING_WAVE ||
         !exact_oscillation(&s->exact, &period, &rate))
         return;
-    const double T = fit_period(&s->swing), r = fit_rate(&s->swing);
+    const double T = fit_period(&s->surface->swing), r = fit_rate(&s->surface->swing);
     if (isfinite(T)) {
         summary_real(to, "period", T);
         summary_real(to, "error.period", fabs(T / period - 1.0));

@@ -4,6 +4,7 @@
 #ifndef FV_LEVELSET_H
 #define FV_LEVELSET_H
 
+#include "../../common/base/fit.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
 
@@ -79,6 +80,7 @@ struct surface {
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */
     double rise;              /* s^2: implicit steps: see surface_pressure.c */
     double g;                 /* m/s^2: size of gravity */
+    struct fit swing;         /* of a standing wave: its momentum, sampled (surface_mode.c) */
     int64_t setups, reinits, repeats;
 };
 

@@ -121,7 +121,7 @@ static inline double box_slip_error(int n, const char *graded)
     for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
         wall_add(&c, (enum scene_side)k, WALL_SLIP, 0.0);
     fv_case_start(&c, NULL);
-    c.s->has_exact = true;
+    c.s->prm.errors = true;
     if (!fv_case_run(&c, 100000, 0.5))
         abort();
     fv_row(c.s, row);

@@ -43,8 +43,8 @@ static void swing(const char *cells, const char *graded, const char *integrator,
                          NULL, WALL_NO_SLIP);
     assert_true(exact_oscillation(&s->exact, &period, &rate));
     assert_true(fv_case_run(&c, 10000, 1.9 * period));
-    *T = fit_period(&s->swing) / period - 1.0;
-    *r = fit_rate(&s->swing) / rate - 1.0;
+    *T = fit_period(&s->surface->swing) / period - 1.0;
+    *r = fit_rate(&s->surface->swing) / rate - 1.0;
     double h = s->b.h[1];
     print_message("wave, %s %s %s: c dt/h %.2g, nu dt/h^2 %.2g, %d steps: period %.3g, damping "
                   "%.3g\n",

@@ -1,0 +1,24 @@
+/* output_state.c - what outputs keep from row to row. SPDX-License-Identifier: BSD-3-Clause */
+#include "output.h"
+
+#include "../../common/base/mem.h"
+#include "../grid/overset.h"
+
+struct fv_output *output_create(const struct fv *s)
+{
+    struct fv_output *o = NEW(struct fv_output, 1);
+    if (s->m && s->run->scene.nprobes > 0)
+        o->search = overset_search(s->run, s->m);
+    return o;
+}
+
+void output_free(struct fv_output **op)
+{
+    struct fv_output *o = *op;
+    if (!o)
+        return;
+    overset_free(&o->search);
+    mem_free(o->history);
+    mem_free(o);
+    *op = NULL;
+}
