@@ -178,8 +178,7 @@ struct fv {
     struct viscous_solver *viscous;
     double *rhs[3], *delta[3]; /* scratch: right side, increment */
     struct gravity gravity;
-    double *face, *flux; /* scratch */
-    double *faces[3];    /* blocks: scratch; the first is face */
+    double *faces[3], *flux; /* scratch of what stands on faces; uniform cells: the first alone */
     struct moving *moving;
     struct fringe_jumps fringe;
     double *free; /* blocks: 1: computed, 0: not */

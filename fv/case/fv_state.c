@@ -42,7 +42,7 @@ static void make_vectors(struct fv *s, int a)
         *all[k] = NEW(double, s->size);
     if (s->m || s->nu > 0.0)
         s->delta[a] = NEW(double, s->size);
-    if (s->m)
+    if (s->m || a == 0)
         s->faces[a] = NEW(double, s->size);
 }
 
@@ -58,10 +58,19 @@ void fv_make_fields(struct fv *s)
         if (s->dim < 3) /* stays 0 */
             s->u[2] = NEW(double, s->size);
         s->free = NEW(double, s->size);
-        s->face = s->faces[0];
-        return;
     }
-    s->face = NEW(double, s->size);
+}
+
+static void free_fields(struct fv *s)
+{
+    double *const one[] = {s->p, s->p_before, s->flux, s->free};
+    for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
+        mem_free(one[k]);
+    for (int a = 0; a < 3; a++) {
+        double *const all[] = {s->u[a], s->U[a], s->rhs[a], s->delta[a], s->faces[a]};
+        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+            mem_free(all[k]);
+    }
 }
 
 /* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */
@@ -319,14 +328,7 @@ void fv_free(struct fv **sp)
     output_free(&s->output);
     stage_fields_free(s);
     viscous_solver_free(s);
-    double *const one[] = {s->p, s->p_before, s->m ? NULL : s->face, s->flux, s->free};
-    for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
-        mem_free(one[k]);
-    for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->U[a], s->rhs[a], s->delta[a], s->faces[a]};
-        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-            mem_free(all[k]);
-    }
+    free_fields(s);
     if (s->m)
         mesh_state_free(s);
     else

@@ -130,19 +130,19 @@ void convection(struct fv *s, double *const N[3])
             for (int t = 0; t < b->dim; t++)
                 if (t != a)
                     tangent[nt++] = b->stride[t];
-            convection_face_values(s, s->u[q], a, s->face);
+            convection_face_values(s, s->u[q], a, s->faces[0]);
             if (s->prm.upwind > 0.0)
                 BLOCK_NEAR (s, 1, c, n)
-                    bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind, s->face + c);
+                    bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind, s->faces[0] + c);
             if (s->blocked)
-                blocked_faces(s, q, a, s->u[q], s->U[a], s->prm.upwind, s->face);
-            convection_beside_walls(s, a, s->face);
+                blocked_faces(s, q, a, s->u[q], s->U[a], s->prm.upwind, s->faces[0]);
+            convection_beside_walls(s, a, s->faces[0]);
             /* faces of the cells and the upper one */
             const int up[3] = {a == 0, a == 1, a == 2};
             PART_NEAR (&s->whole, none, up, c, n)
-                flux_row(s->U[a] + c, s->face + c, tangent, nt, n, s->flux + c);
+                flux_row(s->U[a] + c, s->faces[0] + c, tangent, nt, n, s->flux + c);
             if (s->blocked)
-                blocked_fluxes(s, q, a, s->U[a], s->face, s->flux);
+                blocked_fluxes(s, q, a, s->U[a], s->faces[0], s->flux);
             BLOCK_NEAR_AT (s, 0, j, c, n)
                 add_divergence(s->flux + c, along, 1.0 / block_size(b, a, j), n, a == 0, N[q] + c);
         }

@@ -16,7 +16,7 @@ static bool smooth_pressure(struct fv *s)
 {
     if (!s->bc && !s->blocked)
         return false;
-    smooth_odd_even(s, s->p, s->face, s->flux);
+    smooth_odd_even(s, s->p, s->faces[0], s->flux);
     return true;
 }
 

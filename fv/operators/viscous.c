@@ -143,8 +143,8 @@ static double step_slab_summed(const struct fv *s, int j, double c, double alpha
     double sum = 0.0;
     for (int i = 0; i < (b->dim == 3 ? b->n[1] : 1); i++) {
         const int64_t at = b->dim == 3 ? block_at(b, 0, i, j) : block_at(b, 0, j, 0);
-        laplace_row(s, b->dim == 3 ? i : j, x + at, b->n[0], s->face);
-        sum += step_row(x + at, s->face, r + at, c, alpha, beta, b->n[0], y + at);
+        laplace_row(s, b->dim == 3 ? i : j, x + at, b->n[0], s->faces[0]);
+        sum += step_row(x + at, s->faces[0], r + at, c, alpha, beta, b->n[0], y + at);
     }
     return sum;
 }
@@ -161,7 +161,7 @@ static double step_of(const struct fv *s, int q, const struct helmholtz_course *
         blocked_viscous(s, q, x, s->flux);
     }
     BLOCK_ROWS_AT (b, 0, j, at, n) {
-        double *const line = s->blocked ? s->flux + at : s->face;
+        double *const line = s->blocked ? s->flux + at : s->faces[0];
         if (!s->blocked)
             laplace_row(s, j, x + at, n, line);
         sum += step_row(x + at, line, r + at, k->c, k->alpha, k->beta, n, y + at);
@@ -340,20 +340,20 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
     if (s->surface)
         surface_zero(s, rhs);
     if (s->blocked || s->surface || (s->forcing && s->forcing->nlocal > 0)) {
-        helmholtz(s, q, c, start, s->face);
+        helmholtz(s, q, c, start, s->faces[0]);
         if (s->blocked) { /* start - c L start */
             memset(s->viscous->work[0][q], 0, (size_t)s->b.size * sizeof(double));
             blocked_add_slip(s, q, s->viscous->work[0][q]);
-            helmholtz_add(s, -c, s->viscous->work[0][q], s->face);
+            helmholtz_add(s, -c, s->viscous->work[0][q], s->faces[0]);
         }
         sums[1] += helmholtz_dot(s, rhs, rhs);
-        helmholtz_add(s, -1.0, s->face, rhs);
+        helmholtz_add(s, -1.0, s->faces[0], rhs);
         sums[0] += helmholtz_dot(s, rhs, rhs);
         return;
     }
     BLOCK_NEAR_AT (s, 0, j, at, n) {
-        laplace_row(s, j, start + at, n, s->face);
-        residual_row(start + at, s->face, c, n, rhs + at, sums);
+        laplace_row(s, j, start + at, n, s->faces[0]);
+        residual_row(start + at, s->faces[0], c, n, rhs + at, sums);
     }
 }
 

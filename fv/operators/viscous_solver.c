@@ -49,7 +49,7 @@ static void make_work(const struct fv *s, struct viscous_solver *v)
             v->work[k][a] = NEW(double, s->size);
     if (s->m)
         return;
-    v->work[3][0] = s->face;
+    v->work[3][0] = s->faces[0];
     v->work[3][1] = s->flux;
     if (s->dim == 3)
         v->work[3][2] = NEW(double, s->size);
@@ -77,7 +77,7 @@ void viscous_solver_free(struct fv *s)
         return;
     for (int k = 0; k < 4; k++)
         for (int a = 0; a < 3; a++)
-            if (v->work[k][a] != s->face && v->work[k][a] != s->flux)
+            if (v->work[k][a] != s->faces[0] && v->work[k][a] != s->flux)
                 mem_free(v->work[k][a]);
     mem_free(v->scale);
     mem_free(v);

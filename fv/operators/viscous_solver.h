@@ -7,7 +7,7 @@
 
 struct viscous_solver {
     double *work[4][3];  /* as struct helmholtz wants them; on uniform cells the last one borrows
-                          * s->face and s->flux */
+                          * s->faces[0] and s->flux */
     double *scale;       /* 1/s, blocks: the rows' diagonal, of a step of c: 1 + c scale */
     double stiffest;     /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
                           * to solve for */

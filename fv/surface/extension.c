@@ -513,11 +513,11 @@ static void find_layers(struct fv *s)
         field[c] = f->phi[c] < level && wall[c] == 0.0 ? 0.0 : DEEP;
     }
     for (int64_t c = 0; c < s->size; c++) /* scratch of rows that are not near water */
-        s->face[c] = s->flux[c] = DEEP;
+        s->faces[0][c] = s->flux[c] = DEEP;
     for (int l = 1; l <= LAYERS; l++) {
         grid_halo(&s->grid, 1, &field);
         for (int q = 0; q < s->nparts; q++)
-            next_layer(s->part + q, l, wall, s->face, s->flux, field);
+            next_layer(s->part + q, l, wall, s->faces[0], s->flux, field);
     }
     grid_halo(&s->grid, 1, &field);
     for (int64_t c = 0; c < s->size; c++)

@@ -34,7 +34,7 @@ struct newton_step {
 struct newton_cells {
     /* Rates and local scales of the step's start; called by newton_set_step. */
     void (*set_rates)(struct fv *s);
-    /* s->face = D U, s->rhs = D F + G p - nu L u - g, of the state, with its ghosts. */
+    /* s->faces[0] = D U, s->rhs = D F + G p - nu L u - g, of the state, with its ghosts. */
     void (*evaluate)(struct fv *s);
     /* The same along the variation w->v; NULL: by difference quotients. */
     void (*evaluate_variation)(struct fv *s);

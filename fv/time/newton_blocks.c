@@ -168,9 +168,9 @@ static void evaluate(struct fv *s)
                     s->stages.N[a][i] + w->G[a][i] - s->delta[a][i] - s->gravity.periodic[a];
     }
     s->ops->to_index(s);
-    mesh_divergence(s, s->U, s->face);
-    per_volume(s, s->face);
-    remove_mean(s, s->face);
+    mesh_divergence(s, s->U, s->faces[0]);
+    per_volume(s, s->faces[0]);
+    remove_mean(s, s->faces[0]);
 }
 
 /* Beyond the surface the velocity goes on as it is. */

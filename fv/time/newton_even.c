@@ -183,7 +183,7 @@ static void add_convection(struct fv *s, int q, int a, const struct flow *v, dou
 /* ---- space ----- -------------------------------------------------------------------------------
  */
 
-/* s->rhs[q] = D F + G p - nu L u; s->face = D U. v: NULL, or along this variation. */
+/* s->rhs[q] = D F + G p - nu L u; s->faces[0] = D U. v: NULL, or along this variation. */
 static void apply_space(struct fv *s, const struct flow *v)
 {
     const struct block *b = &s->b;
@@ -201,13 +201,13 @@ static void apply_space(struct fv *s, const struct flow *v)
         for (int a = 0; a < b->dim; a++)
             add_convection(s, q, a, v, out);
     }
-    memset(s->face, 0, (size_t)b->size * sizeof(double));
+    memset(s->faces[0], 0, (size_t)b->size * sizeof(double));
     for (int a = 0; a < b->dim; a++)
         BLOCK_ROWS_AT (b, 0, j, c, n)
             add_difference((v ? v->U[a] : s->U[a]) + c, b->stride[a], 1.0 / block_size(b, a, j), n,
-                           s->face + c);
+                           s->faces[0] + c);
     if (s->forcing) {
-        forcing_zero(s->forcing, s->face);
+        forcing_zero(s->forcing, s->faces[0]);
         for (int q = 0; q < b->dim; q++)
             forcing_zero(s->forcing, s->rhs[q]);
     }

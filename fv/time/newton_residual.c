@@ -100,11 +100,11 @@ static void clear_given(const struct fv *s, N_Vector r)
 {
     if (!s->free && !s->forcing && !s->surface)
         return;
-    newton_unpack(s, r, s->face, s->rhs);
-    newton_clear(s, s->face);
+    newton_unpack(s, r, s->faces[0], s->rhs);
+    newton_clear(s, s->faces[0]);
     for (int a = 0; a < s->dim; a++)
         newton_clear(s, s->rhs[a]);
-    newton_pack(s, s->face, s->rhs, r);
+    newton_pack(s, s->faces[0], s->rhs, r);
 }
 
 int newton_residual(N_Vector qv, N_Vector rv, void *user)
@@ -117,7 +117,7 @@ int newton_residual(N_Vector qv, N_Vector rv, void *user)
     double *r = N_VGetArrayPointer(rv);
     newton_unpack(s, qv, s->p, s->u);
     w->cells_of->evaluate(s);
-    newton_pack(s, s->face, s->rhs, rv);
+    newton_pack(s, s->faces[0], s->rhs, rv);
     add_time(s, q, q1, q2, a, n, r);
     for (int k = 1; k <= s->dim; k++)
         add_time(s, q + k * n, q1 + k * n, q2 + k * n, 1.0, n, r + k * n);
@@ -136,7 +136,7 @@ int newton_jacobian_times(N_Vector vv, N_Vector outv, N_Vector qv, booleantype *
     *is_new = SUNFALSE;
     newton_unpack(s, vv, w->v.p, w->v.u);
     w->cells_of->evaluate_variation(s);
-    newton_pack(s, s->face, s->rhs, outv);
+    newton_pack(s, s->faces[0], s->rhs, outv);
     for (int k = 0; k <= s->dim; k++) {
         const double c = k == 0 ? a * w->of.c0 : w->of.c0;
         for (int64_t i = k * w->cells; i < (k + 1) * w->cells; i++)
