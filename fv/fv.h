@@ -155,12 +155,10 @@ struct fv {
     struct fv_params prm;
     struct block b;   /* the uniform grid, or one of graded rows; empty with blocks */
     struct mesh *m;   /* the blocks; NULL: none */
-    struct grid grid; /* either of them, to those who need not tell which */
+    struct grid grid; /* either of them, to those who need not tell which: parts of this rank */
     int dim;
     MPI_Comm comm;
-    int64_t size; /* of a field */
-    int nparts;   /* of this rank */
-    const struct part *part;
+    int64_t size;      /* of a field */
     struct part whole; /* that of the uniform grid */
     const struct flow_ops *ops;
     struct exact exact;
@@ -202,7 +200,8 @@ struct fv {
 #define FLOW_ROWS(s, c, len) FLOW_ROWS_AT (s, its_part_##c, its_row_##c, c, len)
 /* The same for those who want the part (part) and the row's place along y in it (j), too. */
 #define FLOW_ROWS_AT(s, part_, j, c, len)                                                          \
-    for (const struct part *part_ = (s)->part; part_ < (s)->part + (s)->nparts; part_++)           \
+    for (const struct part *part_ = (s)->grid.part; part_ < (s)->grid.part + (s)->grid.nparts;     \
+         part_++)                                                                                  \
         for (int its_layer_##c = 0, j; its_layer_##c < part_->n[2]; its_layer_##c++)               \
             for (j = 0; j < part_->n[1]; j++)                                                      \
                 for (int64_t c = part_at(part_, 0, j, its_layer_##c), len = part_->n[0],           \
@@ -213,7 +212,8 @@ struct fv {
  * pressure are 0, and phi is beyond its band. */
 #define FLOW_NEAR(s, c, len) FLOW_NEAR_AT (s, its_part_##c, its_row_##c, c, len)
 #define FLOW_NEAR_AT(s, part_, j, c, len)                                                          \
-    for (const struct part *part_ = (s)->part; part_ < (s)->part + (s)->nparts; part_++)           \
+    for (const struct part *part_ = (s)->grid.part; part_ < (s)->grid.part + (s)->grid.nparts;     \
+         part_++)                                                                                  \
         for (int its_layer_##c = 0, j; its_layer_##c < part_->n[2]; its_layer_##c++)               \
             for (j = 0; j < part_->n[1]; j++)                                                      \
                 for (int64_t c = part_at(part_, part_near(part_, 0, j, its_layer_##c), j,          \

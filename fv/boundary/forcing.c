@@ -13,7 +13,7 @@
 
 /* Visits all cells of all parts with their ghosts: at (int[3]) of part p has place c. */
 #define ALL_CELLS(s, p, at, c)                                                                     \
-    for (const struct part *p = (s)->part; p < (s)->part + (s)->nparts; p++)                       \
+    for (const struct part *p = (s)->grid.part; p < (s)->grid.part + (s)->grid.nparts; p++)        \
         for (at[2] = -p->g[2]; at[2] < p->n[2] + p->g[2]; at[2]++)                                 \
             for (at[1] = -p->g[1]; at[1] < p->n[1] + p->g[1]; at[1]++)                             \
                 for (at[0] = -p->g[0]; at[0] < p->n[0] + p->g[0]; at[0]++)                         \

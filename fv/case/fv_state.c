@@ -236,8 +236,6 @@ static void create_grid(struct fv *s)
     s->comm = s->b.cart;
     s->size = s->b.size;
     s->whole = block_part(&s->b);
-    s->nparts = 1;
-    s->part = &s->whole;
     s->grid = (struct grid){d->dim, 1, &s->whole, &s->b, NULL};
     s->ops = &even_ops;
     s->blocked = blocked_create(s);

@@ -100,9 +100,7 @@ void mesh_state_create(struct fv *s)
     s->dim = s->m->dim;
     s->comm = s->m->comm;
     s->size = s->m->size_local;
-    s->nparts = s->m->nparts;
-    s->part = s->m->part;
-    s->grid = (struct grid){s->dim, s->nparts, s->part, NULL, s->m};
+    s->grid = (struct grid){s->dim, s->m->nparts, s->m->part, NULL, s->m};
     s->ops = &block_ops;
     if (s->prm.upwind < 0.0)
         s->prm.upwind = limits_upwind(r, mesh_bc_has_walls(s->m), (double)s->m->cells);

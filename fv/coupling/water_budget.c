@@ -106,7 +106,7 @@ static double own_water(const struct fv *s, const struct water_budget *w)
 {
     double x[3], h[3], sum = 0.0;
     int i[3];
-    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
         PART_CELLS (p, i, c) {
             if (s->forcing->forced[c] || s->surface->phi[c] > 3.0 * s->surface->largest)
                 continue;

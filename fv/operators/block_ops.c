@@ -109,8 +109,8 @@ static void dry_fluxes(struct fv *s)
     const unsigned char *layer = s->surface->layer;
     mesh_face_velocities(s, s->u, s->rhs);
     for (int a = 0; a < s->dim; a++)
-        for (int q = 0; q < s->nparts; q++) {
-            const struct part *p = s->part + q;
+        for (int q = 0; q < s->grid.nparts; q++) {
+            const struct part *p = s->grid.part + q;
             int down[3], up[3];
             for (int t = 0; t < 3; t++)
                 down[t] = up[t] = t < s->dim && t != a;

@@ -37,8 +37,8 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
 bool mesh_viscous_symmetric(const struct fv *s)
 {
     int plain = !s->m->uneven && !s->m->has_fringe && !s->m->moves;
-    for (int q = 0; q < s->nparts; q++)
-        plain = plain && s->part[q].kind == PART_EVEN;
+    for (int q = 0; q < s->grid.nparts; q++)
+        plain = plain && s->grid.part[q].kind == PART_EVEN;
     for (int k = 0; k < s->m->nblocks; k++)
         for (int q = 0; q < 2 * s->m->dim; q++)
             plain = plain && (s->m->block[k].side[q] == MESH_JOINED ||

@@ -11,8 +11,8 @@
 static double cells_a_side(const struct fv *s)
 {
     int64_t n = 0;
-    for (int k = 0; k < s->nparts; k++)
-        n += (int64_t)s->part[k].n[0] * s->part[k].n[1] * s->part[k].n[2];
+    for (int k = 0; k < s->grid.nparts; k++)
+        n += (int64_t)s->grid.part[k].n[0] * s->grid.part[k].n[1] * s->grid.part[k].n[2];
     MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->comm);
     return pow((double)n, 1.0 / s->dim);
 }

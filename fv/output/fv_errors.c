@@ -34,7 +34,7 @@ static struct cell cell_at(const struct fv *s, const struct part *p, const int *
 
 /* Visits the computed cells: i (int[3]) has place c, `of' what it has. */
 #define COMPUTED_CELLS(s, p, i, c, of)                                                             \
-    for (const struct part *p = (s)->part; p < (s)->part + (s)->nparts; p++)                       \
+    for (const struct part *p = (s)->grid.part; p < (s)->grid.part + (s)->grid.nparts; p++)        \
         PART_CELLS (p, i, c)                                                                       \
             for (struct cell of = cell_at(s, p, i, c); of.volume > 0.0; of.volume = 0.0)
 

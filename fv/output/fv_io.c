@@ -44,7 +44,7 @@ static void pressure(struct fv *s, double *const q[3])
             q[0][i] = fv_pressure(s, i) + s->partners.pressure;
     if (!s->surface) /* p ends there: no differences */
         flow_to_volume(s, q[0]);
-    for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++) {
         double x[3];
         int i[3];
         PART_CELLS (p, i, c) {
@@ -129,7 +129,7 @@ static bool is_blank(const struct fv *s, bool flows, int64_t c)
 /* This rank's cells of a block: [lo, hi), empty if it has none. */
 static const struct part *range(const struct fv *s, int k, int lo[3], int hi[3])
 {
-    const struct part *p = s->part, *const end = s->part + s->nparts;
+    const struct part *p = s->grid.part, *const end = s->grid.part + s->grid.nparts;
     while (p < end && p->block != k)
         p++;
     for (int a = 0; a < 3; a++) {

@@ -147,8 +147,8 @@ static int boxes_of(const struct fv *s, struct layout_box *of)
     const int n = grid_blocks(&s->grid);
     for (int k = 0; k < n; k++)
         of[k] = (struct layout_box){.grid = k};
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         struct layout_box *x = of + p->block;
         memcpy(x->lo, p->lo, sizeof x->lo);
         memcpy(x->n, p->n, sizeof x->n);

@@ -223,10 +223,10 @@ static double *rows_of(const struct tiles *t, const struct part *p)
 static void set_matrix(struct tiles *t)
 {
     double *rows[MESH_BLOCKS_MAX];
-    for (int q = 0; q < t->s->nparts; q++)
-        rows[q] = rows_of(t, t->s->part + q);
+    for (int q = 0; q < t->s->grid.nparts; q++)
+        rows[q] = rows_of(t, t->s->grid.part + q);
     pfmg_set_matrix(t->pfmg, rows);
-    for (int q = 0; q < t->s->nparts; q++)
+    for (int q = 0; q < t->s->grid.nparts; q++)
         mem_free(rows[q]);
 }
 
@@ -277,8 +277,8 @@ static void cycle_rows(void *of, double *r, double *z)
     const struct fv *s = t->s;
     for (int pass = 0; pass < 2; pass++) {
         int64_t row = 0;
-        for (int q = 0; q < s->nparts; q++) {
-            const struct part *p = s->part + q;
+        for (int q = 0; q < s->grid.nparts; q++) {
+            const struct part *p = s->grid.part + q;
             int outer[2][3];
             box_of(t->tile + p->block, p->lo, p->n, outer[0], outer[1]);
             const bool turned = is_turned(t->tile + p->block);
@@ -390,8 +390,8 @@ static void apply_rows(void *of, double *x, double *Ax)
     struct fv *s = t->s;
     const double *from = x;
     double *to = Ax;
-    for (int q = 0; q < s->nparts; q++)
-        PART_ROWS (s->part + q, none, none, c, n) {
+    for (int q = 0; q < s->grid.nparts; q++)
+        PART_ROWS (s->grid.part + q, none, none, c, n) {
             memcpy(t->psi + c, from, (size_t)n * sizeof(double));
             from += n;
         }
@@ -400,8 +400,8 @@ static void apply_rows(void *of, double *x, double *Ax)
     else
         mesh_halo(s->m, 1, &t->psi);
     mesh_bc_even(s, true, t->psi);
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         apply_part(t, p, to);
         if (p->kind == PART_CURVED)
             add_askew(t, p, to);
@@ -434,8 +434,8 @@ static bool is_fast(struct tiles *t)
 {
     const struct fv *s = t->s;
     double *b = NEW(double, t->gcr.n), *x = NEW(double, t->gcr.n), *to = b, left;
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         int i[3];
         PART_CELLS (p, i, c) {
             uint32_t k = (uint32_t)(p->lo[0] + i[0]) * 73856093u ^

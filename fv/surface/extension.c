@@ -516,8 +516,8 @@ static void find_layers(struct fv *s)
         s->faces[0][c] = s->flux[c] = DEEP;
     for (int l = 1; l <= LAYERS; l++) {
         grid_halo(&s->grid, 1, &field);
-        for (int q = 0; q < s->nparts; q++)
-            next_layer(s->part + q, l, wall, s->faces[0], s->flux, field);
+        for (int q = 0; q < s->grid.nparts; q++)
+            next_layer(s->grid.part + q, l, wall, s->faces[0], s->flux, field);
     }
     grid_halo(&s->grid, 1, &field);
     for (int64_t c = 0; c < s->size; c++)

@@ -308,7 +308,7 @@ static void find_fluxes(const struct fv *s, int a, double dt)
 {
     int up[3] = {0, 0, 0};
     up[a] = 1;
-    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
         PART_NEAR (p, none, up, c, len)
             for (int64_t i = 0; i < len; i += PIECE)
                 fluxes_of_piece(s, c + i, p->stride[a], a, dt, piece(i, len));

@@ -112,7 +112,7 @@ static void take_divergence_away(struct fv *s)
     for (int a = 0; a < s->dim; a++) {
         int up[3] = {0, 0, 0};
         up[a] = 1;
-        for (const struct part *p = s->part; p < s->part + s->nparts; p++) {
+        for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++) {
             const int64_t d = p->stride[a];
             PART_NEAR (p, none, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
@@ -128,7 +128,7 @@ void fraction_set_flows(struct fv *s)
     for (int a = 0; a < s->dim; a++) {
         int up[3] = {0, 0, 0};
         up[a] = 1;
-        for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+        for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
             PART_NEAR (p, none, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     f->flow[a][i] =

@@ -46,7 +46,7 @@ static void find_smooth(const struct fv *s)
     int more[3];
     for (int a = 0; a < 3; a++)
         more[a] = a < s->dim;
-    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
         PART_NEAR (p, more, more, c, n)
             for (int64_t i = c; i < c + n; i++)
                 f->smooth[i] = surface_holds_none(s, i) ||

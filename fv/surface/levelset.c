@@ -133,7 +133,7 @@ static void rate_on_blocks(const struct fv *s, const double *near, const double 
 {
     const struct surface_mesh *w = s->surface->mesh;
     FLOW_NEAR_AT (s, part, j, c, n) {
-        const double *size = w->size[part - s->part];
+        const double *size = w->size[part - s->grid.part];
         const double band = BAND * surface_mesh_spacing(s, part);
         memset(rate + c, 0, (size_t)n * sizeof(double));
         for (int64_t from = c, m = 0; next_run(near, band, c + n, &from, &m);)

@@ -85,7 +85,7 @@ static double pseudo_cfl(const struct fv *s) { return s->dim == 3 ? 0.3 : 0.45; 
 static double height(const struct fv *s, const struct part *p, int64_t c, int a, int j)
 {
     const struct surface_mesh *w = s->surface->mesh;
-    return s->m ? w->size[p - s->part][a] / sqrt(w->K[a][a][c]) : block_size(&s->b, a, j);
+    return s->m ? w->size[p - s->grid.part][a] / sqrt(w->K[a][a][c]) : block_size(&s->b, a, j);
 }
 
 static struct spot look(const struct fv *s, const struct part *p, const double *phi, int64_t c,
@@ -162,7 +162,7 @@ static double size_in_indices(int dim, double K[3][3], const double below[3], co
 /* The same beside the surface, where slopes end on it. */
 static double size_beside_on_blocks(const struct fv *s, const double *phi, const struct spot *x)
 {
-    const double *size = s->surface->mesh->size[x->part - s->part];
+    const double *size = s->surface->mesh->size[x->part - s->grid.part];
     double K[3][3], d[2][3];
     surface_mesh_metric(s, x->cell, K);
     for (int a = 0; a < s->dim; a++)
@@ -180,7 +180,7 @@ static void rates_of_strip(const struct fv *s, const double *phi, const double *
                            const struct strip *x, double *rate)
 {
     const struct surface_mesh *w = s->surface->mesh;
-    const double *size = w->size[x->part - s->part];
+    const double *size = w->size[x->part - s->grid.part];
     for (int a = 0; a < s->dim; a++)
         weno_slopes(phi + x->cell, x->part->stride[a], 1.0 / size[a], x->n, w->slopes[a][0],
                     w->slopes[a][1]);

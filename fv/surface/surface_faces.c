@@ -183,18 +183,18 @@ void surface_mesh_find_faces(struct fv *s)
     f->mesh->nat = 0;
     for (int a = 0; a < s->dim; a++) {
         f->ncut[a] = f->mesh->nface[a] = 0;
-        for (int q = 0; q < s->nparts; q++) {
+        for (int q = 0; q < s->grid.nparts; q++) {
             int down[3], up[3];
             for (int t = 0; t < 3; t++)
                 down[t] = up[t] = t < s->dim && t != a;
             up[a] = 1;
-            PART_ROWS (s->part + q, down, up, c, n)
+            PART_ROWS (s->grid.part + q, down, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
-                    look_at_face(s, s->part + q, a, i);
-            if (!surface_takes_lines(s, s->part + q))
+                    look_at_face(s, s->grid.part + q, a, i);
+            if (!surface_takes_lines(s, s->grid.part + q))
                 continue;
-            look_beside(s, s->part + q, a, -1);
-            look_beside(s, s->part + q, a, s->part[q].n[a] + 1);
+            look_beside(s, s->grid.part + q, a, -1);
+            look_beside(s, s->grid.part + q, a, s->grid.part[q].n[a] + 1);
         }
     }
 }
@@ -332,8 +332,8 @@ void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi
     const struct surface_mesh *w = s->surface->mesh;
     double *const F[3] = {s->surface->rate, s->surface->kept, s->surface->phi_new};
     for (int a = 0; a < s->dim; a++) {
-        for (int q = 0; q < s->nparts; q++)
-            face_fluxes(s, s->part + q, a, psi, F[a]);
+        for (int q = 0; q < s->grid.nparts; q++)
+            face_fluxes(s, s->grid.part + q, a, psi, F[a]);
         for (int64_t k = 0; k < w->nface[a]; k++)
             F[a][w->face[a][k].face] = flux_of(s, a, w->face[a] + k, psi, change);
         if (s->moving && !change)
@@ -341,8 +341,8 @@ void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi
     }
     if (s->surface->forced)
         gradient_beside_partner(s, F, out);
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         PART_ROWS (p, none, none, c, n)
             for (int64_t i = c; i < c + n; i++)
                 if (s->free[i] > 0.0 && leaves_water(s, p, i))

@@ -49,7 +49,7 @@ void surface_foot_velocity(const struct fv *s, const struct part *p, int64_t c,
     double step[3], share;
     for (int k = 0; k < s->dim; k++)
         u[k] = s->u[k][c];
-    if (s->moving || !s->surface->mesh->slants[p - s->part] ||
+    if (s->moving || !s->surface->mesh->slants[p - s->grid.part] ||
         !step_to_foot(s, p, c, g, step, &share))
         return;
     for (int k = 0; k < s->dim; k++) {

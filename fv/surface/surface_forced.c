@@ -68,7 +68,7 @@ static double largest(const struct fv *s, const struct surface_forced *f)
         const struct part *p = grid_part(&s->grid, f->cell[i], NULL);
         const struct surface_mesh *w = s->surface->mesh;
         for (int a = 0; a < s->dim; a++)
-            h = fmax(h, w->size[p - s->part][a] / sqrt(w->K[a][a][f->cell[i]]));
+            h = fmax(h, w->size[p - s->grid.part][a] / sqrt(w->K[a][a][f->cell[i]]));
     }
     if (s->m)
         MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);

@@ -35,7 +35,7 @@ static double mean_spacing(const struct mesh_block *b, int dim, int a)
 
 bool surface_leans(const struct fv *s, const struct part *p)
 {
-    return s->m ? s->surface->mesh->leans[p - s->part] : s->surface->leans;
+    return s->m ? s->surface->mesh->leans[p - s->grid.part] : s->surface->leans;
 }
 
 bool surface_any_leans(const struct fv *s)
@@ -96,7 +96,7 @@ static void index_gradients(const struct mesh *m, const struct part *p, int64_t 
 static void set_metric(const struct fv *s, const struct part *p, struct surface_mesh *w)
 {
     const struct mesh *m = s->m;
-    const double *size = w->size[p - s->part];
+    const double *size = w->size[p - s->grid.part];
     PART_ROWS (p, none, none, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double g[3][3];
@@ -128,14 +128,14 @@ static double across_gravity(const struct fv *s, const struct surface_mesh *w, i
 static void set_sizes(const struct fv *s, const struct surface_mesh *w, struct surface *f)
 {
     double ends[3] = {-INFINITY, 0.0, -INFINITY};
-    for (int q = 0; q < s->nparts; q++)
-        PART_ROWS (s->part + q, none, none, c, n)
+    for (int q = 0; q < s->grid.nparts; q++)
+        PART_ROWS (s->grid.part + q, none, none, c, n)
             for (int64_t i = c; i < c + n; i++)
                 for (int a = 0; a < s->dim && s->m->status[i] == CELL_COMPUTED; a++) {
                     const double h = w->size[q][a] / sqrt(w->K[a][a][i]);
                     ends[0] = fmax(ends[0], -h);
                     ends[1] = fmax(ends[1], h);
-                    ends[2] = fmax(ends[2], -across_gravity(s, w, i, s->part[q].stride[a]));
+                    ends[2] = fmax(ends[2], -across_gravity(s, w, i, s->grid.part[q].stride[a]));
                 }
     MPI_Allreduce(MPI_IN_PLACE, ends, 3, MPI_DOUBLE, MPI_MAX, s->comm);
     f->least = -ends[0];
@@ -186,8 +186,8 @@ static void set_out(const struct fv *s, struct surface_mesh *w)
 {
     const struct forcing *g = s->forcing;
     memset(w->out, 0, (size_t)s->size * sizeof *w->out);
-    for (int q = 0; q < s->nparts; q++)
-        set_part_out(s, s->part + q, w->out);
+    for (int q = 0; q < s->grid.nparts; q++)
+        set_part_out(s, s->grid.part + q, w->out);
     for (int64_t c = 0; g && c < s->size; c++)
         if (s->m->status[c] == CELL_GIVEN && !g->known[c])
             w->out[c] = BEHIND_EVEN;
@@ -218,9 +218,9 @@ void surface_mesh_change_height(const struct fv *s, double sign, double *phi)
 
 void surface_mesh_update(struct fv *s)
 {
-    for (int q = 0; q < s->nparts; q++)
+    for (int q = 0; q < s->grid.nparts; q++)
         if (s->m->block[s->m->part[q].block].motion)
-            set_centres(s, s->part + q, s->surface->mesh);
+            set_centres(s, s->grid.part + q, s->surface->mesh);
     set_height(s, s->surface->mesh);
     set_out(s, s->surface->mesh);
 }
@@ -251,8 +251,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
         for (int b = a; b < 3 && a < s->dim; b++)
             w->K[a][b] = mesh_field(s->m);
     }
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         for (int a = 0; a < s->dim; a++)
             w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
         w->leans[q] = is_slanting(s, s->m->block + p->block);
@@ -299,7 +299,7 @@ void surface_mesh_free(struct surface_mesh **wp)
 
 double surface_mesh_spacing(const struct fv *s, const struct part *p)
 {
-    const double *size = s->surface->mesh->size[p - s->part];
+    const double *size = s->surface->mesh->size[p - s->grid.part];
     double most = 0.0;
     for (int a = 0; a < s->dim; a++)
         most = fmax(most, size[a]);
@@ -311,8 +311,8 @@ double surface_mesh_speeds(const struct fv *s, double band)
     const struct mesh *m = s->m;
     struct surface_mesh *w = s->surface->mesh;
     double most = 0.0;
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         const double near = band * surface_mesh_spacing(s, p);
         const bool moves = m->block[p->block].motion != NULL;
         PART_ROWS (p, none, none, c, n)

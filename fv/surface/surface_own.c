@@ -253,8 +253,8 @@ void surface_mesh_count(struct fv *s)
     struct meeting met = {0};
     double *covered = s->surface->rate;
     w->nshared = w->npieces = 0;
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         const bool later = meets_later(m, p);
         int i[3];
         PART_CELLS (p, i, c)

@@ -70,7 +70,7 @@ static void smooth_part(const struct fv *s, const struct part *p, int m, const d
 /* Cells that are flat along gravity know waves along axis a well that are short in cells. */
 static double flatness(const struct fv *s, const struct part *p, int a)
 {
-    const double h = s->m ? s->surface->mesh->size[p - s->part][a] : s->b.h[a],
+    const double h = s->m ? s->surface->mesh->size[p - s->grid.part][a] : s->b.h[a],
                  flat = s->surface->least / h;
     return fmin(1.0, flat * flat);
 }
@@ -88,8 +88,8 @@ static double share_of(const struct fv *s, const struct part *p, int a, double d
 
 void surface_smooth(struct fv *s, double dt)
 {
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         const bool leans = surface_leans(s, p), overlaps = grid_overlaps(&s->grid) && !leans;
         double share[3];
         for (int a = 0; a < s->dim; a++)

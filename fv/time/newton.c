@@ -91,8 +91,8 @@ struct newton *newton_create(struct fv *s)
     w->cells_of = s->m ? &newton_blocks : &newton_even;
     w->longest = longest_row(s);
     w->longest_step = INFINITY;
-    for (int q = 0; q < s->nparts; q++)
-        w->cells += (int64_t)s->part[q].n[0] * s->part[q].n[1] * s->part[q].n[2];
+    for (int q = 0; q < s->grid.nparts; q++)
+        w->cells += (int64_t)s->grid.part[q].n[0] * s->grid.part[q].n[1] * s->grid.part[q].n[2];
     MPI_Allreduce(&w->cells, &all, 1, MPI_INT64_T, MPI_SUM, comm);
     s->prm.tol_newton = tolerance(s, (double)all);
     SUN(SUNContext_Create(&comm, &w->ctx));

@@ -69,8 +69,8 @@ static void add_pressure_flux(struct fv *s)
         memset(E[a], 0, (size_t)s->size * sizeof(double));
     mesh_subtract_psi(s, 1.0, s->p, E);
     for (int a = 0; a < s->dim; a++)
-        for (int q = 0; q < s->nparts; q++) {
-            const struct part *p = s->part + q;
+        for (int q = 0; q < s->grid.nparts; q++) {
+            const struct part *p = s->grid.part + q;
             const int64_t below = p->stride[a];
             int down[3], up[3];
             for (int k = 0; k < 3; k++)

@@ -82,8 +82,8 @@ static void smooth(struct fv *s, double *const r[3], double *const x[3])
     for (int a = 0; a < s->dim; a++)
         memset(x[a], 0, (size_t)s->size * sizeof(double));
     for (int k = 0; k < n; k++) {
-        for (int q = 0; q < s->nparts; q++)
-            sweep_part(s, s->part + q, r, x, k % 2);
+        for (int q = 0; q < s->grid.nparts; q++)
+            sweep_part(s, s->grid.part + q, r, x, k % 2);
         sides_velocity(s, BC_ZERO, x);
     }
 }

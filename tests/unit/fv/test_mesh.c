@@ -320,7 +320,7 @@ static void the_worst_cell_is_named(void **state)
         "(16, 16); min = (0.5, 0); max = (1, 1); i_min = \"joined\"; i_max = \"periodic\"; "
         "j_min = \"periodic\"; j_max = \"periodic\"; }",
         NULL);
-    for (const struct part *p = s->part; p < s->part + s->nparts; p++)
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
         PART_CELLS (p, i, at)
             if (p->block == 1 && p->lo[0] + i[0] == 5 && p->lo[1] + i[1] == 7)
                 s->u[1][at] = 1e3;
@@ -530,8 +530,8 @@ static void even_parts_are_computed_alike(void **state)
     struct fv *s = mesh_case_start(&one, MPI_COMM_WORLD, four, NULL),
               *z = mesh_case_start(&two, MPI_COMM_WORLD, four, NULL);
     int even = 0;
-    for (int q = 0; q < s->nparts; q++) {
-        even += s->part[q].kind == PART_EVEN;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        even += s->grid.part[q].kind == PART_EVEN;
         z->m->part[q].kind = PART_CURVED;
     }
     MPI_Allreduce(MPI_IN_PLACE, &even, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);

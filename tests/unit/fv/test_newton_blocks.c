@@ -166,8 +166,8 @@ static void walls_of_the_scene_make_a_duct(void **state)
     assert_int_equal(params_report(&c.faults), 0);
     struct fv *s = fv_create(&c.run, NULL);
     assert_true(mesh_case_run(s, 1000, 1.0) && s->newton->steady);
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         const struct mesh_block *b = s->m->block;
         int i[3];
         PART_CELLS (p, i, at) {

@@ -53,8 +53,8 @@ static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks, 
 static void add_vortex(struct fv *s, double x0, double y0)
 {
     const double r = 0.1, A = 0.25 * sqrt(2.0) * exp(0.5);
-    for (int q = 0; q < s->nparts; q++) {
-        const struct part *p = s->part + q;
+    for (int q = 0; q < s->grid.nparts; q++) {
+        const struct part *p = s->grid.part + q;
         const struct mesh_block *b = s->m->block + p->block;
         int i[3];
         PART_CELLS (p, i, c) {

@@ -160,7 +160,7 @@ static void divergence_is_a_rate(void **state)
     for (int block = 0; block < 2; block++) {
         struct params *p;
         struct fv *s = start(scenes + 3, block, &p);
-        const struct part *own = s->part;
+        const struct part *own = s->grid.part;
         for (int64_t c = 0; c < s->size; c++)
             s->U[0][c] = s->U[1][c] = 0.0;
         for (int j = 0; j < own->n[1]; j++)
