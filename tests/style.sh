@@ -23,6 +23,15 @@ found=$(find sph fv coupler common -name '*.[ch]' | sed 's,.*/,,' | sort | uniq 
 found=$(grep -oE '^struct [a-z_0-9]+ \{' $(find sph fv coupler common -name '*.[ch]') | awk -F '[: ]' '
     $3 in at { print $3 " of " at[$3] " and " $1 } { at[$3] = $1 }')
 [ -z "$found" ] || bad "struct tags twice in the tree: $found"
+# members of a program's state: what three folders or more use; what fewer use is a struct of its owner's
+members() { # PROGRAM: how many names struct PROGRAM declares
+    awk -v begin="^struct $1 [{]" '$0 ~ begin { on = 1; next } on && /^}/ { on = 0 } on' "$1/$1.h" | tr '\n' ' ' |
+        sed 's,/\*,\n&,g; s,\*/,&\n,g' | grep -v '^/\*' | tr -d '\n' | sed 's/\[[^]]*\]//g; s/)([^)]*)/)/g' | tr -cd ';,' | wc -c
+}
+for limit in fv:50 sph:48; do # 45 are wanted of sph
+    found=$(members ${limit%:*})
+    [ "$found" -gt 9 ] && [ "$found" -le ${limit#*:} ] || bad "struct ${limit%:*} has $found members, at most ${limit#*:}: let the folder that uses them own them"
+done
 # Folders of a program from the lowest layer to the highest; "." is its state, the headers beside the main program
 layers_fv="grid . boundary surface operators poisson watch time coupling output case"
 layers_sph=". rigid particles pairs parallel walls surface open_boundaries bodies refinement watch time coupling output case"
