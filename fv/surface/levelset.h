@@ -39,8 +39,10 @@ struct carry {
 struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted as a whole */
 struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none */
 struct surface_mesh;   /* blocks as the surface sees them, mesh_view.h */
+struct level_ops;      /* what the cells offer to it, level_ops.h */
 
 struct surface {
+    const struct level_ops *ops;
     struct fraction *fraction;
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's

@@ -1,0 +1,214 @@
+/* level_even.c - the level set on uniform cells and on layers of unequal height (level_ops.h):
+ * WENO5 along the axes, boxes that are cut out. SPDX-License-Identifier: BSD-3-Clause */
+#include "level_ops.h"
+
+#include <string.h>
+
+#include "../boundary/bc.h"
+#include "../boundary/blocked.h"
+#include "../boundary/still.h"
+#include "levelset.h"
+#include "weno.h"
+
+/* --- ghosts --- */
+
+static bool side_here(const struct block *b, int a, bool upper)
+{
+    return !b->periodic[a] && (upper ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
+}
+
+/* How phi goes on behind a side. */
+enum beyond { MIRRORED, LINEAR };
+
+static enum beyond beyond_side(const struct fv *s, int side, enum beyond wanted)
+{
+    const bool wall = s->bc && (s->bc->kind[side] == MESH_WALL || s->bc->kind[side] == MESH_SLIP);
+    return wall ? wanted : MIRRORED;
+}
+
+static void ghosts(const struct fv *s, enum beyond walls, double *phi)
+{
+    const struct block *b = &s->b;
+    block_halo(b, 1, &phi);
+    for (int a = 0; a < b->dim; a++)
+        for (int upper = 0; upper < 2; upper++) {
+            if (!side_here(b, a, upper))
+                continue;
+            const bool linear = beyond_side(s, 2 * a + upper, walls) == LINEAR;
+            const int64_t out = upper ? b->stride[a] : -b->stride[a];
+            int lo[3], hi[3];
+            for (int t = 0; t < 3; t++) {
+                lo[t] = t == a ? (upper ? b->n[a] - 1 : 0) : -b->g[t];
+                hi[t] = t == a ? lo[t] + 1 : b->n[t] + b->g[t];
+            }
+            for (int k = lo[2]; k < hi[2]; k++)
+                for (int j = lo[1]; j < hi[1]; j++)
+                    for (int i = lo[0]; i < hi[0]; i++) {
+                        double *q = phi + block_at(b, i, j, k);
+                        for (int m = 1; m <= GHOSTS; m++)
+                            q[m * out] = linear ? q[0] + m * (q[0] - q[-out]) : q[(1 - m) * out];
+                    }
+        }
+}
+
+static void mirrored(const struct fv *s, double *phi) { ghosts(s, MIRRORED, phi); }
+
+/* That phi is mirrored by walls is a kink, which WENO5 takes for the surface's own where it is
+ * near.
+ */
+static void stage_ghosts(const struct fv *s, bool first, double *phi)
+{
+    (void)first;
+    ghosts(s, LINEAR, phi);
+}
+
+/* --- advection --- */
+
+/* Of the cells of local row j. */
+static double largest_spacing(const struct block *b, int j)
+{
+    double h = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        h = fmax(h, block_size(b, a, j));
+    return h;
+}
+
+/* In place of what a stencil that ends at a box gave: phi goes on linearly there. Boxes have even
+ * rows. */
+static void rate_beside_boxes(const struct fv *s, const double *phi, double *rate)
+{
+    static const enum blocked_ghost linear[2] = {GHOST_LINEAR, GHOST_LINEAR};
+    const double band = BAND * largest_spacing(&s->b, 0);
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t k = 0; k < s->blocked->nnear[a]; k++) {
+            const struct near_box *x = s->blocked->near[a] + k;
+            const int64_t c = x->cell, d = s->b.stride[a];
+            double v[7], was = 0.0, is = 0.0;
+            if (!x->own || !(fabs(phi[c]) < band))
+                continue;
+            blocked_line(x, phi, d, 3, linear, v + 3);
+            weno_advect(phi + c, s->u[a] + c, d, 1.0 / s->b.h[a], 1, &was);
+            weno_advect(v + 3, s->u[a] + c, 1, 1.0 / s->b.h[a], 1, &is);
+            rate[c] += is - was;
+        }
+}
+
+static void rate_of(const struct fv *s, const double *phi, double *rate)
+{
+    const struct block *b = &s->b;
+    BLOCK_NEAR_AT (s, 0, j, c, n) {
+        const double band = BAND * largest_spacing(b, j);
+        memset(rate + c, 0, (size_t)n * sizeof(double));
+        for (int64_t from = c, m = 0; level_next_run(phi, band, c + n, &from, &m);)
+            for (int a = 0; a < b->dim; a++)
+                weno_advect(phi + from, s->u[a] + from, b->stride[a], 1.0 / block_scale(b, a, j), m,
+                            rate + from);
+    }
+    if (s->blocked)
+        rate_beside_boxes(s, phi, rate);
+}
+
+static double speed(const struct fv *s) { return s->max.rate; }
+
+/* --- cells --- */
+
+static double spacing(const struct fv *s, const struct part *p, int j)
+{
+    (void)p;
+    return largest_spacing(&s->b, j);
+}
+
+/* Difference of phi over two cells along the step d, one-sided beside closed sides and boxes. */
+static double difference(const struct fv *s, int64_t c, int64_t d)
+{
+    const double *q = s->surface->phi + c;
+    const bool low = surface_holds_none(s, c - d), high = surface_holds_none(s, c + d);
+    return (high ? low ? 0.0 : q[0] - q[-d] : q[d] - q[0]) +
+           (low ? high ? 0.0 : q[d] - q[0] : q[0] - q[-d]);
+}
+
+/* Height of a cell over the mean distance to those above and below. */
+static double across_row(const struct block *b, int64_t c)
+{
+    const int j = block_row(b, c);
+    return 2.0 * b->rows->h[j] / (b->rows->step[j] + b->rows->step[j + 1]);
+}
+
+static void slopes(const struct fv *s, const struct part *p, int64_t c, double *n)
+{
+    for (int a = 0; a < s->dim; a++) {
+        n[a] = 0.5 * difference(s, c, p->stride[a]);
+        if (a == 1 && s->b.rows)
+            n[a] *= across_row(&s->b, c);
+    }
+}
+
+static void gradient(const struct fv *s, const struct part *p, int64_t c, int j, const double *phi,
+                     double g[3])
+{
+    const struct block *b = &s->b;
+    (void)p;
+    for (int a = 0; a < b->dim; a++)
+        g[a] =
+            (blocked_beside(s, phi, c, b->stride[a]) - blocked_beside(s, phi, c, -b->stride[a])) /
+            (block_step(b, a, j) + block_step(b, a, j + 1));
+}
+
+static double volume(const struct fv *s, int64_t c, int j)
+{
+    (void)c;
+    return block_volume(&s->b, j);
+}
+
+static double counted(const struct fv *s, int64_t c, double share)
+{
+    (void)s;
+    (void)c;
+    return share;
+}
+
+/* --- start --- */
+
+static void fill_even(const struct fv *s, double *phi)
+{
+    const struct block *b = &s->b;
+    double x[3];
+    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
+        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
+            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
+                const int64_t c = block_at(b, i, j, k);
+                block_centre(b, i, j, k, x);
+                phi[c] = is_blocked(s, c) ? surface_far(s) : surface_distance(s, x);
+            }
+}
+
+static void set_sizes(const struct block *b, const double *g, struct surface *f)
+{
+    f->least = f->across = INFINITY;
+    f->leans = still_leans(g);
+    for (int a = 0; a < b->dim; a++) {
+        const double along = fabs(g[a]);
+        if (along < 0.7 * f->g)
+            f->across = fmin(f->across, b->h[a]);
+        f->least = fmin(f->least, b->h[a]);
+        f->largest = fmax(f->largest, b->h[a]);
+    }
+}
+
+static void start(const struct fv *s, struct surface *f)
+{
+    set_sizes(&s->b, s->gravity.hydrostatic, f);
+    fill_even(s, f->phi);
+}
+
+const struct level_ops even_level = {.start = start,
+                                     .ghosts = mirrored,
+                                     .mirror = mirrored,
+                                     .stage_ghosts = stage_ghosts,
+                                     .rate = rate_of,
+                                     .speed = speed,
+                                     .spacing = spacing,
+                                     .slopes = slopes,
+                                     .gradient = gradient,
+                                     .volume = volume,
+                                     .counted = counted};
