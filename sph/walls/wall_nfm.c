@@ -660,10 +660,13 @@ static void rooms(struct sph *s, double *room)
         wall_layers_rooms(s, RATIOS, m->room);
     }
     for (int k = 0; k < l->n; k++) {
-        double *to = room + l->who[k];
-        for (int j = l->first[k]; j < l->first[k + 1]; j++)
-            *to += l->touch[j].is.gamma * ratio_at(m->room, fabs(l->touch[j].height) / s->R);
-        *to = *to > 1.0 + 1e-6 ? *to - 1.0 : *to; /* as gamma */
+        double *to = room + l->who[k], gamma = 1.0;
+        for (int j = l->first[k]; j < l->first[k + 1]; j++) {
+            const struct wall_touch *t = l->touch + j;
+            *to += t->is.gamma * ratio_at(m->room, fabs(t->height) / s->R);
+            gamma += t->is.gamma;
+        }
+        *to -= gamma > 1.0 + 1e-6 ? 1.0 : 0.0; /* as gamma has it */
     }
 }
 

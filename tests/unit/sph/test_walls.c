@@ -299,6 +299,40 @@ static void body_in_still_water(void **state)
     sph_free(&c.s);
 }
 
+/* A star turned by `degrees' in the middle of a full tank: the least of what walls leave of the
+ * supports. */
+static double least_room(double degrees)
+{
+    struct sph_case c;
+    tank(&c, 30, false, WALLS_NFM);
+    struct scene_body *b = c.run.scene.bodies;
+    c.run.scene.nbodies = 1;
+    b->points.n = 8;
+    for (int k = 0; k < 8; k++) { /* tips of 53 degrees, clockwise */
+        const double r = k % 2 ? 0.15 : 0.05 * sqrt(2.0), at = M_PI / 180.0 * (degrees - 45.0 * k);
+        b->points.x[k][0] = 0.5 + r * cos(at);
+        b->points.x[k][1] = 0.5 + r * sin(at);
+    }
+    b->centre[0] = b->centre[1] = 0.5;
+    struct sph *s = sph_case_start(&c, NULL);
+    integrate_gradients(s);
+    double *room = walls_rooms(s), least = 1.0;
+    for (int i = 0; i < s->p.n; i++)
+        least = fmin(least, room[i]);
+    mem_free(room);
+    sph_free(&c.s);
+    return -max_anywhere(-least);
+}
+
+/* In the corner of a tank a quarter of the support is fluid, before tips more than half of it: none
+ * of those particles is taken for one behind a wall, whose volume would be none. */
+static void sharp_tips_leave_room(void **state)
+{
+    (void)state;
+    for (double degrees = 0.0; degrees < 90.0; degrees += 5.0)
+        assert_true(least_room(degrees) > 0.25);
+}
+
 /* A gauge with a radius reads the mean over its face: the weight of the water in its middle, and of
  * one particle's own pressure no more than that particle's share of the face. */
 static void gauge_reads_mean(void **state)
@@ -549,6 +583,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(surface_is_found),
                                        cmocka_unit_test(the_shift_is_workless),
                                        cmocka_unit_test(body_in_still_water),
+                                       cmocka_unit_test(sharp_tips_leave_room),
                                        cmocka_unit_test(gauge_reads_mean),
                                        cmocka_unit_test(motion),
                                        cmocka_unit_test(laplacian_at_a_wall),
