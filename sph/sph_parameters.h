@@ -26,7 +26,12 @@ enum sph_viscosity {
 }; /* auto: in cases only */
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
 enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_AUTO };
-enum sph_integrals { INTEGRALS_CLOSED, INTEGRALS_CLIPPED, INTEGRALS_CENTROIDS };
+enum sph_integrals {
+    INTEGRALS_CLOSED,
+    INTEGRALS_CLIPPED,   /* 3D */
+    INTEGRALS_CENTROIDS, /* gamma closed */
+    INTEGRALS_NUMERICAL  /* 2D: gamma by points, too */
+};
 enum sph_integrator { INTEGRATOR_RK4, INTEGRATOR_J3, INTEGRATOR_AUTO }; /* time/runge_kutta.h */
 enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 

@@ -52,7 +52,7 @@ static const struct param rows[] = {
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
-    CHOICE(P, wall_integrals, "closed|clipped|centroids", "closed", "integrals over triangles of walls: in closed form; for comparison by squares that are clipped, or a point a triangle"),
+    CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)"),
     PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, with meshes up to 40 as long as they help, 40 with noise, else none"),
@@ -648,6 +648,13 @@ static void check_wall_model(const struct run *r, struct faults *f)
     else if (has_polylines(&r->scene) && given.walls == WALLS_GHOSTS)
         params_fault(r->params, f, "sph.walls",
                      "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");
+    if (r->scene.domain.dim == 2 && given.wall_integrals == INTEGRALS_CLIPPED)
+        params_fault(
+            r->params, f, "sph.wall_integrals",
+            "clipped squares are of triangles, in 3D: take closed, centroids or numerical");
+    if (r->scene.domain.dim == 3 && given.wall_integrals == INTEGRALS_NUMERICAL)
+        params_fault(r->params, f, "sph.wall_integrals",
+                     "the Shepard factor of triangles is closed: take centroids, or clipped");
     snprintf(key, sizeof key, "walls.[%d].friction", bed);
     if (bed >= 0 && sph_params_of(r)->walls == WALLS_GHOSTS)
         params_fault(r->params, f, key,

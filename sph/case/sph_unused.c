@@ -22,8 +22,8 @@ enum {
     DIFFUSIVE,      /* scheme delta */
     VISCOUS,        /* fluid.nu > 0 */
     WALLS,          /* walls or bodies that particles meet */
-    TRIANGLES,      /* normal flux walls in 3D */
-    CLIPPED,        /* and their integrals by clipped squares */
+    FLUXES,         /* normal flux walls */
+    CLIPPED,        /* in 3D, and their integrals by clipped squares */
     PACKED,         /* walls, bodies, or noise: the first places are rearranged */
     NO_SURFACE,     /* no free surface */
     PLANE,          /* two dimensions */
@@ -74,8 +74,8 @@ static void find_needs(const struct run *r, const struct sph_params *given,
     has[DIFFUSIVE] = used->scheme == SCHEME_DELTA;
     has[VISCOUS] = c->fluid.nu > 0.0;
     has[WALLS] = sph_params_walls(c, used);
-    has[TRIANGLES] = has[WALLS] && used->walls == WALLS_NFM && c->domain.dim == 3;
-    has[CLIPPED] = has[TRIANGLES] && used->wall_integrals == INTEGRALS_CLIPPED;
+    has[FLUXES] = has[WALLS] && used->walls == WALLS_NFM;
+    has[CLIPPED] = has[FLUXES] && c->domain.dim == 3 && used->wall_integrals == INTEGRALS_CLIPPED;
     has[PACKED] = has[WALLS] || used->noise > 0.0;
     has[NO_SURFACE] = used->surface != SURFACE_YES;
     has[PLANE] = c->domain.dim == 2;
@@ -111,7 +111,7 @@ static const struct {
     {"sph.cfl_viscous", VISCOUS, "fluid.nu is 0: nothing viscous limits dt"},
     {"sph.background", NO_SURFACE, "the pressure of a free surface is 0"},
     {"sph.walls", WALLS, "the particles have no wall and no body"},
-    {"sph.wall_integrals", TRIANGLES, "no normal flux walls of triangles: those are of 3D"},
+    {"sph.wall_integrals", FLUXES, "the particles have no normal flux walls (sph.walls)"},
     {"sph.wall_squares", CLIPPED, "sph.wall_integrals is not clipped"},
     {"sph.packing", PACKED, "without walls, bodies and noise the lattice is uniform already"},
     {"sph.extrema", PLANE, "centre lines are read in two dimensions only"},

@@ -7,6 +7,7 @@
 #include "../../common/base/mem.h"
 #include "../pairs/neighbours.h"
 #include "wall_moments.h"
+#include "wall_points.h"
 
 enum { WALL_GROUP = 8 };
 
@@ -233,16 +234,24 @@ static bool is_round(const struct segment *g, double height, double from, double
     return height < 0.0 && ((from > 0.0 && g->open[0]) || (to < 0.0 && g->open[1]));
 }
 
+/* In units of R. */
+static struct wall_moments moments_of(int integrals, double height, double from, double to)
+{
+    if (integrals == INTEGRALS_CLOSED)
+        return wall_moments(height, from, to);
+    return wall_points(height, from, to, integrals == INTEGRALS_NUMERICAL);
+}
+
 /* cut: which part of g, m along it; NULL: all. */
-static void measure(const struct segment *g, const double *cut, const double *x, double R,
-                    struct wall_touch *t)
+static void measure(const struct segment *g, int integrals, const double *cut, const double *x,
+                    double R, struct wall_touch *t)
 {
     const double d[2] = {g->a[0] - x[0], g->a[1] - x[1]};
     const double height = g->n[0] * d[0] + g->n[1] * d[1], begin = g->t[0] * d[0] + g->t[1] * d[1];
     const double from = cut ? begin + cut[0] : begin, to = begin + (cut ? cut[1] : g->length);
     const struct wall_moments m = is_round(g, height, from, to)
                                       ? (struct wall_moments){0}
-                                      : wall_moments(height / R, from / R, to / R);
+                                      : moments_of(integrals, height / R, from / R, to / R);
     t->height = height;
     t->foot = from <= 0.0 && to >= 0.0;
     t->distance = hypot(height, fmax(0.0, fmax(from, -to)));
@@ -367,8 +376,8 @@ void wall_list_measure(const struct sph *s, struct wall_list *l)
         const double *x = prim_line(&s->p, l->who[k]);
         double gamma = 1.0;
         for (int j = l->first[k]; j < l->first[k + 1] && s->dim == 2; j++)
-            measure(s->walls->segments + l->touch[j].piece, cut_of(l, l->touch + j), x, s->R,
-                    l->touch + j);
+            measure(s->walls->segments + l->touch[j].piece, s->prm.wall_integrals,
+                    cut_of(l, l->touch + j), x, s->R, l->touch + j);
         join_planes(l->touch + l->first[k], l->first[k + 1] - l->first[k]);
         for (int j = l->first[k]; j < l->first[k + 1]; j++) {
             struct wall_touch *t = l->touch + j;
@@ -378,7 +387,7 @@ void wall_list_measure(const struct sph *s, struct wall_list *l)
             t->near = fmin(1.0, q * q / e2);
             gamma += t->is.gamma;
         }
-        l->gamma[k] = gamma > 1.0 + 1e-6 ? gamma - 1.0 : gamma; /* behind a wall one more */
+        l->gamma[k] = gamma > wall_list_behind_from(s) ? gamma - 1.0 : gamma;
         if (s->walls->nbodies > 0)
             own_covered(s, l, k);
     }
@@ -392,7 +401,7 @@ double wall_list_weight(const struct sph *s, const struct wall_list *l, const st
     if (s->dim == 3)
         return wall_list3_weight(s, l, t, x, R);
     struct wall_touch other;
-    measure(s->walls->segments + t->piece, cut_of(l, t), x, R, &other);
+    measure(s->walls->segments + t->piece, s->prm.wall_integrals, cut_of(l, t), x, R, &other);
     return other.is.W;
 }
 
@@ -422,7 +431,8 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
         wall_list3_shares(s, l, k, x);
     for (int j = 0; j < n && s->dim == 2; j++) {
         struct wall_touch there;
-        measure(s->walls->segments + t[j].piece, cut_of(l, t + j), x, s->R, &there);
+        measure(s->walls->segments + t[j].piece, s->prm.wall_integrals, cut_of(l, t + j), x, s->R,
+                &there);
         l->share[j] = there.is.gamma;
     }
     return l->share;

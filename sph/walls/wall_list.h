@@ -66,6 +66,12 @@ void wall_list_free(struct wall_list *l);
 void wall_list_build(const struct sph *s, struct wall_list *l);
 /* touch and gamma at the present places of particles and walls. */
 void wall_list_measure(const struct sph *s, struct wall_list *l);
+/* Sums for the Shepard factor above this are of places behind a wall, which have one more: not by
+ * the last digits, nor by what points miss of it. */
+static inline double wall_list_behind_from(const struct sph *s)
+{
+    return s->prm.wall_integrals == INTEGRALS_NUMERICAL ? 1.25 : 1.0 + 1e-6;
+}
 /* Lists locals whose state is behind the nearest wall; returns their number. */
 int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who);
 /* int W dS over the piece of a touch with another support R, m^(1-dim). */

@@ -666,7 +666,7 @@ static void rooms(struct sph *s, double *room)
             *to += t->is.gamma * ratio_at(m->room, fabs(t->height) / s->R);
             gamma += t->is.gamma;
         }
-        *to -= gamma > 1.0 + 1e-6 ? 1.0 : 0.0; /* as gamma has it */
+        *to -= gamma > wall_list_behind_from(s) ? 1.0 : 0.0; /* as gamma has it */
     }
 }
 

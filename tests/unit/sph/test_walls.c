@@ -13,7 +13,7 @@
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
 #include "../../../sph/time/integrate.h"
-#include "../../../sph/walls/wall_moments.h"
+#include "../../../sph/walls/wall_points.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
@@ -120,6 +120,41 @@ static void moments_are_integrals(void **state)
         assert_close(parts[0], m.W, 1e-10);
         assert_close(parts[1], m.W * m.along, 1e-10);
         assert_close(parts[2], m.gamma, 1e-10);
+    }
+}
+
+/* Of a wall through points h apart at the distance d the part of Poisson's kernel that the Shepard
+ * factor has, d/(pi r^2), sums to tanh(pi d/h) where the foot is between two points and to
+ * coth(pi d/h) where it is on one; its integral is 1, and the rest is smooth. */
+static void points_miss_gamma_before_them(void **state)
+{
+    const double h = 1.0 / WALL_POINTS;
+    (void)state;
+    for (double d = 0.005; d < 1.0; d *= 1.3)
+        for (int on = 0; on < 2; on++) {
+            const double from = -5.0 + 0.5 * h * on, law = tanh(M_PI * d / h);
+            const double gamma = wall_points(d, from, from + 10.0, true).gamma;
+            const double off = gamma - wall_moments(d, from, from + 10.0).gamma;
+            assert_close(off, 0.5 - 0.5 * (on ? 1.0 / law : law), 1e-3);
+            assert_close(wall_points(-d, from, from + 10.0, true).gamma, -gamma, 1e-15);
+        }
+}
+
+/* Midpoints of h err by h^2/24 times the largest second derivative along the wall: 140/pi of W,
+ * less of W y. */
+static void points_are_of_second_order(void **state)
+{
+    const double h = 1.0 / WALL_POINTS, most = 140.0 / M_PI * h * h / 24.0;
+    (void)state;
+    srand(9);
+    for (int k = 0; k < 300; k++) {
+        const double d = 1.2 * rand() / RAND_MAX, from = 2.4 * rand() / RAND_MAX - 1.2;
+        const double to = from + 1e-6 + 2.0 * rand() / RAND_MAX;
+        const struct wall_moments m = wall_moments(d, from, to),
+                                  p = wall_points(d, from, to, false);
+        assert_close(p.W, m.W, most * (to - from));
+        assert_close(p.W * p.along, m.W * m.along, most * (to - from));
+        assert_close(p.gamma, m.gamma, 0.0);
     }
 }
 
@@ -242,7 +277,6 @@ static void water_at_rest_stays(void **state)
     }
 }
 
-/* The force on a body in still water is its weight of water, from the first evaluation on. */
 /* What the shift of a stirred tank does against gravity, over what it would if all of it sank. */
 static double shift_work(int scheme)
 {
@@ -278,11 +312,12 @@ static void the_shift_is_workless(void **state)
     assert_true(shift_work(SCHEME_RIEMANN_ALE) > 1e-4); /* its densities know */
 }
 
-static void body_in_still_water(void **state)
+/* The force on a body in still water is its weight of water, from the first evaluation on. */
+static void float_in_still_water(int integrals)
 {
     struct sph_case c;
-    (void)state;
     tank(&c, 50, false, WALLS_NFM);
+    c.prm.wall_integrals = integrals;
     struct scene_body *b = c.run.scene.bodies;
     c.run.scene.nbodies = 1;
     b->points.n = 4;
@@ -297,6 +332,14 @@ static void body_in_still_water(void **state)
     assert_close(f.F[1], 0.04 * 1000.0 * 9.81, 0.01 * 0.04 * 1000.0 * 9.81);
     assert_close(f.M[2], 0.0, 1e-6);
     sph_free(&c.s);
+}
+
+static void body_in_still_water(void **state)
+{
+    (void)state;
+    float_in_still_water(INTEGRALS_CLOSED);
+    float_in_still_water(INTEGRALS_CENTROIDS);
+    float_in_still_water(INTEGRALS_NUMERICAL);
 }
 
 /* A star turned by `degrees' in the middle of a full tank: the least of what walls leave of the
@@ -578,6 +621,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(gamma_agrees_with_the_table),
                                        cmocka_unit_test(moments_are_integrals),
+                                       cmocka_unit_test(points_miss_gamma_before_them),
+                                       cmocka_unit_test(points_are_of_second_order),
                                        cmocka_unit_test(gamma_rises_with_the_wall),
                                        cmocka_unit_test(eigenvalues),
                                        cmocka_unit_test(surface_is_found),
