@@ -268,7 +268,7 @@ INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
     if (s->surface && !s->surface->known)
         unpack(t.M, s->surface->M + (ptrdiff_t)(dim * dim) * i, dim);
     if (filled)
-        s->surface->change[i] = u[at_volume(dim) - dim] * c->W0 + c->Wdx * t.W;
+        s->surface->less[i] = u[at_volume(dim) - dim] * c->W0 + c->Wdx * t.W;
     invert(t.M, B, dim);
     renormalise(slope, t.rho, B, c->kernel, dim);
     for (int a = 0; a < dim && velocity; a++)

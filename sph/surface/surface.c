@@ -34,7 +34,7 @@ void sph_surface_free(struct free_surface **f)
     mem_free((*f)->M);
     mem_free((*f)->g);
     mem_free((*f)->lambda);
-    mem_free((*f)->change);
+    mem_free((*f)->less);
     mem_free(*f);
     *f = NULL;
 }

@@ -17,8 +17,9 @@ struct free_surface {
     double *normal;    /* [n][dim] out of the fluid: on and near the surface, else 0 */
     double *M, *g;     /* [n][dim^2], [n][dim] moments with wall terms */
     double *lambda;    /* [n] smallest eigenvalue of M; 1 where there are neighbours enough */
-    double *change; /* [n] volume_feedback.h: sum w W of the first pass, then 1/s; if `follows' */
-    int change_capacity;
+    double *less;      /* [n] volume_feedback.h: sum w W of the first pass, then the share of their
+                          room that volumes lack; if `follows' */
+    int less_capacity;
     bool follows;
     bool fades;   /* shifts do, towards the surface [5.14], for comparison */
     double reach; /* m: near is within this of a particle on the surface */

@@ -8,7 +8,7 @@
 /* Before the first pass of a step: whether volumes are to follow, and room for n locals. */
 void volume_feedback_prepare(struct sph *s);
 /* After surface_detect and the walls' measures: rates of the step from the kernel sums that the
- * first pass has left in s->surface->change. */
+ * first pass has left in s->surface->less. */
 void volume_feedback_find(struct sph *s);
 /* Adds them to the rates of a stage. */
 void volume_feedback_add(struct sph *s);
