@@ -1,14 +1,15 @@
-/* exit.h - the exit codes of all programs. SPDX-License-Identifier: BSD-3-Clause */
+/* exit.h - the exit codes of all programs, as the shell sees them.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_EXIT_H
 #define COMMON_EXIT_H
 
 enum run_exit {
-    RUN_DONE = 0,
-    RUN_NOT_ACCEPTED = 1, /* done, outside the case's own tolerances */
-    RUN_INPUT = 2,
-    RUN_DIVERGED = 3,
-    RUN_PARTNER = 4,
-    RUN_STOPPED = 5 /* in order, on request; can be restarted */
+    RUN_DONE = 0,         /* the run reached its end and met the case's criteria */
+    RUN_NOT_ACCEPTED = 1, /* done, outside the case's own tolerances; also what fail() exits with */
+    RUN_INPUT = 2,    /* case, command line, disk or memory are at fault: the user can mend it */
+    RUN_DIVERGED = 3, /* the flow left what the numerics can represent */
+    RUN_PARTNER = 4,  /* another program of the coupled job failed or fell silent */
+    RUN_STOPPED = 5   /* stopped in order, on request; can be restarted */
 };
 
 #endif

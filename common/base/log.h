@@ -1,5 +1,6 @@
-/* log.h - what a program says: to the terminal and to its log file, whole lines only.
- * Rank 0 of the program speaks; fail() and log_here() speak from any rank.
+/* log.h - what a program prints: to the terminal and to its log file, always in whole lines. Rank 0
+ * of the program prints; the calls are legal on all ranks and silent on the others. fail(),
+ * fail_with() and log_here() print from any rank. None of the calls communicates.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_LOG_H
 #define COMMON_LOG_H
@@ -7,34 +8,43 @@
 #include <mpi.h>
 #include <stdbool.h>
 
-/* From here on rank 0 of comm speaks, as `program' ("sph"). Before: world rank 0. */
+/* From now on rank 0 of comm prints, under the name `program' ("sph", copied). Before this call
+ * rank 0 of MPI_COMM_WORLD does, or the process itself if MPI is not up. */
 void log_open(MPI_Comm comm, const char *program);
-/* Also to this file, line-buffered, appended to; rank 0 opens it. NULL closes. */
+/* Appends all later lines to the file `path' as well, line by line; only rank 0 opens it. The file
+ * of an earlier call is closed; NULL only closes. A file that cannot be opened is left out in
+ * silence. */
 void log_file(const char *path);
-/* One or more whole lines; a newline is added if there is none. Quiet: the file only. */
+/* One or more whole lines of at most 8190 bytes, the rest is cut; a newline is added if there is
+ * none. log_quiet writes to the file only. */
 void log_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 void log_quiet(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
-/* What a run uses and leaves out, a line: "on: A, B; off: C"; left_out NULL: the same words. */
+/* An ingredient of a run for the line "on: A, B; off: C", which says what the case uses and leaves
+ * out: `used' if on, else left_out (NULL: `used' as well). Texts are borrowed during the call. */
 struct log_use {
     bool on;
     const char *used, *left_out;
 };
 void log_uses(const struct log_use *uses, int n);
-/* "warning: ..." */
+/* As log_say, with "warning: " before the text. */
 void log_warn(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
-/* From any rank, with "program rank N: " before it (terminal, and the file on rank 0). */
+/* From any rank, with "program rank N: " before the text: to the terminal, on rank 0 to the file
+ * too. */
 void log_here(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 
-/* A fault of ours or of a library: program, rank, file and line, then MPI_Abort(world, 1). */
+/* An error of the code or of a library, not of the user: prints program, rank, reason (at most 2047
+ * bytes), file and line, calls fail_hook and ends all programs of the world with exit code 1 by
+ * MPI_Abort (a lone process simply exits). Does not return. */
 #define fail(...) fail_at(__FILE__, __LINE__, __VA_ARGS__)
+/* Ends the run through fail() if cond does not hold; stands in release builds, too. */
 #define require(cond) ((cond) ? (void)0 : fail("required: %s", #cond))
 _Noreturn void fail_at(const char *file, int line, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
-/* The run cannot go on for a reason that lies outside of it (disk, memory): one sentence, exit
- * code. */
+/* As fail(), with the caller's exit code (exit.h) and without file and line: for reasons that lie
+ * outside of the code, such as a full disk. The reason is one sentence. */
 _Noreturn void fail_with(int code, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
-/* Called by fail_at and fail_with before the abort (the death note of a coupled job); NULL:
- * nothing. */
+/* Called with the reason before the run is aborted: it writes the failure report of a coupled job
+ * and must not fail itself. NULL: nothing is called. */
 extern void (*fail_hook)(const char *reason);
 
 #endif

@@ -1,23 +1,28 @@
-/* timer.h - named timers of a program, nested by hand, and their table over the ranks.
+/* timer.h - named timers of a program. They may nest, and then the outer one counts the time of the
+ * inner one, too. Local to the rank; the table over ranks is written by run.c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_TIMER_H
 #define COMMON_TIMER_H
 
 #include <mpi.h>
 
+/* More names than this end the run through fail(). */
 enum { TIMER_MAX = 48 };
+/* All timers of a program; zeroed memory is a valid start. */
 struct timers {
-    int n;
+    int n; /* timers in use */
     struct timer {
         const char *name; /* borrowed: a literal */
         double wall;      /* s, summed */
-        double start;
-        long calls;
+        double start;     /* s, wall_time() of the last start */
+        long calls;       /* number of stops */
     } of[TIMER_MAX];
 };
 
-/* The timer of this name is made at the first start. */
+/* Starts the timer of this name, making it at the first call. A timer must not be started twice
+ * without a stop: the first interval would be lost. */
 void timer_start(struct timers *t, const char *name);
+/* Adds the time since timer_start to the timer. */
 void timer_stop(struct timers *t, const char *name);
 double timer_wall(const struct timers *t, const char *name); /* s; 0 if there is none */
 double wall_time(void);                                      /* s, monotonic */

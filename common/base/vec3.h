@@ -1,4 +1,6 @@
-/* vec3.h - inline vectors of three components. SPDX-License-Identifier: BSD-3-Clause */
+/* vec3.h - inline operations on vectors of three components, plain double[3] in any unit. Arguments
+ * may not overlap with results unless a comment allows it.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_VEC3_H
 #define COMMON_VEC3_H
 
@@ -11,7 +13,7 @@ static inline double vec3_dot(const double *a, const double *b)
 
 static inline double vec3_length(const double *a) { return sqrt(vec3_dot(a, a)); }
 
-/* c may be a or b. */
+/* c = a x b; c may be a or b. */
 static inline void vec3_cross(const double *a, const double *b, double *c)
 {
     const double d[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
@@ -20,13 +22,15 @@ static inline void vec3_cross(const double *a, const double *b, double *c)
         c[k] = d[k];
 }
 
-static inline void vec3_add(double *to, double f, const double *a) /* to += f a */
+/* to += f a; `to' may be a. */
+static inline void vec3_add(double *to, double f, const double *a)
 {
     for (int k = 0; k < 3; k++)
         to[k] += f * a[k];
 }
 
-static inline void vec3_from(const double *a, const double *b, double *d) /* d = b - a */
+/* d = b - a, the way from a to b; d may be a or b. */
+static inline void vec3_from(const double *a, const double *b, double *d)
 {
     for (int k = 0; k < 3; k++)
         d[k] = b[k] - a[k];
@@ -39,7 +43,7 @@ static inline double vec3_distance(const double *a, const double *b)
     return vec3_length(d);
 }
 
-/* Makes a unit vector of a, returns its length; 0 stays 0. */
+/* Makes a unit vector of a and returns the length it had; a zero vector stays zero. */
 static inline double vec3_unit(double *a)
 {
     const double length = vec3_length(a);

@@ -1,20 +1,25 @@
-/* disk.h - what is said when a file cannot be written, and the sums that show that a file is whole.
+/* disk.h - one wording for files that cannot be written, and checksums that show that a restart
+ * file is whole. The functions are local to a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_DISK_H
 #define COMMON_DISK_H
 
 #include <stdbool.h>
 
-/* Ends the run as one whose input is at fault: what could not be written, the system's reason, and
- * what is free where it should go. From any rank. */
+/* Ends the run with RUN_INPUT (fail_with): names the file, the system's reason from errno and
+ * whether the disk is full (less than 1 MB free). If path ends in ".part" the unfinished file is
+ * removed, which makes room for the failure report. From any rank; does not return. */
 _Noreturn void disk_failed(const char *path);
-/* disk_failed if there is no room for so many bytes and some more: a collective write that fails on
- * one rank may leave the others waiting in the library. */
+/* Calls disk_failed if fewer than `bytes' bytes and 64 kB of spare are free where path is. Asked
+ * before a collective write: one that fails on a single rank may leave the others waiting inside
+ * the library. */
 void disk_room(const char *path, double bytes);
-/* Appends a sum over all bytes of a file that is complete; false: it cannot be written. HDF5 reads
- * what its own header counts and passes over the rest. */
+/* Appends 16 bytes, a mark and a 64-bit checksum over the length and all bytes before them, to a
+ * file that is complete. false: it cannot be read or written. HDF5 takes the length of a file from
+ * its own header and ignores what follows. */
 bool disk_seal(const char *path);
-/* Whether a file ends with the sum over its other bytes: not cut short, no bit changed. */
+/* Whether a file ends with the mark and the right checksum: it is not cut short and no bit
+ * changed. */
 bool disk_sealed(const char *path);
 
 #endif

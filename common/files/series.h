@@ -1,38 +1,49 @@
-/* series.h - series.csv, one row a step or every n, and summary.json, the end of the run.
- * Rank 0 writes; on the other ranks the calls do nothing. SPDX-License-Identifier: BSD-3-Clause */
+/* series.h - series.csv, one row a step or every n steps, and summary.json, the figures at the end
+ * of a run. Rank 0 writes; on the other ranks a series is made with path NULL and its calls do
+ * nothing.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SERIES_H
 #define COMMON_SERIES_H
 
 #include <stdbool.h>
 
+/* an open series.csv: made by series_create, freed by series_free */
 struct series;
-/* columns "t [s]", "dt [s]", ... borrowed literals. keep: append to an existing file whose rows
- * after t_restart are dropped. path NULL: writes nothing (other ranks). */
+/* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; two of the
+ * same name end the run through fail(). keep: append to an existing file, without its rows later
+ * than t_restart, s, and without a last row that is cut short. path NULL: nothing is written. A
+ * file that cannot be written ends the run (disk_failed). */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart);
+/* Writes one row, values[ncolumns] with 12 digits, flushed at once. */
 void series_row(struct series *s, const double *values);
+/* Closes the file and sets *s to NULL. */
 void series_free(struct series **s);
 
-/* Keys with dots become nested objects: "error.velocity_l2". The order of insertion is kept. */
+/* The summary in memory: an ordered list of keys with values. Keys with dots become nested objects,
+ * "error.velocity_l2"; the order of insertion is kept. Keys and texts are copied. */
 struct summary;
 struct summary *summary_create(void);
 void summary_free(struct summary **s);
+/* Each sets the value of a key, replacing an earlier one in its place. Non-finite numbers become
+ * null. */
 void summary_real(struct summary *s, const char *key, double v); /* non-finite: null */
-/* Least u, largest and least v on a cavity's centre lines, and their largest relative deviation
- * from the known ones. */
+/* For lid-driven cavities: found and known hold the smallest u, the largest and the smallest v on
+ * the centre lines, m/s; writes them and their largest relative deviation as error.extrema. */
 void summary_extrema(struct summary *s, const double found[3], const double known[3]);
 void summary_int(struct summary *s, const char *key, long long v);
 void summary_bool(struct summary *s, const char *key, bool v);
 void summary_text(struct summary *s, const char *key, const char *v);
 void summary_texts(struct summary *s, const char *key, int n, const char *const *v);
-/* false if there is no such number. */
+/* The number of this key; false if there is none, *v is untouched. */
 bool summary_find(const struct summary *s, const char *key, double *v);
-/* NULL if there is no such text; as JSON has it, in quotes. Borrowed. */
+/* The text, truth value or list of this key as JSON has it (texts in quotes); NULL if there is
+ * none. Borrowed until the key is set again. */
 const char *summary_find_text(const struct summary *s, const char *key);
 /* Calls f for every number in the order of insertion. */
 void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key, double v),
                   void *ctx);
-/* Writes by rename. */
+/* Writes the file by rename; failure ends the run (disk_failed). */
 void summary_write(const struct summary *s, const char *path);
 
 #endif

@@ -1,5 +1,7 @@
-/* table.h - columns of a CSV file: lines of comments begin with #, one line of names ("t [s]": the
- * name ends before the unit), rows of numbers. SPDX-License-Identifier: BSD-3-Clause */
+/* table.h - reads columns of a CSV file: lines of comments begin with #, the first other line holds
+ * the names ("t [s]": the name ends before the unit), each further line a row of numbers. Local to
+ * a rank.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_TABLE_H
 #define COMMON_TABLE_H
 
@@ -11,10 +13,12 @@ struct table {
     double *v;   /* [nrows][ncolumns]; NaN where a field is no number */
 };
 
-/* NULL if the file cannot be read or has no row; owned by the caller. */
+/* Reads the file. Rows shorter than the header are filled with NaN, longer ones are cut. NULL if
+ * the file cannot be read or has no row of numbers. Owned by the caller, freed by table_free. */
 struct table *table_read(const char *path);
+/* Frees the table and sets *t to NULL; *t may be NULL. */
 void table_free(struct table **t);
-/* -1 if there is none of this name. */
+/* Index of the column of this name (without unit); -1 if there is none. */
 int table_column(const struct table *t, const char *name);
 
 #endif

@@ -1,4 +1,6 @@
-/* body_math.h - vectors and rotations of rigid bodies. Matrices are rows; quaternions (w, x, y, z).
+/* body_math.h - rotations of rigid bodies, inline. A matrix Q[3][3] is stored by rows and turns
+ * from the body's axes to those of space; quaternions are (w, x, y, z); rotation vectors are axis
+ * times angle in rad.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_BODY_MATH_H
 #define COMMON_BODY_MATH_H
@@ -7,6 +9,7 @@
 
 #include "../base/vec3.h"
 
+/* to = Q v; `to' may be v. */
 static inline void turn3(double Q[3][3], const double *v, double *to)
 {
     const double w[3] = {vec3_dot(Q[0], v), vec3_dot(Q[1], v), vec3_dot(Q[2], v)};
@@ -14,7 +17,7 @@ static inline void turn3(double Q[3][3], const double *v, double *to)
         to[k] = w[k];
 }
 
-/* Q^T v */
+/* to = Q^T v, the inverse rotation; `to' may be v. */
 static inline void turn_back3(double Q[3][3], const double *v, double *to)
 {
     double w[3] = {0.0, 0.0, 0.0};
@@ -24,7 +27,7 @@ static inline void turn_back3(double Q[3][3], const double *v, double *to)
         to[k] = w[k];
 }
 
-/* Of a quaternion of any length. */
+/* Rotation matrix of a quaternion q[4] of any length but 0. */
 static inline void rotation_of_quaternion(const double *q, double Q[3][3])
 {
     const double n = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
@@ -37,7 +40,8 @@ static inline void rotation_of_quaternion(const double *q, double Q[3][3])
             Q[a][b] = R[a][b];
 }
 
-/* sin s/s, (1 - cos s)/s^2, (s - sin s)/s^3 */
+/* f = sin s/s, g = (1 - cos s)/s^2, h = (s - sin s)/s^3 of an angle s >= 0 in rad, by their series
+ * below 0.01, where the quotients would lose digits. */
 static inline void rotation_factors(double s, double *f, double *g, double *h)
 {
     const double s2 = s * s;
@@ -52,7 +56,7 @@ static inline void rotation_factors(double s, double *f, double *g, double *h)
     *h = (s - sin(s)) / (s2 * s);
 }
 
-/* Of a rotation vector: axis times angle, rad. */
+/* Rotation matrix of a rotation vector r (Rodrigues): Q = 1 + f [r]x + g [r]x^2. */
 static inline void rotation_of_vector(const double *r, double Q[3][3])
 {
     double f, g, h;
@@ -68,7 +72,7 @@ static inline void rotation_of_vector(const double *r, double Q[3][3])
     Q[0][2] += f * r[1];
 }
 
-/* Rotation vector of a quaternion, angle at most pi. */
+/* Rotation vector of a quaternion q[4] of any length but 0; its angle is at most pi. */
 static inline void vector_of_quaternion(const double *q, double *r)
 {
     const double v = vec3_length(q + 1), w = fabs(q[0]);
@@ -77,7 +81,8 @@ static inline void vector_of_quaternion(const double *q, double *r)
         r[k] = (q[0] < 0.0 ? -f : f) * q[1 + k];
 }
 
-/* Angular velocity in space axes of a rotation vector r that changes at the rate dr. */
+/* Angular velocity omega, rad/s, in the axes of space of a rotation vector r, rad, that changes at
+ * the rate dr, rad/s: omega = dr + g r x dr + h r x (r x dr). */
 static inline void spin_of_vector(const double *r, const double *dr, double *omega)
 {
     double f, g, h, a[3], b[3];

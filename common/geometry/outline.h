@@ -1,7 +1,8 @@
-/* outline.h - corners of a line in the plane from a file: CSV rows x, y (a line of names first and
- * lines that begin with # are passed over), or the first path, polygon or polyline of an SVG
- * drawing, "drawing.svg#id" that of this id. Curves are divided into chords. Of a drawing the
- * lower left corner of the page is the origin, y points up, lengths are in its own units.
+/* outline.h - reads the corners of a polyline in the plane from a file: CSV rows x, y (a first line
+ * of names and lines that begin with # are passed over), or the first path, polygon or polyline of
+ * an SVG drawing; "drawing.svg#id" is the one of this id. Curves are divided into chords. Of a
+ * drawing the lower left corner of the page is the origin, y points up, lengths are in its own
+ * units.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_OUTLINE_H
 #define COMMON_OUTLINE_H
@@ -9,14 +10,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* The polyline as read. */
 struct outline {
-    int n;
+    int n;          /* corners */
     double (*x)[2]; /* [n]; owned */
     bool closed;    /* the last corner is joined with the first, which does not come twice */
 };
 
-/* At most `most' corners: chords of curves as long as that allows, corners that lie on a line with
- * their neighbours left out. false: why in text. x is to be freed by the caller (mem_free). */
+/* Reads at most `most' corners into *is: chords of curves as short as that allows, and corners that
+ * lie on the straight line between their neighbours are left out. is->x is owned by the caller
+ * (mem_free). false: text[size] says what is wrong with the file. Local to a rank. */
 bool outline_read(const char *file, int most, struct outline *is, char *text, size_t size);
 
 #endif

@@ -1,6 +1,7 @@
-/* trimesh.h - surfaces made of triangles: read, weld, check, place, measure.
- * A mesh has one list of vertices and one of triples; the normal of a triangle is that of
- * (v1 - v0) x (v2 - v0). Walls want it out of the fluid, i.e. into the solid.
+/* trimesh.h - surfaces made of triangles: weld, repair, place, measure. A mesh has one list of
+ * vertices and one of triples; the normal of a triangle is that of (v1 - v0) x (v2 - v0). Walls
+ * want it to point out of the fluid, i.e. into the solid. Everything here is local to a rank; ranks
+ * that need the same mesh do the same work on the same data.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_TRIMESH_H
 #define COMMON_TRIMESH_H
@@ -8,57 +9,73 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* A mesh. x and vertex are the data, all else follows from them by trimesh_connect and is out of
+ * date after a change of them. The arrays are owned; zeroed memory is an empty mesh. */
 struct trimesh {
     int nvertices, ntriangles;
     double (*x)[3];      /* [nvertices], m */
-    int (*vertex)[3];    /* [ntriangles] */
-    int (*neighbour)[3]; /* [ntriangles] across the edge k -> k+1; -1: edge of an open surface */
+    int (*vertex)[3];    /* [ntriangles] indices into x */
+    int (*neighbour)[3]; /* [ntriangles] the triangle across edge k -> k+1; -1: boundary edge */
     int *part;           /* [ntriangles] connected part, from 0 */
-    int nparts;
-    bool closed; /* every part is */
-    /* Edges of one triangle; of three and more; of two that run it in the same sense. */
+    int nparts;          /* connected parts */
+    bool closed;         /* no triangle has a boundary edge */
+    /* Number of edges with one triangle; with three or more, of which pairs of opposite sense are
+     * made neighbours; with two triangles that run along it in the same sense, so that their
+     * normals contradict each other. */
     int rims, junctions, clashes;
 };
 
+/* Frees the arrays and zeroes *m. */
 void trimesh_free(struct trimesh *m);
+/* A copy that owns arrays of its own. */
 struct trimesh trimesh_copy(const struct trimesh *m);
-/* neighbour, part and what hangs on them, after x and vertex were set or changed. */
+/* Computes neighbour, part, closed and the counts of edges after x and vertex were set or
+ * changed. */
 void trimesh_connect(struct trimesh *m);
-/* Adds the triangles of `more'; both must be joined by trimesh_connect afterwards. */
+/* Adds copies of the triangles of `more' to m; vertices are not joined. The mesh must be connected
+ * anew. */
 void trimesh_append(struct trimesh *m, const struct trimesh *more);
-/* Turns the normals of one part, or of all (-1). */
+/* Reverses the normals of one part, or of all (part -1), and keeps the neighbours up to date. */
 void trimesh_turn(struct trimesh *m, int part);
+/* Bounding box of the vertices, m; without vertices lo = INFINITY, hi = -INFINITY. */
 void trimesh_bounds(const struct trimesh *m, double lo[3], double hi[3]);
-/* Unit normal of a triangle (0: it has none) and its area, m^2. */
+/* Sets the unit normal n of a triangle (0 if it has no area) and returns its area, m^2. */
 double trimesh_normal(const struct trimesh *m, int triangle, double n[3]);
+/* Centroid of a triangle, m. */
 void trimesh_middle(const struct trimesh *m, int triangle, double x[3]);
+/* Area of all triangles, m^2. */
 double trimesh_area(const struct trimesh *m);
-/* For each triangle a number that neighbours in one plane share, -1 where no neighbour lies in its
- * plane; [ntriangles], the caller's. */
+/* For each triangle a number that is shared by connected neighbours in one plane; -1 where no
+ * neighbour lies in the triangle's plane. [ntriangles], owned by the caller (mem_free). */
 int *trimesh_planes(const struct trimesh *m);
 
-/* What a closed surface holds, with density 1 (Eberly, Polyhedral mass properties, 2002, after
- * Mirtich, J. Graphics Tools 1, 1996): negative where its normals point in. */
+/* Mass properties with density 1 of what a closed surface encloses (Eberly, Polyhedral mass
+ * properties, 2002, after Mirtich, J. Graphics Tools 1, 1996); volume and inertia are negative
+ * where the normals point inwards. */
 struct trimesh_solid {
     double volume;        /* m^3 */
     double centre[3];     /* m */
-    double inertia[3][3]; /* m^5, about the centre */
+    double inertia[3][3]; /* m^5, tensor about the centre, axes of the mesh */
 };
-struct trimesh_solid trimesh_solid(const struct trimesh *m, int part); /* -1: all */
+/* Of one closed part, or of all together (part -1). The mesh must be connected if part >= 0. */
+struct trimesh_solid trimesh_solid(const struct trimesh *m, int part);
 
-/* Makes vertices one that lie within the tolerance, m, of each other: the first met stays. Returns
- * how many went; the mesh must be connected anew. */
+/* Joins vertices that lie within the tolerance, m, of each other: the one of the lowest index stays
+ * where it is. Returns how many were removed; the mesh must be connected anew. */
 int trimesh_weld(struct trimesh *m, double tolerance);
-/* Takes out triangles of two equal corners, or of a height of at most `least', m; connect anew. */
+/* Removes triangles with two equal corners or a height over the longest edge of at most `least', m,
+ * and returns how many; the mesh must be connected anew. */
 int trimesh_drop_flat(struct trimesh *m, double least);
-/* Gives back the memory that lists of before need no more, and vertices that no triangle has. */
+/* Drops vertices that no triangle uses and shrinks the arrays to what is in use. */
 void trimesh_trim(struct trimesh *m);
-/* Gives each part one sense, that of most of its triangles; returns how many were turned. What has
- * but one side keeps clashes. */
+/* Gives the triangles of each part one sense, that of the majority of them; returns how many were
+ * turned. Surfaces with one side only, such as a Moebius strip, keep m->clashes > 0. */
 int trimesh_orient(struct trimesh *m);
 
-/* Solids with normals out, connected. A box with n x n squares of two triangles a face; a sphere of
- * 20 times 4^level triangles; what a polygon (counter-clockwise, convex or not) sweeps along z. */
+/* Closed solids with outward normals, already connected, owned by the caller. trimesh_box has n x n
+ * squares of two triangles on each face; trimesh_sphere is an icosahedron refined `level' times, 20
+ * times 4^level triangles; trimesh_prism is what a simple polygon points[n] (counter-clockwise,
+ * convex or not) sweeps along z from low to high. Lengths in m. */
 struct trimesh trimesh_box(const double lo[3], const double hi[3], int n);
 struct trimesh trimesh_sphere(const double centre[3], double radius, int level);
 struct trimesh trimesh_prism(int n, const double (*points)[2], double low, double high);

@@ -1,4 +1,5 @@
-/* trimesh_check.h - what is to be known of a mesh before a fluid meets it.
+/* trimesh_check.h - what must be known of a mesh before it bounds a fluid: whether it crosses
+ * itself or others, how fine it is, which way its normals point.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_TRIMESH_CHECK_H
 #define COMMON_TRIMESH_CHECK_H
@@ -7,25 +8,33 @@
 
 #include "tree.h"
 
-/* Triangles of a that pierce triangles of b (a == b: of itself, neighbours left out); first: the
- * lowest of them in a, -1: none. Collective over comm: each rank looks at its share. */
+/* Number of triangles of a that pierce triangles of b; touching is no crossing. a == b: of itself,
+ * triangles with a common vertex left out. tree: that of b. *first: the lowest of them in a, -1:
+ * none. Collective over comm, whose ranks all hold both meshes and share the triangles of a between
+ * them; result and *first are equal on all. */
 int trimesh_crossings(const struct trimesh *a, const struct tree *tree, const struct trimesh *b,
                       MPI_Comm comm, int *first);
-/* Lengths of the sides, m. */
+/* Lengths of the edges, m: smallest, mean over triangles and edges, largest. */
 struct trimesh_sizes {
     double least, mean, most;
-    /* About the largest distance between the triangles and the smooth surface that they may stand
-     * for, m: of edges bent by less than 40 degrees. */
+    /* Estimate of the largest distance, m, between the triangles and the smooth surface that they
+     * may approximate: of edges whose triangles enclose less than 40 degrees, height times angle
+     * over 4. */
     double sagitta;
 };
+/* Measures a connected mesh. */
 struct trimesh_sizes trimesh_sizes(const struct trimesh *m);
-/* A closed part with its normals into what it encloses, a part inside of another one the other
- * way round; sign -1: all the reverse. Returns how many parts were turned. */
+/* Orients the closed parts of a connected mesh. sign 1: normals point out of what a part encloses;
+ * of a part that lies inside another one, a hole in it, they point into the hole, so that all
+ * normals leave the region between the two. sign -1: all the reverse. Returns how many parts were
+ * turned. */
 int trimesh_orient_closed(struct trimesh *m, int sign);
-/* Of an open surface: volume under a cover from the middle of its boundary, and its mean normal by
- * area, of length 0 of a closed one, 1 of a plane. Returns that length. */
+/* For a surface with boundary edges: *volume, m^3, is that between it and a cone from the centroid
+ * of its boundary vertices, positive where normals point away from that; normal is the
+ * area-weighted mean of the unit normals. Returns the length of `normal': 0 for a closed surface, 1
+ * for a plane. */
 double trimesh_openness(const struct trimesh *m, double *volume, double normal[3]);
-/* 64-bit FNV-1a of vertices and triples. */
+/* 64-bit FNV-1a over the bytes of x and vertex: equal meshes in equal order have equal hashes. */
 uint64_t trimesh_hash(const struct trimesh *m);
 
 #endif

@@ -1,4 +1,6 @@
-/* trimesh_read.h - triangles from files of other programs. SPDX-License-Identifier: BSD-3-Clause */
+/* trimesh_read.h - triangles from files of other programs, through the library assimp where the
+ * program was built with it. The library hands out single precision.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_TRIMESH_READ_H
 #define COMMON_TRIMESH_READ_H
 
@@ -7,12 +9,13 @@
 
 #include "trimesh.h"
 
-/* Reads STL (text, binary), OBJ or PLY: every corner of every triangle as the file has it, neither
- * welded nor connected. false: why says what is wrong and what helps. On one rank. */
+/* Reads STL (text or binary), OBJ or PLY into *m (owned by the caller): every corner of every
+ * triangle as the file has it, neither welded nor connected. false: why[size] says what is wrong
+ * and what helps. Called on one rank, then trimesh_broadcast. */
 bool trimesh_read(const char *path, struct trimesh *m, char *why, size_t size);
 /* Whether this program was built with a reader. */
 bool trimesh_has_reader(void);
-/* What rank 0 has, connected, to all ranks. Collective. */
+/* Copies the connected mesh of rank 0 to all ranks. Collective over comm. */
 void trimesh_broadcast(struct trimesh *m, MPI_Comm comm);
 
 #endif

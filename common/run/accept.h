@@ -1,4 +1,5 @@
-/* accept.h - a case's own criteria: numbers of summary.json, and series beside reference data.
+/* accept.h - a case's own criteria (group accept): numbers of summary.json against bounds, and
+ * columns of series.csv against reference data.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_ACCEPT_H
 #define COMMON_ACCEPT_H
@@ -10,7 +11,7 @@
 
 struct summary;
 
-/* How far a series lies from its reference between two times, as a fraction. */
+/* A series of n samples; arrays borrowed. */
 struct accept_series {
     int n;
     const double *t, *v; /* [n], t rising */
@@ -18,18 +19,22 @@ struct accept_series {
 /* rms: of the difference at the reference's times, over the range of the reference; peak: of the
  * largest values; impulse: of the integrals; arrival: of the times at which half of the reference's
  * peak is first passed. NaN if they share no time, or the reference is 0 throughout. */
+/* How far a series lies from its reference between the times from and to, s, as a fraction. measure
+ * is an enum accept_measure. */
 double accept_distance(int measure, struct accept_series run, struct accept_series reference,
                        double from, double to);
-/* References that cannot be read or lack their columns, faults with file and line. */
+/* Adds a fault with file and line for each reference that cannot be read or lacks its columns, and
+ * for each criterion that does not make sense. Call on all ranks alike. */
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
                   struct faults *f);
-/* Criteria whose series is none of these n columns ("H1 [m]") of the run: faults with the nearest
- * name. For a program alone, before its first step; of a job nobody has all columns. */
+/* Adds a fault, with the nearest known name, for each criterion whose series is none of the n
+ * columns ("H1 [m]") of the run. For a program that runs alone, before its first step; in a coupled
+ * job no single program knows all columns. */
 void accept_check_columns(const struct scene *s, const struct params *p, int n,
                           const char *const *columns, struct faults *f);
-/* Prints a line for each criterion and puts what was compared into the summary; false: not all are
- * met, or one is not to be found. Series are read from the run's folder (of all programs of a job).
- * Rank 0 of a program. */
+/* Prints a line for each criterion and adds what was compared to the summary. false: a criterion is
+ * not met, or what it names cannot be found. Series are read from the run's folder dir, in a
+ * coupled job those of all programs. Called on rank 0 of a program, after the series are closed. */
 bool accept_judge(const struct scene *s, const char *case_dir, const char *dir,
                   struct summary *summary);
 

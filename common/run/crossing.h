@@ -1,25 +1,29 @@
-/* crossing.h - coupled jobs whose free surface crosses open sides of SPH's box: both programs have
- * a part of it, and of one pressure that is 0 on it. SPDX-License-Identifier: BSD-3-Clause */
+/* crossing.h - coupled jobs whose free surface crosses open sides of SPH's box. Both programs then
+ * hold a part of the surface, and their pressures share one reference, 0 on the surface.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_CROSSING_H
 #define COMMON_CROSSING_H
 
 #include "run.h"
 
-/* The box of a group of particles (box, or else free); false: it has none. Collective over r->comm.
- */
+/* Sets box = lower and upper corner, m, of a group of particles ("sph"): its key box, or else free.
+ * false: it has neither, box is untouched. Collective over r->comm. */
 bool crossing_box(const struct run *r, const char *group, double box[2][3]);
-/* From the case alone, so that both programs say the same: the water has a surface, gravity holds
- * it down, and a box of particles (sph.box or sph.free, sph_left.box ...) ends inside the domain
- * along an axis across gravity, or below its top.
+/* Whether this is such a job. Decided from the case alone, so that both programs find the same: the
+ * water has a free surface, gravity is along an axis, and a box of particles (sph.box or sph.free,
+ * sph_left.box ...) ends inside the domain across an axis other than gravity's, or below its top.
  * Collective over r->comm. */
 bool crossing_find(const struct run *r);
-/* Deals out the gauges of the scene: r->gauge_elsewhere. In a coupled job SPH reads those in its
- * box, at its start, and those of bodies, FV those outside; of points both where a box moves under
- * no surface. Collective over r->comm. */
+/* Deals out the gauges of the scene to the programs of a coupled job: r->gauge_elsewhere. SPH reads
+ * those in its box at the start and those of bodies, FV those outside; a gauge of the surface's
+ * level counts by its horizontal position where a surface crosses, else it is SPH's. Gauges of
+ * points are read by both where a box moves under no surface. Collective over r->comm. */
 void crossing_deal(struct run *r);
-/* Height of the water above the domain's floor at the start, along axis a, m. */
+/* Depth of the water at the start, m: from the domain's floor to the highest point of the fluid's
+ * shapes, or to initial.level, against gravity along axis a. */
 double crossing_depth(const struct scene *c, int a);
-/* sqrt(H/g) of that depth, s: what long waves take over one depth. */
+/* sqrt(H/g) with that depth H, s: a long wave takes this time over a distance of one depth.
+ * INFINITY if gravity is not along an axis. */
 double crossing_time(const struct scene *c);
 
 #endif

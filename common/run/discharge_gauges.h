@@ -1,5 +1,6 @@
-/* discharge_gauges.h - the volumes that went through discharge gauges over a run: what overtops a
- * wall goes through a line over its crest. SPDX-License-Identifier: BSD-3-Clause */
+/* discharge_gauges.h - the volumes that went through discharge gauges in a run. The overtopping of
+ * a wall, for example, is what goes through a gauge above its crest.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_DISCHARGE_GAUGES_H
 #define COMMON_DISCHARGE_GAUGES_H
 
@@ -7,8 +8,9 @@
 #include "../scene/scene.h"
 #include "run.h"
 
-/* From the columns of series.csv into the log and summary.json: discharge.NAME.volume (net),
- * .forward, .back (m^dim) and .largest (m^dim/s). */
+/* Integrates the columns of the series at `path' in time, linear between rows, and reports to log
+ * and summary: discharge.NAME.volume (net), .forward, .back (m^dim, both positive) and .largest
+ * (magnitude, m^dim/s). Columns that the series lacks are left out. Rank 0. */
 void discharge_gauges_judge(const struct scene *s, const char *path, struct summary *summary);
 
 #endif

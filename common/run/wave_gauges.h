@@ -1,5 +1,5 @@
-/* wave_gauges.h - what groups of level gauges (gauges = ( {...} )) say of waves at the end of a
- * run, from its series.csv: incident and reflected waves, heights, spectra.
+/* wave_gauges.h - evaluates groups of level gauges (gauges = ( {...} )) at the end of a run from
+ * its series.csv: incident and reflected waves, heights, spectra.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVE_GAUGES_H
 #define COMMON_WAVE_GAUGES_H
@@ -7,12 +7,14 @@
 #include "../files/series.h"
 #include "../scene/scene.h"
 
-/* Faults: names that are no level gauges, no period, gauges that tell nothing. */
+/* Adds a fault for names that are no level gauges, for a missing period, and for gauges whose
+ * distances cannot separate the two waves. */
 void wave_gauges_check(const struct scene *s, const struct params *p, struct faults *f);
-/* Into the summary: reflection.NAME.incident (m), .reflected, .R of a group, height.GAUGE.mean,
- * .significant, .largest, .period, .waves, .spectral (4 sqrt(m0)) of each of its gauges, in a sea
- * that the case makes .error of that against waves.height; DIR/spectrum_NAME.csv. path: of
- * the series. Columns that it lacks (another program of a job has them) are left out. Rank 0. */
+/* Reads the series at `path' and writes to the summary, of each group: reflection.NAME.incident
+ * (m), .reflected (m), .R; of each of its gauges: height.GAUGE.mean, .significant, .largest,
+ * .period, .waves, .spectral (4 sqrt(m0)), and in a sea that the case makes .error of the latter
+ * against waves.height. Writes DIR/spectrum_NAME.csv. Columns that the series lacks, since another
+ * program of the job has them, are left out. Rank 0. */
 void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
                        struct summary *summary);
 
