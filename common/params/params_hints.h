@@ -1,4 +1,5 @@
-/* params_hints.h - what the parameter table knows about common slips.
+/* params_hints.h - what the parameter table knows about common slips: names of other codes,
+ * misspelt words, syntax that libconfig reports in the wrong line. For params*.c; local to rank 0.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_PARAMS_HINTS_H
 #define COMMON_PARAMS_HINTS_H
@@ -7,36 +8,43 @@
 
 #include "params.h"
 
-/* Bytes of a row's member. */
+/* Bytes of a row's member, by its type. */
 size_t param_size(const struct param *r);
 
-/* A group as libconfig text, plain SI; owned by the caller (mem_free). */
+/* A group as libconfig text in plain SI; owned by the caller (mem_free). */
 char *params_group_text(const struct params *p, const struct param_group *g);
 
-/* The known word with the smallest edit distance to a given one. */
+/* A search for the known word that is nearest to a given one by edit distance, where swapped
+ * neighbours count once. Words further away than a third of the letters (at least one) do not
+ * count. Texts are borrowed. */
 struct hint_nearest {
     const char *word, *best;
     int distance;
 };
 struct hint_nearest hint_nearest_start(const char *word);
 void hint_nearest_try(struct hint_nearest *n, const char *known);
-const char *hint_nearest_word(const struct hint_nearest *n); /* NULL if none is near */
+/* The nearest word tried so far; NULL: none is near. */
+const char *hint_nearest_word(const struct hint_nearest *n);
 
-/* A name that other codes have for a key, and what to say behind the key. */
+/* A name that other codes have for a key, and a remark to print behind the key. */
 struct hint_name {
     const char *word, *key, *remark;
 };
-/* The next of a word; after: the one before, NULL for the first. NULL: there is none. */
+/* The next entry for a word after `after' (NULL: the first); NULL: there is no more. Static
+ * memory. */
 const struct hint_name *hint_name_next(const char *word, const struct hint_name *after);
 
-/* The names of a group's keys, as "a, b, c". */
+/* Writes the names of a group's keys, "a, b, c", to text[size]; cut if need be. */
 void hint_keys(const struct param_group *g, char *text, size_t size);
 
-/* Line of a syntax fault (libconfig may name a later one) and a remedy by the looks of it. */
+/* Guesses the true line of a syntax fault that libconfig reports at `line' with the text `error',
+ * since it may name a later one; hint[size] gets a remedy that fits what stands there. Returns the
+ * line. */
 int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size);
-/* Why n bytes are no text that can be read; NULL if they may be. */
+/* Why n bytes cannot be read as text (UTF-16, binary); NULL if they may be text. Static memory. */
 const char *hint_no_text(const char *text, size_t n);
-/* Line of the first integer of ten digits or more without L, copied to word; 0 if there is none. */
+/* Line of the first integer of ten digits or more without L, which libconfig would wrap, copied to
+ * word[size]; 0 if there is none. */
 int hint_long_integer(const char *text, char *word, size_t size);
 
 #endif

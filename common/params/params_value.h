@@ -1,4 +1,4 @@
-/* params_value.h - reads the value of one row of the parameter table.
+/* params_value.h - reads the value of one row of the parameter table. For params*.c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_PARAMS_VALUE_H
 #define COMMON_PARAMS_VALUE_H
@@ -8,14 +8,19 @@
 
 #include "params.h"
 
-/* A number of any kind, or a text that is an expression (params_let.h); false: it is neither. */
+/* Sets *v to a number of any kind, or to the value of a text that is an expression (params_let.h);
+ * false: the setting is neither. */
 bool param_number(const config_setting_t *s, double *v);
-/* Reads a row's value into its member of target; false: why[size] says what is wrong with it. */
+/* Reads a row's value into its member of `target', the group's struct, and checks its range. false:
+ * why[size] says what is wrong and what is expected. Not for PARAM_LIST. */
 bool param_read(const struct param *r, const config_setting_t *s, void *target, char *why,
                 size_t size);
-/* Fills in the row's default, if it has one. */
+/* Sets the member to the row's default, without a check of the range, and all elements of a list to
+ * theirs; a row without default leaves the member alone. A default that cannot be read is an error
+ * of the code, fail(). */
 void param_default(const struct param_group *g, const struct param *r, void *target);
-/* The same of element k of a list. */
+/* The same for element k (from 0) of a list of groups: `#' at the end of a text becomes the number
+ * k + 1, or nothing in the first element. */
 void param_default_of(const struct param_group *g, const struct param *r, void *target, int k);
 
 #endif

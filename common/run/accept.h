@@ -23,8 +23,9 @@ struct accept_series {
  * is an enum accept_measure. */
 double accept_distance(int measure, struct accept_series run, struct accept_series reference,
                        double from, double to);
-/* Adds a fault with file and line for each reference that cannot be read or lacks its columns, and
- * for each criterion that does not make sense. Call on all ranks alike. */
+/* Adds a fault with file and line for each reference that cannot be read, whose first column is not
+ * t or that lacks its column, and for keys that go with a reference where none is given. Call on
+ * all ranks alike; each reads the files. */
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
                   struct faults *f);
 /* Adds a fault, with the nearest known name, for each criterion whose series is none of the n

@@ -57,8 +57,8 @@ struct diagnosis {
 
 /* What a solver provides to run_main: its names, its part of the parameter table and its functions.
  * `s' is the state that `create' returned; create, destroy, step and all that take s are collective
- * over r->comm. Order of the calls: meshes, complete, check, describe, offer, create, first, then
- * steps with rows, snapshots and checkpoints between them, finish, destroy. */
+ * over r->comm. Order of the calls: meshes, complete, check, offer, describe, create, window_wish,
+ * first, then steps with rows, snapshots and checkpoints between them, finish, destroy. */
 struct program {
     const char *name; /* "sph": name of its group, of its files */
     const char *help; /* one sentence */
@@ -175,7 +175,7 @@ struct command_line {
     const char *as; /* --as: name of one of several programs of a kind; NULL: the kind's own */
     int noverrides; /* number of -p GROUP.KEY=VALUE */
     const char *const *overrides;
-    /* --check, --check=picture, --check=waves, --restart, --force, --list-groups. */
+    /* --check, --check=picture, --check=waves, --restart, --force, --groups. */
     bool check, picture, waves, restart, force, groups;
     double deadline; /* s to meet the other programs */
     double patience; /* s without a sign of life of a partner */
