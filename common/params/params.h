@@ -109,7 +109,6 @@ struct param_group {
     const char *help;
     const struct param *rows;
     int nrows;
-    /* The struct that the rows fill, or an array of max structs of `stride' bytes. */
     void *target;  /* struct (or array of max structs of `stride' bytes) that the rows fill */
     bool *present; /* set to whether the case has the group; may be NULL */
     size_t stride; /* 0: a plain group */

@@ -10,9 +10,9 @@
  * false: it has neither, box is untouched. Collective over r->comm. */
 bool crossing_box(const struct run *r, const char *group, double box[2][3]);
 /* Whether this is such a job. Decided from the case alone, so that both programs find the same: the
- * water has a free surface, gravity is along an axis, and a box of particles (sph.box or sph.free,
- * sph_left.box ...) ends inside the domain across an axis other than gravity's, or below its top.
- * Collective over r->comm. */
+ * water has a free surface, gravity acts along some axis that is not periodic, and a box of
+ * particles (sph.box or sph.free, sph_left.box ...) ends inside the domain across another axis, or
+ * below its top. Collective over r->comm. */
 bool crossing_find(const struct run *r);
 /* Deals out the gauges of the scene to the programs of a coupled job: r->gauge_elsewhere. SPH reads
  * those in its box at the start and those of bodies, FV those outside; a gauge of the surface's
@@ -23,7 +23,7 @@ void crossing_deal(struct run *r);
  * shapes, or to initial.level, against gravity along axis a. */
 double crossing_depth(const struct scene *c, int a);
 /* sqrt(H/g) with that depth H, s: a long wave takes this time over a distance of one depth.
- * INFINITY if gravity is not along an axis. */
+ * INFINITY where gravity acts along periodic axes alone, or not at all. */
 double crossing_time(const struct scene *c);
 
 #endif

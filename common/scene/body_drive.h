@@ -1,5 +1,7 @@
-/* body_drive.h - prescribed motion of rigid bodies: files, harmonic terms, polynomials; they add
- * up. SPDX-License-Identifier: BSD-3-Clause */
+/* body_drive.h - evaluates the prescribed motion of a rigid body: rows of files, harmonic terms and
+ * polynomials, which add up. Velocities are the exact derivatives of the displacements. Local to a
+ * rank.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_BODY_DRIVE_H
 #define COMMON_BODY_DRIVE_H
 
@@ -9,57 +11,66 @@
 #include "motion_files.h"
 #include "scene_body.h"
 
-/* Place and velocity of a body, relative to its start, in space axes. */
+/* Displacement and velocity of a body relative to its start, in the axes of space. */
 struct body_motion {
     double x[3], u[3], du[3];   /* m, m/s, m/s^2: displacement of the centre */
     double r[3];                /* rad: rotation vector */
-    double Q[3][3];             /* of its rotation */
+    double Q[3][3];             /* rotation matrix of r */
     double omega[3], domega[3]; /* rad/s, rad/s^2 */
-    double angle, spin, dspin;  /* about z, as 2D has it */
+    double angle, spin, dspin;  /* rad, rad/s, rad/s^2 about z, as 2D needs them */
 };
 
+/* A term ready for evaluation; `is' and rows are borrowed. */
 struct body_term {
     const struct scene_motion *is;
-    int n;              /* rows of its file */
+    int n;              /* rows of its file; -1: no such file, 0: no file or faulty rows */
     const double *rows; /* [n][columns]: t and displacements; the file's */
-    double step;        /* s: that resolves them; of two rows or more */
+    double step;        /* s: a step that resolves the file, if it has two rows or more */
 };
 
-/* What a controller adds to one degree: d + v (t - at) + a (t - at)^2/2. */
+/* What a controller (wave_absorber.h) adds to one degree of freedom: d + v (t - at) + a (t -
+ * at)^2/2. */
 struct body_steer {
     int axis;       /* enum body_axis */
     double at;      /* s: of d and v */
     double d, v, a; /* m or rad, and its rates */
 };
 
+/* All terms of a body. Plain data, nothing to free. */
 struct body_drive {
-    int dim, nterms, columns; /* of files: 4 or 7 */
+    int dim, nterms, columns; /* columns of files: 4 in 2D, 7 in 3D */
     struct body_term term[MOTIONS_MAX];
-    double constant[BODY_AXES];     /* m/s, rad/s */
+    double constant[BODY_AXES]; /* m/s, rad/s: constant velocity of the driven degrees of freedom */
     const struct body_steer *steer; /* borrowed; NULL: none */
 };
 
-/* Of the terms alone; they are borrowed, and so are the rows of their files. */
+/* Sets *v from the terms alone; terms and files are borrowed for as long as *v is used. */
 void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int dim,
                       struct motion_files *files);
-/* Of a body; degrees that forces move are left out. */
+/* Sets *v from a body: its terms, and its constant velocity along the degrees of freedom that
+ * forces do not move (all of a body that is not free). */
 void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim,
                        struct motion_files *files);
-/* What is wrong with a term: its file, its axis, numbers that are missing, into text; false:
- * nothing is. */
+/* Whether a term is at fault (no file, an axis that 2D lacks, missing numbers): text[size] says
+ * what. */
 bool body_term_fault(const struct body_drive *v, int term, const struct motion_files *files,
                      char *text, size_t size);
-/* Displacements x, y, z and components of the rotation vector, their rates and second rates. */
+/* Displacements d along x, y, z, m, and components of the rotation vector, rad, with their first
+ * and second derivatives dd and ddd, at time t, s. */
 void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
                    double ddd[BODY_AXES]);
+/* The same as a motion with rotation matrix and angular velocity. In 3D domega is by central
+ * differences, exact enough for averaged forces, the only ones that ask for it. */
 void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m);
-/* Longest step from t that resolves the motion, s: a share of each period, of a polynomial's time
- * and of the ramp while they last, of a turn. INFINITY: nothing moves, or evenly without turning.
- */
+/* Longest step from t that resolves the motion, s: a fraction of each period, of the duration of a
+ * polynomial or of a ramp that is under way, and 0.1 rad of turn. INFINITY: nothing moves, or moves
+ * uniformly without turning. */
 double body_drive_step(const struct body_drive *v, double t);
-/* Next time after t at which a term starts, ends or has its full size, s; INFINITY: none. */
+/* The next time after t, s, at which a term starts, ends or reaches its full size; INFINITY:
+ * none. */
 double body_drive_event(const struct body_drive *v, double t);
-/* Largest speed until `end' of a point as far from the centre as `reach', m/s. */
+/* Largest speed, m/s, until the time `end' of a point at the distance `reach', m, from the centre;
+ * found by sampling. */
 double body_drive_speed(const struct body_drive *v, double reach, double end);
 
 #endif

@@ -21,16 +21,16 @@
 
 struct exact {
     int dim;
-    int n;                      /* modes; 0: rest or uniform flow */
-    double k[2][2], A[2], s[2]; /* wave vectors 1/m, amplitudes m^2/s, phases */
-    double K2;                  /* 1/m^2 */
-    double V[3];                /* m/s */
+    int n;                      /* number of modes; 0: rest, uniform flow or another field */
+    double k[2][2], A[2], s[2]; /* wave vectors 1/m, amplitudes m^2/s, phases rad */
+    double K2;                  /* 1/m^2: |k|^2, the same of all modes */
+    double V[3];                /* m/s: uniform velocity that carries the modes */
     double nu, rho;
-    double U; /* m/s: scale of velocity */
-    int field;
+    double U;              /* m/s: scale of velocity */
+    int field;             /* enum initial_field */
     double L, W;           /* m, 1/s: of initial.L, fluid.central */
     double bottom, height; /* m: of a channel along x; of the still layer of a wave */
-    double force;          /* m/s^2: along the channel */
+    double force;          /* m/s^2: body force along the channel */
     struct wave wave;
     struct stokes stokes;
     struct steady steady;
@@ -41,33 +41,42 @@ struct exact {
 /* Whether the scene's field solves the equations at all times, not only at the start. */
 bool exact_at_all_times(const struct scene *s);
 
-/* Whether it holds before t = 0, too: not where the flow is started from rest. */
+/* Whether the solution holds before t = 0, too, which it does not where the flow starts from
+ * rest. */
 bool exact_has_past(const struct exact *e);
 
+/* The solution of the scene's field. Plain data with nothing to free; of steep waves it solves for
+ * their shape, so keep it. */
 struct exact exact_create(const struct scene *s);
-/* Period (s) and rate of decay (1/s, < 0) of a standing wave or of the drop (rate 0: inviscid);
- * false for other fields. */
+/* Sets the period, s, and the rate of decay, 1/s, <= 0, of a standing wave or of the drop
+ * (inviscid: rate 0); false for other fields. */
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
-/* Height of the surface over x at t = 0, m; of waves of permanent form at any t. */
+/* Height of the surface over x, m: at t = 0, and for waves of permanent form at any t. */
 double exact_surface(const struct exact *e, double x);
 double exact_surface_at(const struct exact *e, double x, double t);
-/* Enstrophy of the standing wave over the bottom of the box lo..hi (m); m^dim/s^2. */
+/* Enstrophy, the integral of vorticity^2/2, of the standing wave in the water over the bottom of
+ * the box lo..hi, m; m^dim/s^2. */
 double exact_enstrophy(const struct exact *e, const double *lo, const double *hi, double t);
-/* What swings, per mass: the velocity u at x as part of the wave's inviscid mode, or the drop's
- * second moment; 0 for other fields. */
+/* A signal per unit mass that oscillates with the flow, to be summed over the fluid: the projection
+ * of the velocity u at x on the inviscid mode of the wave, or the second moment of the drop; 0 for
+ * others. */
 double exact_signal(const struct exact *e, const double *x, const double *u);
-/* u[3], p (mean 0), vorticity dv/dx - du/dy at x[3], t; pointers may be NULL. */
+/* u[3], m/s, p with mean 0, Pa, and vorticity w = dv/dx - du/dy, 1/s, at the point x[3] and time t.
+ * Pointers may be NULL. */
 void exact_point(const struct exact *e, const double *x, double t, double *u, double *p, double *w);
-/* The same averaged over the cell of centre x and sides h (z matters to beltrami alone). */
+/* The same averaged over the cell of centre x and sides h (z matters to beltrami alone), which is
+ * what finite volumes hold. */
 void exact_average(const struct exact *e, const double *x, const double *h, double t, double *u,
                    double *p, double *w);
-/* u averaged over the face of centre x, normal along axis `a' (0, 1, 2), sides h. */
+/* u averaged over the face of centre x, normal to axis `a' (0, 1, 2), with sides h. */
 void exact_face(const struct exact *e, const double *x, const double *h, int a, double t,
                 double *u);
-/* du/dx: g[a][b] = d u_a / d x_b at a point. */
+/* Velocity gradient g[a][b] = d u_a / d x_b at a point, 1/s. */
 void exact_gradient(const struct exact *e, const double *x, double t, double g[3][3]);
 
-/* Sums that make a norm: add on each rank, then reduce; parts of a coupled job add up too. */
+/* Sums that make an error norm: norm_add on each rank, norm_reduce over the ranks; the parts of a
+ * coupled job add up as well. w is a weight (volume), e the error, ref the reference. Zeroed memory
+ * is a valid start. */
 struct norm {
     double vol;  /* sum w */
     double e1;   /* sum w e */
@@ -76,14 +85,15 @@ struct norm {
     double emax; /* max |e| */
 };
 void norm_add(struct norm *n, double w, double e, double ref);
-void norm_reduce(struct norm *n, int count, MPI_Comm comm); /* over the ranks of comm */
-double norm_relative_l2(const struct norm *n);              /* sqrt(e2/r2) */
-double norm_rms(const struct norm *n);                      /* sqrt(e2/vol) */
-double norm_mean(const struct norm *n);                     /* e1/vol */
-double norm_rms_mean_free(const struct norm *n);            /* sqrt(e2/vol - (e1/vol)^2) */
+/* Sums `count' norms over comm, emax by maximum; the result is on all ranks. Collective. */
+void norm_reduce(struct norm *n, int count, MPI_Comm comm);
+double norm_relative_l2(const struct norm *n);   /* sqrt(e2/r2) */
+double norm_rms(const struct norm *n);           /* sqrt(e2/vol) */
+double norm_mean(const struct norm *n);          /* e1/vol */
+double norm_rms_mean_free(const struct norm *n); /* sqrt(e2/vol - (e1/vol)^2) */
 
-/* The sums as "norm.NAME.vol", .e1, .e2, .r2, .emax: a coupler adds them up over programs; as .unit
- * what errors are told in, in the field's own unit, unless it is 0. */
+/* Writes the sums as "norm.NAME.vol", .e1, .e2, .r2, .emax, which a coupler adds up over programs,
+ * and as .unit the unit in which errors are given, in the field's own unit, unless it is 0. */
 void norm_tell(struct summary *to, const char *name, const struct norm *n, double unit);
 
 #endif

@@ -1,31 +1,36 @@
-/* motion_files.h - the files of prescribed motions beside a case, and of what openings do over
- * time, each read once a start, whoever asks for it and how often.
+/* motion_files.h - the files of prescribed motions beside a case, and of levels and discharges of
+ * openings over time, each read once a run, whoever asks for it. Every rank reads for itself.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_MOTION_FILES_H
 #define COMMON_MOTION_FILES_H
 
-/* One file: rows of `columns' numbers, the first of them the time, which rises from row to row. */
+/* One file: rows of `columns' numbers separated by blanks, commas or semicolons, the first of them
+ * the time, s, which rises from row to row. Lines that begin with # or a word are passed over. */
 struct motion_file {
     char *path;
     int columns;
-    int n;        /* rows; -1: there is no such file, 0: its rows are not such rows */
+    int n; /* rows; -1: there is no such file, 0: a line has another number of columns, or a time
+              that does not rise */
     double *rows; /* [n][columns] */
 };
 
+/* The list of what was read; owns the files. */
 struct motion_files {
     const char *dir; /* of the case: file names start there; borrowed */
     int n;
     struct motion_file **of;
 };
 
-/* An empty list; the caller's, to be freed with motion_files_free. */
+/* An empty list, owned by the caller; dir is borrowed. */
 struct motion_files *motion_files_create(const char *dir);
+/* Frees the list and its files; NULL does nothing. */
 void motion_files_free(struct motion_files *all);
-/* The file as it was when it was first asked for; it belongs to the list. NULL if all is NULL. */
+/* The file as it was when it was first asked for with this number of columns; owned by the list.
+ * NULL if `all' is NULL. A file that cannot be read has n <= 0. */
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file,
                                             int columns);
-/* A file of that name that was never written: n rows, their times rising; they go over to the list.
- */
+/* Adds a computed file of that name, n rows with rising times, so that motion_files_read finds it.
+ * rows[n][columns] must come from mem.h and passes to the list. */
 void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows);
 
 #endif

@@ -1,6 +1,8 @@
 /* picture.h - the scene of a case as an SVG file (--check=picture): what the programs have
  * understood, to be looked at before a run: walls with normals into the fluid, water, bodies,
- * probes, zones. Of a 3D scene the projection along y. SPDX-License-Identifier: BSD-3-Clause */
+ * probes, zones. A 3D scene is projected along y. Rank 0 only; a file that cannot be written ends
+ * the run.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_PICTURE_H
 #define COMMON_PICTURE_H
 
@@ -9,6 +11,7 @@
 #include "../params/params.h"
 #include "scene.h"
 
+/* an open picture: made by picture_create, written and freed by picture_close */
 struct picture;
 
 /* How a line or an area is drawn; each kind that is used stands in the legend. */
@@ -28,20 +31,23 @@ enum picture_kind {
     PICTURE_KINDS
 };
 
-/* Starts path (rank 0 of a program only) with the groups that all programs read. */
+/* Opens the file `path' and draws the groups that all programs read. s is borrowed until
+ * picture_close. */
 struct picture *picture_create(const char *path, const struct scene *s);
-/* A box lo, hi in m, an outline; label may be NULL. */
+/* Draws the outline of the box lo .. hi, m; label may be NULL. */
 void picture_box(struct picture *p, enum picture_kind kind, const double lo[3], const double hi[3],
                  const char *label);
-/* n points x[][2] of the plane, joined with the first if closed; fill: the area within; normals:
- * short ticks to the left, where the fluid is. */
+/* Draws the polyline x[n][2], m, in the plane of the picture; the last point is joined with the
+ * first if closed. fill: the area inside, too; normals: short ticks to the left of the line, where
+ * the fluid is. */
 void picture_line(struct picture *p, enum picture_kind kind, int n, const double (*x)[2],
                   bool closed, bool fill, bool normals);
-/* Cells of the program lie within this outline, and the others that are told: there is no water but
- * in them. */
+/* Adds the outline x[n][2], m, of cells of the program. Once there is one, water is drawn only
+ * within the outlines so given. */
 void picture_cells(struct picture *p, int n, const double (*x)[2]);
+/* Writes a text, which is copied, at a point, m. */
 void picture_text(struct picture *p, const double at[3], const char *text);
-/* Writes the legend and closes; sets *p to NULL. */
+/* Writes the legend, closes the file and sets *p to NULL. */
 void picture_close(struct picture **p);
 
 #endif

@@ -1,4 +1,6 @@
-/* scene_body.h - bodies of a scene: outline, how they move, what holds them.
+/* scene_body.h - rigid bodies of a scene: their shape, how they move, what holds them. Plain data
+ * of the case; body_drive.h evaluates prescribed motion, sph/rigid moves free bodies. In 2D all
+ * forces and masses are per metre of depth.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_BODY_H
 #define COMMON_SCENE_BODY_H
@@ -13,17 +15,18 @@ enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
 enum force_rule { FORCE_CONSERVING, FORCE_AVERAGE };
 enum { MOTIONS_MAX = 32, LINES_MAX = 8, BODY_NEVER = 1000000000 };
 
-/* One term of a prescribed motion; all of a body's add up. */
+/* One term of a prescribed motion. The terms of a body add up, each along one degree of freedom but
+ * for files, which have all. */
 struct scene_motion {
     int kind, axis;                    /* enum motion_kind, body_axis */
     char file[PARAM_TEXT_SIZE];        /* rows t, x, y, angle; 3D: t, x, y, z, rx, ry, rz */
     double amplitude;                  /* m or rad */
     double period, phase;              /* s, rad */
-    struct param_numbers coefficients; /* m/s^k or rad/s^k */
+    struct param_numbers coefficients; /* m/s^k or rad/s^k: c_0 + c_1 T + ..., T = t - from */
     double from, until;                /* s: of a polynomial */
-    double ramp;                       /* s in which the term grows from nothing */
+    double ramp;                       /* s over which the term grows smoothly from nothing */
     bool absorb;                       /* of kind waves: wave_absorber.h */
-    bool made;                         /* its file by wave_makers_resolve: wave_maker.h */
+    bool made; /* its rows were computed by wave_makers_resolve: wave_maker.h */
 };
 
 struct scene_motions {
@@ -31,49 +34,54 @@ struct scene_motions {
     struct scene_motion of[MOTIONS_MAX];
 };
 
-/* Spring, damper or mooring line. */
+/* A spring, damper or mooring line between the body and an anchor or another body. */
 struct scene_line {
     double from[3], to[3];      /* m at the start: on the body; anchor, or on the other body */
     char body[PARAM_TEXT_SIZE]; /* name of the other one; "": none */
     double stiffness, damping;  /* N/m, N s/m (in 2D per metre) */
-    double length;              /* m: without force; < 0: that of the start */
-    bool pull_only;
+    double length;              /* m: length without force; < 0: that at the start */
+    bool pull_only;             /* a rope: no force when it is shorter than length */
 };
 
+/* An axis fixed in space about which the body turns, with an optional spring and damper. */
 struct scene_hinge {
     double at[3], axis[3];     /* m; in 2D the axis is z */
     double stiffness, damping; /* N m/rad, N m s/rad (2D: per metre) */
     double at_rest;            /* rad: angle at which the spring is slack */
 };
 
+/* The only direction along which the body's centre may move, unit vector. */
 struct scene_slider {
     double axis[3];
 };
 
+/* How the body collides with walls and other bodies. */
 struct scene_contact {
     double restitution, friction; /* - */
-    double gap;                   /* dx: distance that contact holds */
+    double gap;                   /* in units of dx: distance that contact keeps */
 };
 
 /* Closed polylines, clockwise: fluid on their left; in 3D closed meshes. */
 struct scene_mesh;
+/* A body: closed polylines that run clockwise, with the fluid on their left; in 3D closed
+ * meshes. */
 struct scene_body {
     char name[PARAM_TEXT_SIZE];
     struct param_points points;
     struct scene_surface surface;
     const struct scene_mesh *mesh; /* what its file holds; NULL: points */
     bool thin;
-    int kind;                     /* WALL_SLIP or WALL_NO_SLIP */
-    bool turned;                  /* by scene_orient */
-    double centre[3];             /* m: of rotation and of moments, at t = 0 */
-    double velocity[3];           /* m/s */
-    double spin[3];               /* rad/s */
-    double force[3];              /* N/m: known mean of the fluid's force; 0: not known */
-    bool free;                    /* moved by forces */
-    double density, mass;         /* kg/m^3; kg (2D: kg/m); 0: not given */
+    int kind;             /* WALL_SLIP or WALL_NO_SLIP */
+    bool turned;          /* the sense of the points was reversed by scene_orient */
+    double centre[3];     /* m: centre of rotation and of moments at t = 0 */
+    double velocity[3];   /* m/s: constant, or that of a free body at the start */
+    double spin[3];       /* rad/s: the same of its rotation */
+    double force[3];      /* N/m: known mean of the fluid's force, for comparison; 0: not known */
+    bool free;            /* moved by forces, but for the degrees of freedom in lock */
+    double density, mass; /* kg/m^3; kg (2D: kg/m); 0: not given */
     struct param_numbers inertia; /* kg m^2 about the mass centre: zz in 2D; xx yy zz [xy yz zx] */
     char lock[PARAM_TEXT_SIZE];   /* degrees that forces do not move: "x y rz" */
-    double release;               /* s: held until then */
+    double release;               /* s: the body is held until then */
     int force_rule;               /* enum force_rule */
     double load[3], torque[3];    /* N, N m (2D: per metre): constant */
     struct scene_motions motion;
@@ -100,11 +108,12 @@ extern const struct param scene_body_rows[];
 extern const int scene_body_nrows;
 extern const struct param_list scene_motion_list; /* of a struct scene_motions */
 
-/* Whether the body ever moves. */
+/* Whether the body ever moves: it is free, or has a velocity or terms of motion. */
 bool scene_body_moves(const struct scene_body *b);
-/* As given, or as the keys' defaults are. */
+/* The contact as the case gives it, else with the defaults of the keys. */
 struct scene_contact scene_contact_of(const struct scene_body *b);
-/* Degrees, BIT(AXIS_..), of the words in lock; -1: a word is none. */
+/* Bits 1 << enum body_axis of the words in lock, separated by blanks or commas; -1: a word is none
+ * of them, or not of a case of this dimension. */
 int scene_body_locked(const char *lock, int dim);
 
 #endif

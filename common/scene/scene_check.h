@@ -1,15 +1,17 @@
-/* scene_check.h - the parts of scene_check. SPDX-License-Identifier: BSD-3-Clause */
+/* scene_check.h - the parts of scene_check (scene.h), which add faults to f. Call on all ranks
+ * alike.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_CHECK_H
 #define COMMON_SCENE_CHECK_H
 
 #include "scene.h"
 
-/* scene_unused.c: keys that other keys leave without use. */
+/* Keys that other keys leave without use; in scene_unused.c. */
 void scene_check_unused(const struct scene *s, const struct params *p, struct faults *f);
-/* The same of the terms of a motion, of list.[k].motion. */
+/* The same for the terms of one motion, named list.[k].motion in the case. */
 void scene_check_motion(const struct scene_motions *all, const char *list, int k,
                         const struct params *p, struct faults *f);
-/* scene_sense.c: keys that contradict each other, and places outside the domain. */
+/* Keys that contradict each other, and places outside the domain; in scene_sense.c. */
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f);
 
 #endif

@@ -1,4 +1,6 @@
-/* scene_geometry.h - polylines of a scene in the plane: sense, crossings, gaps, what lies inside.
+/* scene_geometry.h - polylines in the plane: area, sense, crossings, gaps, what lies inside. Tests
+ * are relative to the size of the lines, so that they hold for millimetres and kilometres alike.
+ * Local to a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_GEOMETRY_H
 #define COMMON_SCENE_GEOMETRY_H
@@ -7,38 +9,44 @@
 
 #include "../params/params.h"
 
-/* A polyline as the functions below take it; x is borrowed. */
+/* A polyline as the functions below take it: n corners, m; x is borrowed. */
 struct line {
     int n;
     const double (*x)[2];
     bool closed; /* the last point is joined with the first */
 };
 
+/* The line of points of a case, which must outlive it. */
 struct line line_of(const struct param_points *p, bool closed);
+/* n if closed, else n - 1. */
 int line_segments(const struct line *l);
-/* Area inside a closed line, m^2: positive if it runs counter-clockwise. */
+/* Area inside a closed line, m^2: positive if it runs counter-clockwise, so that inside is on its
+ * left. */
 double line_area(const struct line *l);
-/* Area > 0 inside a closed line, its centre, and its polar second moment about that, m^2, m, m^4.
- */
+/* Area > 0 inside a closed line, its centroid and its polar second moment about that; m^2, m,
+ * m^4. */
 void line_moments(const struct line *l, double *area, double centre[2], double *polar);
+/* Sum of the segments' lengths, m. */
 double line_length(const struct line *l);
-/* Largest extent, m. */
+/* Larger side of the bounding box, m. */
 double line_size(const struct line *l);
-/* A line whose last point is its first is closed: drops that point. */
+/* If the last point repeats the first, drops it and marks the line as closed. */
 void line_trim(struct line *l);
-bool line_inside(const struct line *l, const double *x); /* of a closed one, whatever its sense */
-/* Distance of x to the line, m. */
+/* Whether x lies inside a closed line, whatever its sense. */
+bool line_inside(const struct line *l, const double *x);
+/* Distance of x to the line itself, m. */
 double line_distance(const struct line *l, const double *x);
-/* What is wrong with a line by itself; *at: the place. */
+/* What is wrong with a line by itself: points that coincide, no area, a fold back onto itself, a
+ * crossing. line_check returns the first fault and sets at to its location, m. */
 enum line_fault { LINE_SOUND, LINE_REPEATED, LINE_FLAT, LINE_FOLDED, LINE_CROSSED };
 enum line_fault line_check(const struct line *l, double at[2]);
-/* Least distance of two lines, m; 0 where they meet. */
+/* Smallest distance of two lines, m, and one of its ends; 0 where they cross. */
 double line_gap(const struct line *a, const struct line *b, double at[2]);
-/* Whether a pierces b: touching is not piercing. */
+/* Whether a crosses b, and where; touching is not crossing. */
 bool line_pierces(const struct line *a, const struct line *b, double at[2]);
-/* Whether the insides of two closed lines have any area in common. */
+/* Whether the insides of two closed lines have any area in common; at: a point of it. */
 bool line_overlaps(const struct line *a, const struct line *b, double at[2]);
-/* Turns the sense of the points. */
+/* Reverses the order of the points. */
 void points_reverse(struct param_points *p);
 
 #endif

@@ -5,8 +5,9 @@
 
 #include "scene.h"
 
-/* Reads the files, which stand beside the case in dir, scales, turns and shifts their corners, and
- * makes them the points; faults of the files. Before scene_check. */
+/* Reads the files, which stand beside the case in dir, scales, rotates and shifts their corners and
+ * makes them the points of their owner. Faults go to f. Before scene_check; call on all ranks
+ * alike, each reads for itself. */
 void scene_outlines_read(struct scene *s, const char *dir, const struct params *p,
                          struct faults *f);
 

@@ -1,18 +1,20 @@
-/* scene_probe.h - what gauges read, and the line or the rectangle of one that reads a discharge.
+/* scene_probe.h - what gauges measure: their columns, and the section of one that measures a
+ * discharge.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_PROBE_H
 #define COMMON_SCENE_PROBE_H
 
 #include "scene.h"
 
-/* Pressure or velocity: at one point. */
+/* Whether a gauge measures at one point: pressure or velocity. */
 bool probe_is_point(const struct scene_probe *g);
-/* Columns of series.csv; the heading of one of them. */
+/* Number of columns of series.csv that a gauge has, and the heading of one of them, "NAME [Pa]". */
 int probe_columns(const struct scene_probe *g, int dim);
 void probe_heading(const struct scene_probe *g, int dim, int column, char *text, size_t size);
 
-/* 2D: the line from at to `to', across it to its right-hand side; 3D: the rectangle between these
- * corners, across it along the axis. */
+/* The section of a discharge: in 2D the line from `at' to `to', counted positive towards its
+ * right-hand side; in 3D the rectangle with these corners, normal to an axis and counted positive
+ * along it. */
 struct probe_section {
     double across[3], along[2][3]; /* unit vectors */
     double length[2];              /* m: along these */

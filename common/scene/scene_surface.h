@@ -1,10 +1,13 @@
-/* scene_surface.h - keys by which walls, bodies and shapes take their surface from a file of
- * triangles. SPDX-License-Identifier: BSD-3-Clause */
+/* scene_surface.h - the keys by which walls, bodies and shapes take their surface from a file:
+ * triangles in 3D, an outline in the plane.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_SURFACE_H
 #define COMMON_SCENE_SURFACE_H
 
 #include "../params/params.h"
 
+/* The values of these keys. Files stand beside the case; scale, rotation and shift are applied in
+ * this order, about the origin. */
 struct scene_surface {
     char mesh[PARAM_TEXT_SIZE];            /* file beside the case; "": none */
     char outline[PARAM_TEXT_SIZE];         /* the same in the plane: scene_outlines.h */
@@ -12,7 +15,7 @@ struct scene_surface {
     double weld;                           /* m; 0: 1e-6 of the diagonal */
 };
 
-/* Rows of a table whose struct T has a member `surface'. */
+/* SURFACE_ROWS(T): the rows for a parameter table whose struct T has a member `surface'. */
 #define SURFACE_ROW(T, m, is, unit_, dflt_, min_, max_, help_)                                     \
     {                                                                                              \
         .key = #m, .type = is, .offset = offsetof(T, surface.m), .unit = unit_, .dflt = dflt_,     \

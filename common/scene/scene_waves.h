@@ -1,9 +1,10 @@
-/* scene_waves.h - zones before upright closed sides in which velocities follow
- * du/dt = -r (u - u_w), r = r_0 chi^2, chi from 0 at the inner edge to 1 at the side, r_0 two times
- * the angular frequency of the waves (a rate, for a share of a step would be a wall to them).
- * Beach: u_w = 0, waves that run there are absorbed. Wave: u_w is that of the waves of the group
- * waves, which the zone makes and whatever comes back passes; with closed sides behind zones no
- * water comes in or gets lost, and the waves have no net transport.
+/* scene_waves.h - zones before vertical closed sides in which the velocity relaxes,
+ *   du/dt = -r (u - u_w),   r = r_0 chi^2,
+ * chi from 0 at the inner edge to 1 at the side, r_0 twice the angular frequency of the waves (a
+ * rate per time, not per step, since a fixed share per step would make the zone reflect like a
+ * wall). Beach: u_w = 0, incoming waves are absorbed. Wave: u_w is the velocity of the waves of the
+ * group waves, so that the zone makes them and absorbs what comes back. Closed sides behind the
+ * zones keep the volume of water, and the waves are made without net transport.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_WAVES_H
 #define COMMON_SCENE_WAVES_H
@@ -11,24 +12,30 @@
 #include "../waves/waves.h"
 #include "scene.h"
 
-/* Makes slip walls with a zone of the kinds wave and beach; before scene_check. */
+/* Turns sides of kinds wave and beach into slip walls with a zone; before scene_check. */
 void scene_waves_mark(struct scene *s);
-/* Faults: zones along gravity, longer than the domain, without a period; waves that break. */
+/* Adds a fault for zones along gravity, longer than the domain or without a period, and for waves
+ * that would break. */
 void scene_waves_check(const struct scene *s, const struct params *p, struct faults *f);
-/* Lengths and periods of zones that the waves give; after scene_check. */
+/* Sets lengths and periods of zones that follow from the waves, and waves.made; after
+ * scene_check. */
 void scene_waves_resolve(struct scene *s);
+/* Whether some zone makes waves. */
 bool scene_makes_waves(const struct scene *s);
-/* Says in the log what waves are made, and what comes back from each zone. */
+/* Logs which waves are made, and what each zone reflects. */
 void scene_waves_describe(const struct scene *s);
-/* m, against gravity: of the highest water that a level or a box of the shapes tells; NAN: none. */
+/* Still level of the waves, m against gravity: the highest of the shapes' levels and boxes, or
+ * initial.level; NAN: none. */
 double scene_waves_level(const struct scene *s);
-/* m: of the water over the domain's floor, or waves.depth. */
+/* Depth of the water below that level, m: waves.depth, or down to the domain's floor; NAN without
+ * gravity. */
 double scene_waves_depth(const struct scene *s);
-/* Unit vectors: in which waves run, and horizontal across it; across may be NULL. */
+/* Unit vector d along which the waves run, and the horizontal unit vector across it (may be NULL;
+ * zero in 2D). */
 void scene_waves_direction(const struct scene *s, double *d, double *across);
-/* The axis of a wall's side; low: whether it is the lower one. */
+/* The axis that a wall's side is normal to; *low: whether it is the lower side. */
 int scene_zone_axis(const struct scene_wall *w, bool *low);
-/* What the group waves asks for. */
+/* What the group waves asks for, in the terms of waves.h. */
 struct wave_spec scene_waves_spec(const struct scene *s);
 
 #endif

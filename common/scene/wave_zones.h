@@ -1,21 +1,27 @@
-/* wave_zones.h - the zones of scene_waves.h at work. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_zones.h - evaluates the zones of scene_waves.h during a run.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVE_ZONES_H
 #define COMMON_WAVE_ZONES_H
 
 #include "../files/h5.h"
 #include "scene.h"
 
-/* The zones of a resolved scene, made for one program; NULL: there are none. Free after use. */
+/* The zones of a resolved scene; NULL: there are none. Owned by the caller (wave_zones_free). Each
+ * rank makes its own. */
 struct wave_zones *wave_zones_create(const struct scene *s);
+/* Frees the zones and sets *z to NULL, which it may be. */
 void wave_zones_free(struct wave_zones **z);
-/* Makes ready for the time t, s. */
+/* Prepares the waves for the time t, s; before wave_zones_rate. */
 void wave_zones_at(struct wave_zones *z, double t);
-/* 1/s: the rate r at x[3], and u_w[3], m/s. */
+/* The rate r, 1/s, at x[3], and the wanted velocity u_w[3], m/s, 0 outside of the zones. Where
+ * zones overlap, rates add and u_w is their mean weighted by them. */
 double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w);
-/* What restart files hold of waves that evolve; collective. writes: on one rank. */
+/* Writes the state of waves that evolve nonlinearly to a restart file; collective over the file's
+ * communicator, `writes' being true on one rank. */
 void wave_zones_save(const struct wave_zones *z, struct h5 *f, bool writes);
+/* Reads it back; collective. */
 void wave_zones_load(struct wave_zones *z, struct h5 *f);
-/* Whether some zone makes waves, which is work done on the water. */
+/* Whether some zone makes waves, i.e. does work on the water. */
 bool wave_zones_drive(const struct wave_zones *z);
 
 #endif
