@@ -200,6 +200,21 @@ static bool leads_out(const struct faces *f, const double *x, double width)
     return wet && dry;
 }
 
+/* Whether fluid can come to a face at x: not where it lies on a side of the domain or on another
+ * solid, nearer than any particle fits. */
+static bool is_wetted(const struct faces *f, int k, const double *x, double least)
+{
+    const struct scene *c = f->scene;
+    const double *n = f->face[k].n, near = 0.1 * least, to_fluid[2] = {-n[0], -n[1]};
+    const double y[3] = {x[0] - near * n[0], x[1] - near * n[1], 0.0};
+    const double from[2] = {x[0] + 0.01 * near * n[0], x[1] + 0.01 * near * n[1]};
+    int hit;
+    bool in = scene_is_room(c, y) && !isfinite(cast(f, k, from, to_fluid, near, &hit));
+    for (int a = 0; a < 2; a++)
+        in = in && (c->domain.periodic[a] || (y[a] > c->domain.min[a] && y[a] < c->domain.max[a]));
+    return in;
+}
+
 /* Whether across the solid (into = 1) or the fluid (-1) something faces the point s of face k. */
 static bool is_thin(const struct faces *f, int k, double s, int into, double least,
                     struct wall_thin *t)
@@ -214,6 +229,9 @@ static bool is_thin(const struct faces *f, int k, double s, int into, double lea
     const struct thin_face *h = f->face + hit;
     if (g->n[0] * h->n[0] + g->n[1] * h->n[1] >= 0.0 || is_no_passage(f, g, h) ||
         is_corner(f, g, s, h, width))
+        return false;
+    const double beyond[2] = {x[0] + width * d[0], x[1] + width * d[1]};
+    if (into > 0 && !(is_wetted(f, k, x, least) && is_wetted(f, hit, beyond, least)))
         return false;
     *t = (struct wall_thin){.at = {x[0] + 0.5 * width * d[0], x[1] + 0.5 * width * d[1]},
                             .width = width};

@@ -159,11 +159,40 @@ static void passages(void **state)
     free(c);
 }
 
+/* A sill 0.2 high that lies on the floor, on another body or on a line has fluid on one side. */
+static void sills_are_not_thin(void **state)
+{
+    double sill[4][2] = {{-1.5, 0.0}, {-1.5, 0.2}, {1.5, 0.2}, {1.5, 0.0}},
+           base[4][2] = {{-2.0, -1.0}, {-2.0, 0.0}, {2.0, 0.0}, {2.0, -1.0}};
+    struct wall_thin t;
+    (void)state;
+    struct scene *c = scene_new();
+    c->nbodies = 1;
+    set_points(&c->bodies[0].points, 4, sill, 0.0, false);
+    assert_true(wall_thin_solid(c, 0.3, &t));
+    c->domain.min[1] = 0.0;
+    assert_false(wall_thin_solid(c, 0.3, &t));
+    c->domain.min[1] = -5.0;
+    for (int k = 0; k < 20; k++) {
+        const double angle = any_angle();
+        set_points(&c->bodies[0].points, 4, sill, angle, k % 2);
+        c->nbodies = 2;
+        set_points(&c->bodies[1].points, 4, base, angle, k % 2);
+        assert_false(wall_thin_solid(c, 0.3, &t));
+        c->nbodies = 1;
+        c->nwalls = 1;
+        set_points(&c->walls[0].points, 2, base + 1, angle, true);
+        assert_false(wall_thin_solid(c, 0.3, &t));
+        c->nwalls = 0;
+    }
+    free(c);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(plates_are_thin),
-                                       cmocka_unit_test(corners_are_not_thin),
-                                       cmocka_unit_test(gaps), cmocka_unit_test(passages)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plates_are_thin), cmocka_unit_test(corners_are_not_thin),
+        cmocka_unit_test(sills_are_not_thin), cmocka_unit_test(gaps), cmocka_unit_test(passages)};
     srand(11);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
