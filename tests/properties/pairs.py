@@ -179,6 +179,18 @@ class Scene:
                 text += "endloop\nendfacet\n"
         self.meshes[name] = {"text": text + "endsolid s\n", "of": "body"}
 
+    def sheet(self, name, corners, more):
+        """An open wall of two triangles."""
+        text = "solid s\n"
+        for tri in ((0, 1, 2), (0, 2, 3)):
+            text += "facet normal 0 0 0\nouter loop\n"
+            text += "".join("vertex %.15g %.15g %.15g\n" % self.point(corners[i]) for i in tri)
+            text += "endloop\nendfacet\n"
+        self.meshes[name] = {"text": text + "endsolid s\n", "of": "wall", "more": more}
+
+    def written(self, v):
+        return "(" + ", ".join("%.15g" % x for x in v) + ")"
+
     # ---------------------------------------------------------------- parts that scenes share
     def tank(self, size, depth, sides="sides"):
         """Cells of dx; open above the water. sides: which of the upright ones are walls."""
@@ -413,6 +425,104 @@ def side_surface3(rng):
     return s
 
 
+def thin_mesh(s, rng, top):
+    """A sheet across the tank from side to side, near one of them, which ends between two heights."""
+    s.periodic = [False] * 3
+    s.sides[0, -1] = s.sides[0, 1] = s.sides[1, -1] = s.sides[1, 1] = {}
+    x = gap_of(rng) * s.dx
+    low, y = rng.choice([-s.dx, gap_of(rng) * s.dx]), s.hi[1] + s.dx
+    s.sheet("sheet.stl", [(x, -s.dx, low), (x, y, low), (x, y, top), (x, -s.dx, top)], "thin = true; ")
+    s.gauges([s.hi[0] - 3 * s.dx, 0.5 * s.hi[1]])
+    return s
+
+
+def thin_side(rng):
+    s = tank3(rng, (11, 13))
+    return thin_mesh(s, rng, s.depth - rng.uniform(4, 6) * s.dx)
+
+
+def thin_surface(rng):
+    s = tank3(rng)
+    return thin_mesh(s, rng, s.depth + rng.uniform(-1, 3) * s.dx)
+
+
+# ------------------------------------------------------------------ pairs: bodies that turn about a hinge or are driven
+
+def hinged(s, rng, near):
+    """A body as heavy as water, hinged at its middle: nothing turns it."""
+    block_at(s, rng, near)
+    (name, volume, pa), = s.laws.pop("solids")
+    points = s.bodies[0]["points"]
+    middle = [0.5 * (points[0][a] + points[2][a]) for a in range(2)]
+    s.bodies[0]["more"] = "free = true; density = 1000.0; hinge = { at = %s; };" % s.written(s.point(middle))
+    s.laws["turns"] = [(name, math.dist(points[0], middle))]
+    return s
+
+
+def hinged_side(rng):
+    return hinged(tank2(rng, rng.choice(["sides", "line"])), rng, rng.choice([["floor"], ["side"], ["side", "floor"]]))
+
+
+def hinged_surface(rng):
+    """Half as heavy as water, twice as wide as deep in it: it floats upright."""
+    s = tank2(rng, wide=(34, 44), deep=(16, 24))
+    w, h = rng.uniform(12, 16) * s.dx, rng.uniform(5, 7) * s.dx
+    lo, hi = [0.5 * (s.hi[0] - w), s.depth - 0.5 * h], [0.5 * (s.hi[0] + w), s.depth + 0.5 * h]
+    s.block("b", lo, hi, "free = true; density = 500.0; hinge = { at = %s; };" % s.written(
+        s.point([0.5 * s.hi[0], s.depth])))
+    s.laws["turns"] = [("b", math.hypot(w, h) / 2)]
+    s.gauges([0.25 * (s.hi[0] - w)])
+    return s
+
+
+def driven(s, way, far):
+    """Moves the first body slowly by far: the pressure of its speed is below a thousandth of its lift's."""
+    s.laws["driven"] = speed = far / (0.6 * s.end)
+    axis = max(range(s.dim), key=lambda a: abs(s.vector(way)[a]))
+    back = s.vector(way)[axis] * speed * s.speed_unit()
+    until = 0.6 * s.end * math.sqrt(s.unit)
+    s.bodies[0]["more"] += (" motion = ( { kind = \"polynomial\"; axis = \"%s\"; coefficients = (0.0, %.15g); until = %.15g; "
+                            "ramp = %.15g; } );" % ("xyz"[axis], back, until, 0.2 * until))
+    return s
+
+
+def driven_side(rng):
+    """Along a floor or side, or away from it, by up to two spacings."""
+    s = tank2(rng, rng.choice(["sides", "line"]))
+    block_at(s, rng, rng.choice([["floor"], []]))
+    s.end *= 2.0
+    return driven(s, rng.choice([[1.0, 0.0], [-1.0, 0.0]]), rng.uniform(0.5, 2) * s.dx)
+
+
+def driven_surface(rng):
+    """Out of the water or into it: the level follows what it displaces."""
+    s = tank2(rng, wide=(34, 44), deep=(18, 24))
+    w, h, far = rng.uniform(6, 9) * s.dx, rng.uniform(7, 9) * s.dx, rng.uniform(-2, 2) * s.dx
+    x, y = 0.5 * (s.hi[0] - w), s.depth - rng.uniform(4, 5.5) * s.dx
+    s.block("b", [x, y], [x + w, y + h])
+    name, volume, pa = s.laws["solids"][0]
+    s.end *= 2.0
+    driven(s, [0.0, 1.0 if far > 0 else -1.0], abs(far))
+    s.level -= w * far / (s.hi[0] - w)  # what it leaves, the water around fills
+    s.laws["solids"] = [(name, w * (s.level - y - far), pa)]
+    s.gauges([0.25 * (s.hi[0] - w)])
+    s.laws["gauges"] = [d + s.level - s.depth for d in s.laws["gauges"]]
+    return s
+
+
+def fall_floor(rng):
+    """Water from wall to wall falls on the floor: when it is at rest again, p does not know of it."""
+    s = tank2(rng, "sides", deep=(12, 20))
+    far = rng.uniform(6, 30) * s.dx
+    s.hi[1] += far
+    s.shapes = [("box", [0.0, far], [s.hi[0], s.depth + far])]
+    s.probes.append(("p", "pressure", [s.dx * rng.randint(6, s.n[0] - 6), 0.0]))
+    s.laws["falls"] = (far, math.sqrt(s.depth / G))
+    s.laws["series"] = 2
+    s.end = math.sqrt(2 * far / G) + 5 * math.sqrt(s.depth / G)
+    return s
+
+
 # ------------------------------------------------------------------ fv and coupled at rest
 
 def fv_tank(rng, dim=2):
@@ -519,6 +629,22 @@ def absorbing_side(rng):
     return s
 
 
+def opening_body(rng):
+    """A body that goes with the stream, near an inlet at the start or near an outlet at the end."""
+    s = stream(rng, "sph")
+    s.n[0] += 20
+    s.n[1] += 4
+    s.hi = [n * s.dx for n in s.n]
+    size, gap = [rng.uniform(4, 5) * s.dx for _ in range(2)], rng.uniform(10.1, 13) * s.dx  # 2.5 R of zones
+    far = rng.uniform(4, 8) * s.dx
+    s.end = far / s.velocity[0]
+    x = gap if rng.random() < 0.5 else s.hi[0] - gap - size[0] - far
+    y = 0.5 * (s.hi[1] - size[1])
+    s.bodies.append({"name": "b", "more": "velocity = %s;" % s.written(s.speed_unit() * v for v in s.vector(s.velocity)),
+                     "points": [(x, y), (x, y + size[1]), (x + size[0], y + size[1]), (x + size[0], y)]})
+    return s
+
+
 def fv_opening_side(rng):
     s = stream(rng, "fv")
     s.fv = s.n
@@ -529,7 +655,7 @@ def fv_opening_side(rng):
 
 
 PAIRS = [
-    # name, treatments, weight, scene
+    # name, treatments, weight (0: open, by name alone), scene
     ("body-floor", "body x side or line (floor)", 2, body_floor),
     ("body-side", "body x side or line (upright)", 2, body_side),
     ("body-corner", "body x two sides", 1, body_corner),
@@ -547,12 +673,20 @@ PAIRS = [
     ("free-side", "free body as heavy as water x side", 2, free_floor),
     ("mesh-side", "mesh of a body x sides and periods, 3D", 2, mesh_side),
     ("side-surface3", "side or period x free surface, 3D", 1, side_surface3),
+    ("thin-side", "thin mesh x sides, 3D", 0, thin_side),
+    ("thin-surface", "thin mesh x sides and free surface, 3D", 0, thin_surface),
+    ("hinged-side", "hinged body x side or line", 1, hinged_side),
+    ("hinged-surface", "hinged body x free surface", 1, hinged_surface),
+    ("driven-side", "driven body x side or line", 1, driven_side),
+    ("driven-surface", "driven body x free surface", 1, driven_surface),
+    ("fall-floor", "free surface x floor: water that lands on it from wall to wall", 1, fall_floor),
     ("fv-side-surface", "fv: side x free surface", 1, fv_side_surface),
     ("fv-blocked-surface", "fv: blocked box x free surface", 1, fv_blocked),
     ("box-surface", "SPH box side x FV, free surface, side or period", 1, box_surface),
     ("box-body", "SPH box side x body", 1, box_body),
     ("opening-side", "inlet, outlet x side or period", 1, opening_side),
     ("opening-edge", "inlet, outlet x level edge", 1, opening_level_edge),
+    ("opening-body", "inlet, outlet x body that goes with the stream", 1, opening_body),
     ("absorbing-side", "absorbing side x inlet, side or period", 1, absorbing_side),
     ("fv-opening-side", "fv: inlet, outlet x side or period", 1, fv_opening_side),
 ]
@@ -561,7 +695,7 @@ PAIRS = [
 def draw(seed, only=None):
     rng = random.Random(seed)
     pairs = [p for p in PAIRS if not only or p[0] == only]
-    name, _, _, make = rng.choices(pairs, [p[2] for p in pairs])[0]
+    name, _, _, make = rng.choices(pairs, [1 if only else p[2] for p in pairs])[0]
     s = make(rng)
     s.name = name
     return s
@@ -586,6 +720,28 @@ def late(rows, title, share=0.35):
     values = [float(r[name]) for r in rows]
     values = values[-max(1, int(share * len(values))):]
     return sum(values) / len(values)
+
+
+def late_pressure(s, rows):
+    """After the kinetic energy has fallen below 1 % of what the fall released: within 5 % of rho g h, two times
+    sqrt(h/g) later, in means of a half of that time."""
+    far, unit_t = s.laws["falls"][0] * s.unit, s.laws["falls"][1] * math.sqrt(s.unit)
+    released = 1000 * G * far * s.depth * s.hi[0] * s.unit ** 2
+    t = [float(r["t [s]"]) for r in rows]
+    K, p = late_column(rows, "kinetic energy"), late_column(rows, "p [Pa]")
+    rest = max([a for a, k in zip(t, K) if k > 0.01 * released], default=0.0)
+    start, want, worst = rest + 2.0 * unit_t, 1000 * G * s.depth * s.unit, 0.0
+    while start + 0.5 * unit_t <= t[-1]:
+        part = [b for a, b in zip(t, p) if start <= a <= start + 0.5 * unit_t]
+        off = sum(part) / len(part) / want - 1.0
+        worst = off if abs(off) > abs(worst) else worst
+        start += 0.5 * unit_t
+    return ["water at rest again: pressure %+.1f %%" % (100 * worst)] if abs(worst) > 0.05 else []
+
+
+def late_column(rows, title):
+    name = next(c for c in rows[0] if c.startswith(title))
+    return [float(r[name] or 0.0) for r in rows]
 
 
 def judge(s, out):
@@ -619,6 +775,13 @@ def judge(s, out):
         far = max(abs(a - b) for a, b in zip(moved, start)) / (s.dx * unit)
         if far > 1.0:  # half a per cent of its weight, all the time
             bad.append("a body as heavy as water has moved by %.2f dx" % far)
+    for name, reach in laws.get("turns", []):
+        angles = [float(r["%s angle [rad]" % name]) for r in rows]
+        far = max(map(abs, angles)) * reach / s.dx
+        if far > 1.0:
+            bad.append("a body that nothing turns has turned by %.2f dx at its corners" % far)
+    if "falls" in laws:
+        bad += late_pressure(s, rows)
     for k, depth in enumerate(laws.get("gauges", [])):
         p, want, scale = late(rows, "p%d" % k), 1000 * G * depth * unit, 1000 * G * s.depth * unit
         if p is None or not abs(p - want) <= 0.02 * scale:
@@ -628,7 +791,8 @@ def judge(s, out):
         if h is None or not abs(h - want) <= 0.1 * s.dx * unit + 0.2 * s.dx * unit * (s.program != "sph"):
             bad.append("level %s dx off" % (h and "%.2f" % ((h - want) / (s.dx * unit))))
     mach = summary.get("max_mach_late")
-    if "stream" not in laws and mach is not None and mach > 2e-3:
+    moved = "falls" in laws or "driven" in laws  # and may make waves
+    if "stream" not in laws and not moved and mach is not None and mach > 2e-3:
         bad.append("it does not rest: Mach %.2g late" % mach)
     if "stream" in laws:
         e = [c for c in rows[0] if c.startswith("kinetic energy")]
