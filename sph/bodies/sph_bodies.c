@@ -404,7 +404,8 @@ static bool check_room(const struct run *r, const struct sph_params *used, const
                          : d->periodic[a] ? "crosses the periodic side"
                                           : "leaves the domain across",
                          "xy"[a], l -> x[i][0], l -> x[i][1], when,
-                         !leaves          ? "only there it is known; make sph.box larger"
+                         !leaves          ? "only there it is known; keep it 2.5 R from "
+                                            "openings, or make sph.box larger"
                          : d->periodic[a] ? "a body may come up to it, not through it; shift the "
                                             "domain, or make it larger"
                                           : "make the domain larger, or the motion smaller");
