@@ -87,7 +87,8 @@ static double bytes_per_particle(const struct run *r)
 /* One line of what the scene uses and what it leaves out. */
 static void describe_modules(const struct run *r, bool gravity, bool viscous)
 {
-    static const char *const walls[] = {"normal flux walls", "walls by mirrored ghosts"};
+    static const char *const walls[] = {"normal flux walls", "walls by mirrored ghosts",
+                                        "walls by fixed ghosts"};
     const struct sph_params *prm = sph_params_of(r);
     const bool has_walls = sph_params_walls(&r->scene, prm);
     const struct log_use uses[] = {

@@ -25,7 +25,7 @@ enum sph_viscosity {
     VISCOSITY_AUTO
 }; /* auto: in cases only */
 enum sph_outer { OUTER_NONE, OUTER_EXACT, OUTER_PARTNER, OUTER_SIDES };
-enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_AUTO };
+enum sph_walls { WALLS_NFM, WALLS_GHOSTS, WALLS_FIXED, WALLS_AUTO };
 enum sph_integrals {
     INTEGRALS_CLOSED,
     INTEGRALS_CLIPPED,   /* 3D */

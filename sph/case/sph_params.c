@@ -51,7 +51,7 @@ static const struct param rows[] = {
     PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box moves, along the axes whose both sides are open; \"breaker\": it moves with the crest in it, above initial.level"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
-    CHOICE(P, walls, "nfm|ghosts|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
+    CHOICE(P, walls, "nfm|ghosts|fixed|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides), for comparison fixed ghosts (Marrone; any polyline, 2D); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
     CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)"),
     PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
@@ -307,7 +307,7 @@ static void resolve(const struct run *r)
     if (used.noise < 0.0)
         used.noise = shears_lattice(r, &used) ? 0.3 : 0.0;
     if (used.packing < 0)
-        used.packing = has_polylines(&r->scene) && used.walls == WALLS_NFM
+        used.packing = has_polylines(&r->scene) && used.walls != WALLS_GHOSTS
                            ? (r->scene.domain.dim == 3 ? 40 : 200)
                        : used.noise > 0.0 ? 40
                                           : 0;
@@ -637,6 +637,20 @@ static void check_levels(const struct run *r, struct faults *f)
                      "levels of refinement would each lift their own least pressure: leave it out");
 }
 
+/* Fixed ghosts are there for comparison, and simple. */
+static void check_fixed_ghosts(const struct run *r, struct faults *f)
+{
+    const bool crossed = has_box() || has_openings(&r->scene) || is_coupled(r);
+    const char *why = r->scene.domain.dim != 2    ? "are for 2D"
+                      : r->size > 1               ? "run on one rank"
+                      : crossed                   ? "have no open sides"
+                      : apr_params_of(r)          ? "have no levels of refinement"
+                      : bed_with_friction(r) >= 0 ? "have no bed friction"
+                                                  : NULL;
+    if (given.walls == WALLS_FIXED && why)
+        params_fault(r->params, f, "sph.walls", "fixed ghosts %s: take nfm", why);
+}
+
 /* Whether the walls' form and the model of walls fit. */
 static void check_wall_model(const struct run *r, struct faults *f)
 {
@@ -689,6 +703,7 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(r->params, f, "sph.c0", "must be given: the scene has no scale of velocity");
     check_steps(r, f);
     check_wall_model(r, f);
+    check_fixed_ghosts(r, f);
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     check_spacing(r, f);

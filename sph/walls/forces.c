@@ -197,6 +197,22 @@ static void summarise_body(const struct sph *s)
         summary_real(to, "error.force", sqrt(error2 / size2));
 }
 
+/* Of models that credit nothing: the mean of the averages, and its error. */
+static void summarise_average(const struct sph *s)
+{
+    const double *wanted = s->run->scene.bodies[0].force, T = s->mean_force.average_time;
+    static const char *const names[3] = {"force.average_x", "force.average_y", "force.average_z"};
+    double size2 = 0.0, error2 = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        const double mean = s->mean_force.average_sum[a] / T;
+        size2 += wanted[a] * wanted[a];
+        error2 += (mean - wanted[a]) * (mean - wanted[a]);
+        summary_real(s->run->summary, names[a], mean);
+    }
+    if (size2 > 0.0)
+        summary_real(s->run->summary, "error.force", sqrt(error2 / size2));
+}
+
 /* Momentum now less that of the start, less gravity's impulse, plus what bodies and walls got, over
  * the largest of these or the momentum at the scale of velocity. Where openings or a central
  * acceleration add to it, or particles that left took it along, nobody has booked that. With levels
@@ -225,6 +241,8 @@ static void summarise_balance(const struct sph *s)
 
 void forces_summarise(const struct sph *s)
 {
+    if (!s->walls->forces.known && s->walls->nbodies > 0 && s->mean_force.average_time > 0.0)
+        summarise_average(s);
     if (!s->walls->forces.known)
         return;
     if (s->walls->nbodies > 0 && s->mean_force.time > 0.0)

@@ -549,7 +549,8 @@ void walls_expect_speed(struct sph *s)
 
 struct walls *walls_create(struct sph *s)
 {
-    static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost}; /* enum sph_walls */
+    static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost,
+                                                      &wall_fixed}; /* enum sph_walls */
     const struct scene *c = &s->run->scene;
     int any = c->nbodies;
     for (int k = 0; k < c->nwalls; k++)

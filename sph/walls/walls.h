@@ -70,7 +70,7 @@ struct wall_model {
     void (*back)(struct sph *s); /* puts those back that have gone through thin walls */
     int (*behind)(const struct sph *s, int *who); /* lists locals that are behind a wall */
 };
-extern const struct wall_model wall_ghost, wall_nfm;
+extern const struct wall_model wall_fixed, wall_ghost, wall_nfm;
 
 /* Force and moment, N and N m, or impulses; in 2D of a metre along z, with M[2] alone. */
 struct force {
