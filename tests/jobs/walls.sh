@@ -177,6 +177,21 @@ refuses() {
     [ $? = 2 ] || bad "$* is not refused"
     grep -q "$words" log.txt || bad "$*: no word of: $words"
 }
+# channel.cfg: plane Poiseuille flow, Re 10; delta beside no-slip walls on its default step
+cat >channel.cfg <<'END'
+format = 1;
+time:    { end = 4.0; };
+fluid:   { rho = 1000.0; nu = 0.1; gravity = (0.8, 0); };
+domain:  { dim = 2; min = (0, 0); max = (0.5, 1); periodic = (true, false); };
+initial: { field = "poiseuille"; U = 1.0; L = 1.0; };
+walls:   ( { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; } );
+sph:     { dx = 0.05; c0 = 10.0; walls = "nfm"; };
+output:  { series = 20; snapshots = false; };
+END
+for dx in 0.05 0.025; do
+    timeout 120 "$b/sph" channel.cfg -o channel --force -p sph.scheme=delta -p sph.dx=$dx >log.txt 2>&1 || bad "channel, delta, ended with $?"
+    holds "$(number channel velocity_l2) < 0.01" || bad "channel, delta, dx $dx: velocity off by $(number channel velocity_l2)"
+done
 refuses "sph.scheme: standard .* take riemann" tank.cfg -p sph.scheme=standard
 refuses "sph.walls: .*fixed_ghosts" tank.cfg -p sph.walls=fixed_ghosts
 sed 's/0\.55/0.5/g' tank.cfg >thin.cfg
