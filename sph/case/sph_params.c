@@ -19,6 +19,7 @@
 #include "../walls/wall_thin.h"
 #include "sph_sense.h"
 #include "sph_unused.h"
+#include "standard_check.h"
 
 static struct sph_params given; /* as the case has it: the target of the table */
 static bool present;
@@ -51,7 +52,7 @@ static const struct param rows[] = {
     PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box moves, along the axes whose both sides are open; \"breaker\": it moves with the crest in it, above initial.level"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
-    CHOICE(P, walls, "nfm|ghosts|fixed|auto", "auto", "normal flux (any polyline or mesh; not with scheme standard), mirrored ghosts (plane sides), for comparison fixed ghosts (Marrone; any polyline, 2D); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
+    CHOICE(P, walls, "nfm|ghosts|fixed|auto", "auto", "normal flux (any polyline or mesh; scheme standard in viscous channels alone), mirrored ghosts (plane sides), for comparison fixed ghosts (Marrone; any polyline, 2D); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
     CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)"),
     PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane"),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
@@ -695,11 +696,8 @@ void sph_params_check(const struct run *r, struct faults *f)
         params_fault(
             r->params, f, "sph.transport",
             "eulerian needs scheme \"riemann_ale\": without mass flux there is no Eulerian form");
-    if (sph_params_of(r)->scheme == SCHEME_STANDARD && sph_params_of(r)->walls == WALLS_NFM &&
-        sph_params_walls(&r->scene, sph_params_of(r)))
-        params_fault(r->params, f, "sph.scheme",
-                     "standard has no dissipation of density and diverges at normal flux walls, "
-                     "which polylines and bodies need: take riemann, riemann_ale or delta");
+    if (sph_params_walls(&r->scene, sph_params_of(r)))
+        standard_check(r, sph_params_of(r), f);
     for (int k = 0; k < r->scene.nwalls; k++)
         if (is_coupled(r) && !r->crossed && r->scene.walls[k].carried)
             params_fault(

@@ -177,7 +177,7 @@ refuses() {
     [ $? = 2 ] || bad "$* is not refused"
     grep -q "$words" log.txt || bad "$*: no word of: $words"
 }
-# channel.cfg: plane Poiseuille flow, Re 10; delta beside no-slip walls on its default step
+# channel.cfg: plane Poiseuille flow, Re 10; delta and standard [4.22-4.25] beside no-slip walls on their default step
 cat >channel.cfg <<'END'
 format = 1;
 time:    { end = 4.0; };
@@ -188,11 +188,16 @@ walls:   ( { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_s
 sph:     { dx = 0.05; c0 = 10.0; walls = "nfm"; };
 output:  { series = 20; snapshots = false; };
 END
-for dx in 0.05 0.025; do
-    timeout 120 "$b/sph" channel.cfg -o channel --force -p sph.scheme=delta -p sph.dx=$dx >log.txt 2>&1 || bad "channel, delta, ended with $?"
-    holds "$(number channel velocity_l2) < 0.01" || bad "channel, delta, dx $dx: velocity off by $(number channel velocity_l2)"
+for scheme in delta standard; do
+    for dx in 0.05 0.025; do
+        timeout 120 "$b/sph" channel.cfg -o channel --force -p sph.scheme=$scheme -p sph.dx=$dx >log.txt 2>&1 || bad "channel, $scheme, ended with $?"
+        holds "$(number channel velocity_l2) < 0.01" || bad "channel, $scheme, dx $dx: velocity off by $(number channel velocity_l2)"
+    done
 done
 refuses "sph.scheme: standard .* take riemann" tank.cfg -p sph.scheme=standard
+refuses "sph.scheme: standard .* corners" channel.cfg -p sph.scheme=standard -p domain.periodic="(false,false)" -p 'walls=({ side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; })'
+refuses "sph.scheme: standard .* weighs" channel.cfg -p sph.scheme=standard -p 'initial.field=rest' -p 'fluid.gravity=(0.8,-1)'
+timeout 60 "$b/sph" tank.cfg -o tank --force -p sph.scheme=standard -p sph.walls=fixed -p time.end=0.2 >log.txt 2>&1 || bad "standard with fixed ghosts ended with $?"
 refuses "sph.walls: .*fixed_ghosts" tank.cfg -p sph.walls=fixed_ghosts
 sed 's/0\.55/0.5/g' tank.cfg >thin.cfg
 refuses "faces of wall 1 are 0.1 m apart at (0.45, " thin.cfg
