@@ -96,6 +96,11 @@ static inline double grid_flow_area(const struct grid *g, int64_t c, int a)
 /* Whether blocks overlap; whether some move. */
 static inline bool grid_overlaps(const struct grid *g) { return g->mesh && g->mesh->has_fringe; }
 static inline bool grid_moves(const struct grid *g) { return g->mesh && g->mesh->moves; }
+/* Whether all are. */
+static inline bool grid_all_computed(const struct grid *g)
+{
+    return !g->mesh || !(g->mesh->has_fringe || g->mesh->has_given);
+}
 /* Whether the cell at place c is one that is computed, as far as the grid knows. */
 static inline bool grid_is_computed(const struct grid *g, int64_t c)
 {

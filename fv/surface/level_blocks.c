@@ -15,7 +15,7 @@
 static void ghosts(const struct fv *s, double *phi)
 {
     surface_mesh_fill(s, phi);
-    mesh_bc_level(s, s->surface && s->surface->mesh->keeps, phi);
+    mesh_bc_level(s, s->surface && s->surface->keeps, phi);
 }
 
 static void mirror(const struct fv *s, double *q)

@@ -11,6 +11,7 @@
 #include "level_ops.h"
 #include "mesh_view.h"
 #include "plane.h"
+#include "reinit_band.h"
 
 /* -: most of the sum over the axes of |u_a| dt/h_a in a part of a step. Shares of water stay within
  * their bounds up to a half (fraction.c), beyond in all but the fastest cells; a step of CFL 1.1
@@ -185,6 +186,7 @@ struct surface *levelset_create(const struct fv *s)
     double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
     const double *g = s->gravity.hydrostatic;
     f->ops = s->m ? &block_level : &even_level;
+    f->reinit = s->m ? &block_reinit : &even_reinit;
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         *fields[k] = NEW(double, s->size);
     for (int a = 0; a < s->dim; a++)

@@ -40,9 +40,11 @@ struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted a
 struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none */
 struct surface_mesh;   /* blocks as the surface sees them, mesh_view.h */
 struct level_ops;      /* what the cells offer to it, level_ops.h */
+struct reinit_ops;     /* the same to its reinitialisation, reinit_band.h */
 
 struct surface {
     const struct level_ops *ops;
+    const struct reinit_ops *reinit;
     struct fraction *fraction;
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
@@ -77,6 +79,7 @@ struct surface {
     double through[3];        /* m^dim/s: at the start of a step, see flows() */
     double travelled;         /* -: cells since the last reinit */
     double least, largest;    /* m: sizes of cells */
+    bool keeps;               /* slopes of phi behind inclined walls stay as they are */
     bool leans;               /* even cells whose lines are neither level nor upright */
     double across;            /* m: least spacing of cells across gravity, of 45 degrees and less */
     double theta_least;       /* -: least distance of the surface from a wet centre, of h */

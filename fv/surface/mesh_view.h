@@ -49,7 +49,6 @@ struct surface_mesh {
                                      overlap */
     bool leans[MESH_BLOCKS_MAX];  /* the former */
     bool slanting;                /* some block has such lines */
-    bool keeps;                   /* slopes of phi behind inclined walls stay as they are */
     int64_t nface[3], face_room[3];
     struct wet_face *face[3];
     int64_t nat, at_room;

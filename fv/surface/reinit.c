@@ -12,43 +12,14 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
-#include "mesh_view.h"
+#include "level_ops.h"
+#include "reinit_band.h"
 #include "surface_forced.h"
-#include "weno.h"
 
 enum {
     NARROW = 6 /* the same each half step: those that are advected, and one */
 };
 static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surface that stay as is */
-
-/* A run of cells of the band along x. */
-struct strip {
-    const struct part *part;
-    int64_t cell, n;
-    int row;     /* local */
-    double dtau; /* m: pseudo step of those that are no spots; on blocks each cell has its own */
-};
-
-/* A cell of the band between which and a neighbour the surface passes, or whose distance from it
- * closest.c knows. */
-struct spot {
-    const struct part *part;
-    int64_t cell;
-    double sign, dtau;  /* -, m; 0: phi is held */
-    double reach[3][2]; /* m, on blocks cells: way to the surface along each axis, down and up; 0:
-                           none */
-};
-
-struct band {
-    int64_t nstrips, nspots;
-    struct strip *strips;
-    struct spot *spots;
-};
-
-static double minmod(double a, double b) { return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b; }
-
-/* Second difference of q at the cell (not divided). */
-static double bend(const double *q, int64_t d) { return q[d] - 2.0 * q[0] + q[-d]; }
 
 /* Share of the step d after which the quadratic through q is 0; q[0] and q[d] differ in sign. */
 static double crossing(const double *q, int64_t d)
@@ -64,36 +35,18 @@ static double crossing(const double *q, int64_t d)
 static double slope_of(const struct fv *s, const struct part *p, const double *phi, int64_t c,
                        int j)
 {
-    const struct block *b = &s->b;
-    double sum = 0.0, g[3];
-    if (s->m) {
-        surface_mesh_gradient(s, p, c, phi, g);
-        return sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-    }
-    for (int a = 0; a < b->dim; a++) {
-        const double d =
-            (blocked_beside(s, phi, c, b->stride[a]) - blocked_beside(s, phi, c, -b->stride[a])) /
-            (block_step(b, a, j) + block_step(b, a, j + 1));
-        sum += d * d;
-    }
-    return sqrt(sum);
-}
-
-static double pseudo_cfl(const struct fv *s) { return s->dim == 3 ? 0.3 : 0.45; }
-
-/* Height of cell c, in local row j, along axis a. */
-static double height(const struct fv *s, const struct part *p, int64_t c, int a, int j)
-{
-    const struct surface_mesh *w = s->surface->mesh;
-    return s->m ? w->size[p - s->grid.part][a] / sqrt(w->K[a][a][c]) : block_size(&s->b, a, j);
+    double g[3] = {0.0, 0.0, 0.0};
+    s->surface->ops->gradient(s, p, c, j, phi, g);
+    return sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
 }
 
 static struct spot look(const struct fv *s, const struct part *p, const double *phi, int64_t c,
                         int j)
 {
     struct spot x = {.part = p, .cell = c, .sign = phi[c] < 0.0 ? -1.0 : 1.0, .dtau = INFINITY};
+    const struct reinit_ops *ops = s->surface->reinit;
     for (int a = 0; a < s->dim; a++) {
-        const double h = height(s, p, c, a, j);
+        const double h = ops->height(s, p, c, a, j);
         double v[5];
         x.dtau = fmin(x.dtau, h);
         blocked_even_line(s, phi, c, p->stride[a], v + 2);
@@ -101,160 +54,29 @@ static struct spot look(const struct fv *s, const struct part *p, const double *
             const int d = up ? 1 : -1;
             if ((v[2] < 0.0) == (v[2 + d] < 0.0))
                 continue;
-            const double part = fmax(1e-6, crossing(v + 2, d));
-            x.reach[a][up] = s->m ? part : part * block_step(&s->b, a, j + up);
-            x.dtau = fmin(x.dtau, s->m ? part * h : x.reach[a][up]);
+            double length;
+            const double part = fmax(1e-6, crossing(v + 2, d)),
+                         step = ops->step(s, a, j + up, h, &length);
+            x.reach[a][up] = part * step;
+            x.dtau = fmin(x.dtau, part * length);
         }
     }
-    x.dtau *= pseudo_cfl(s);
+    x.dtau *= reinit_cfl(s);
     if (fabs(slope_of(s, p, phi, c, j) - 1.0) < good)
         x.dtau = 0.0;
     return x;
-}
-
-/* Second derivative along axis a at a cell in row j, whose neighbours stand d away in q, 1/m. */
-static double bend_at(const struct block *b, const double *q, int64_t d, int a, int j)
-{
-    if (a != 1 || !b->rows)
-        return bend(q, d) / (b->h[a] * b->h[a]);
-    const double low = b->rows->step[j], up = b->rows->step[j + 1];
-    return 2.0 * ((q[d] - q[0]) / up - (q[0] - q[-d]) / low) / (up + low);
-}
-
-/* One-sided derivatives beside the surface: second-order ENO, or to the surface itself. */
-static void slopes_beside(const struct fv *s, const double *phi, const struct spot *x, int a,
-                          double d[2])
-{
-    const struct block *b = &s->b;
-    const int j = block_row(b, x->cell);
-    double v[5], *const q = v + 2;
-    blocked_even_line(s, phi, x->cell, b->stride[a], q);
-    for (int up = 0; up < 2; up++) {
-        const int step = up ? 1 : -1;
-        const double c = minmod(bend_at(b, q, 1, a, j), bend_at(b, q + step, 1, a, j + step));
-        const double reach = x->reach[a][up] > 0.0 ? x->reach[a][up] : block_step(b, a, j + up);
-        const double far = x->reach[a][up] > 0.0 ? 0.0 : q[step];
-        d[up] = (up ? 1.0 : -1.0) * ((far - q[0]) / reach - 0.5 * reach * c);
-    }
-}
-
-/* |grad phi| in a cell from slopes on either side of it along the indices, K their metric: along
- * each index the one that distance comes in by, Godunov's choice; where it leaves both ways the one
- * at which it stands still. */
-static double size_in_indices(int dim, double K[3][3], const double below[3], const double above[3],
-                              double sign)
-{
-    double slope[3], sum = 0.0;
-    for (int a = 0; a < dim; a++) {
-        double others = 0.0;
-        for (int b = 0; b < dim; b++)
-            others += b == a ? 0.0 : 0.5 * K[a][b] * (below[b] + above[b]);
-        const double in = fmax(0.0, sign * (K[a][a] * below[a] + others)),
-                     out = fmax(0.0, -sign * (K[a][a] * above[a] + others));
-        slope[a] = in == 0.0 && out == 0.0 ? -others / K[a][a] : in >= out ? below[a] : above[a];
-    }
-    for (int a = 0; a < dim; a++)
-        for (int b = 0; b < dim; b++)
-            sum += K[a][b] * slope[a] * slope[b];
-    return sqrt(fmax(0.0, sum));
-}
-
-/* The same beside the surface, where slopes end on it. */
-static double size_beside_on_blocks(const struct fv *s, const double *phi, const struct spot *x)
-{
-    const double *size = s->surface->mesh->size[x->part - s->grid.part];
-    double K[3][3], d[2][3];
-    surface_mesh_metric(s, x->cell, K);
-    for (int a = 0; a < s->dim; a++)
-        for (int up = 0; up < 2; up++) {
-            const int64_t step = up ? x->part->stride[a] : -x->part->stride[a];
-            const double *q = phi + x->cell, reach = x->reach[a][up] > 0.0 ? x->reach[a][up] : 1.0;
-            const double c = minmod(bend(q, step), bend(q + step, step)),
-                         far = x->reach[a][up] > 0.0 ? 0.0 : q[step];
-            d[up][a] = (up ? 1.0 : -1.0) * ((far - q[0]) / reach - 0.5 * reach * c) / size[a];
-        }
-    return size_in_indices(s->dim, K, d[0], d[1], x->sign);
-}
-
-static void rates_of_strip(const struct fv *s, const double *phi, const double *old,
-                           const struct strip *x, double *rate)
-{
-    const struct surface_mesh *w = s->surface->mesh;
-    const double *size = w->size[x->part - s->grid.part];
-    for (int a = 0; a < s->dim; a++)
-        weno_slopes(phi + x->cell, x->part->stride[a], 1.0 / size[a], x->n, w->slopes[a][0],
-                    w->slopes[a][1]);
-    for (int64_t i = 0; i < x->n; i++) {
-        double K[3][3], d[2][3], least = INFINITY;
-        surface_mesh_metric(s, x->cell + i, K);
-        for (int a = 0; a < s->dim; a++) {
-            d[0][a] = w->slopes[a][0][i];
-            d[1][a] = w->slopes[a][1][i];
-            least = fmin(least, size[a] / sqrt(K[a][a]));
-        }
-        const double sign = old[x->cell + i] < 0.0 ? -1.0 : 1.0;
-        rate[x->cell + i] =
-            pseudo_cfl(s) * least * sign * (1.0 - size_in_indices(s->dim, K, d[0], d[1], sign));
-    }
-}
-
-static double size_beside(const struct fv *s, const double *phi, const struct spot *x)
-{
-    double sum = 0.0, d[2];
-    if (s->m)
-        return size_beside_on_blocks(s, phi, x);
-    for (int a = 0; a < s->b.dim; a++) {
-        slopes_beside(s, phi, x, a, d);
-        const double in = fmax(0.0, x->sign * d[0]), out = fmin(0.0, x->sign * d[1]);
-        sum += fmax(in * in, out * out);
-    }
-    return sqrt(sum);
-}
-
-/* In place of the squares of slopes whose stencils end at a box: phi is even there. */
-static void squares_beside_boxes(const struct fv *s, const double *phi, const double *old,
-                                 double *sum)
-{
-    static const enum blocked_ghost even[2] = {GHOST_EVEN, GHOST_EVEN};
-    for (int a = 0; a < s->b.dim; a++)
-        for (int64_t k = 0; k < s->blocked->nnear[a]; k++) {
-            const struct near_box *x = s->blocked->near[a] + k;
-            const int64_t c = x->cell, d = s->b.stride[a];
-            double v[7], was = 0.0, is = 0.0;
-            if (!x->own)
-                continue;
-            blocked_line(x, phi, d, 3, even, v + 3);
-            weno_add_square(phi + c, old + c, d, 1.0 / s->b.h[a], 1, &was);
-            weno_add_square(v + 3, old + c, 1, 1.0 / s->b.h[a], 1, &is);
-            sum[c] = fmax(0.0, sum[c] + is - was);
-        }
 }
 
 /* rate = change of phi over a pseudo step; old: phi at its start, which has the sign of all. */
 static void rates(const struct fv *s, const double *phi, const double *old, const struct band *w,
                   double *rate)
 {
-    const struct block *b = &s->b;
-    for (int64_t k = 0; k < w->nstrips && s->m; k++)
-        rates_of_strip(s, phi, old, w->strips + k, rate);
-    for (int64_t k = 0; k < w->nstrips && !s->m; k++) {
-        const int64_t c = w->strips[k].cell, n = w->strips[k].n;
-        memset(rate + c, 0, (size_t)n * sizeof(double));
-        for (int a = 0; a < b->dim; a++)
-            weno_add_square(phi + c, old + c, b->stride[a],
-                            1.0 / block_scale(b, a, w->strips[k].row), n, rate + c);
-    }
-    if (s->blocked)
-        squares_beside_boxes(s, phi, old, rate);
-    for (int64_t k = 0; k < w->nstrips && !s->m; k++) {
-        const int64_t c = w->strips[k].cell, n = w->strips[k].n;
-        const double dtau = w->strips[k].dtau;
-        for (int64_t i = c; i < c + n; i++)
-            rate[i] = (old[i] < 0.0 ? -dtau : dtau) * (1.0 - sqrt(rate[i]));
-    }
+    const struct reinit_ops *ops = s->surface->reinit;
+    ops->rates(s, phi, old, w, rate);
     for (int64_t k = 0; k < w->nspots; k++) {
         const struct spot *x = w->spots + k;
-        rate[x->cell] = x->dtau > 0.0 ? x->dtau * x->sign * (1.0 - size_beside(s, phi, x)) : 0.0;
+        rate[x->cell] =
+            x->dtau > 0.0 ? x->dtau * x->sign * (1.0 - ops->size_beside(s, phi, x)) : 0.0;
     }
 }
 
@@ -271,9 +93,7 @@ static bool beside_surface(const struct fv *s, const struct part *p, const doubl
 static bool is_left_out(const struct fv *s, int64_t c)
 {
     const struct surface_forced *p = s->surface->forced;
-    if (!s->m)
-        return is_blocked(s, c);
-    return s->m->status[c] != CELL_COMPUTED && !(p && p->holds[c]);
+    return is_blocked(s, c) || (!grid_is_computed(&s->grid, c) && !(p && p->holds[c]));
 }
 
 /* mark = 1 in cells of a row between which and a neighbour along the step d the surface passes;
@@ -292,7 +112,7 @@ static void mark_row(const double *restrict phi, int64_t d, bool first, int64_t 
 static void mark_surface(const struct fv *s, double *mark)
 {
     const double *phi = s->surface->phi;
-    const bool plain = !s->m && !s->blocked;
+    const bool plain = !s->blocked && grid_all_computed(&s->grid);
     FLOW_NEAR_AT (s, part, j, c, len) {
         for (int a = 0; a < s->dim && plain; a++)
             mark_row(phi + c, part->stride[a], a == 0, len, mark + c);
@@ -333,30 +153,13 @@ static void mark_band(const struct fv *s, int width, double *mark)
     }
 }
 
-static double least_size(const struct block *b, int j)
-{
-    double least = INFINITY;
-    for (int a = 0; a < b->dim; a++)
-        least = fmin(least, block_size(b, a, j));
-    return least;
-}
-
-/* Whether differences around c end at a closed side or a box. */
-static bool near_side(const struct fv *s, int64_t c)
-{
-    for (int a = 0; a < s->dim; a++)
-        for (int m = 1; m <= GHOSTS; m++)
-            if (surface_holds_none(s, c + m * s->b.stride[a]) ||
-                surface_holds_none(s, c - m * s->b.stride[a]))
-                return true;
-    return false;
-}
-
 /* The band's cells; all others are at least as far off as it is wide. */
 static void list_band(struct fv *s, int width, struct band *w)
 {
     double *phi = s->surface->phi, *mark = s->surface->phi_new, *exact = s->surface->rate;
     const double far = s->surface->least * (width - 1);
+    bool (*const is_known)(const struct fv *, const double *, int64_t, bool, double *) =
+        s->surface->reinit->is_known;
     int64_t cells = 0;
     mark_band(s, width, mark);
     FLOW_NEAR (s, c, len)
@@ -377,21 +180,14 @@ static void list_band(struct fv *s, int width, struct band *w)
                     (struct strip){.part = part,
                                    .cell = i,
                                    .row = j,
-                                   .dtau = s->m ? 0.0 : pseudo_cfl(s) * least_size(&s->b, j)};
+                                   .dtau = s->surface->reinit->strip_step(s, j)};
             w->strips[w->nstrips - 1].n++;
             exact[i] = phi[i];
-            if (!s->m &&
-                (surface_closest(s, phi, i, exact + i) || (width == NARROW && near_side(s, i))))
+            if (is_known && is_known(s, phi, i, width == NARROW, exact + i))
                 w->spots[w->nspots++] = (struct spot){.part = part, .cell = i};
             else if (beside_surface(s, part, phi, i))
                 w->spots[w->nspots++] = look(s, part, phi, i, j);
         }
-}
-
-static void keep_slopes(const struct fv *s, bool keep)
-{
-    if (s->m)
-        s->surface->mesh->keeps = keep;
 }
 
 /* Distances that are known take their places. */
@@ -399,7 +195,7 @@ static void set_exact(struct fv *s, const struct band *w)
 {
     double *phi = s->surface->phi;
     const double *exact = s->surface->rate;
-    if (s->m)
+    if (!s->surface->reinit->is_known)
         return;
     for (int64_t k = 0; k < w->nspots; k++)
         if (w->spots[k].sign == 0.0)
@@ -432,10 +228,10 @@ static void redistance(struct fv *s, int width, int steps)
     struct band w = {0};
     list_band(s, width, &w);
     set_exact(s, &w);
-    keep_slopes(s, true);
+    s->surface->keeps = true;
     for (int k = 0; k < steps; k++)
         pseudo_step(s, &w);
-    keep_slopes(s, false);
+    s->surface->keeps = false;
     mem_free(w.strips);
     mem_free(w.spots);
 }
