@@ -12,17 +12,13 @@
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
+#include "extension_window.h"
 #include "lanes.h"
+#include "level_ops.h"
 #include "mesh_view.h"
 #include "near_water.h"
 
-enum {
-    TERMS = 10,
-    STENCIL = 128, /* 125 cells and what fills up the last lanes */
-    THIN = 9,
-    WEDGE = 12,
-    OWN = 5
-};
+enum { TERMS = 10, THIN = 9, WEDGE = 12 };
 
 /* Normal equations of a fit over a stencil. */
 struct least_squares {
@@ -88,19 +84,6 @@ static void weights(const struct least_squares *q, int n, const double *e, doubl
         out[p] *= q->w[p];
 }
 
-/* A dry cell under work: frame e[0] = normal, e[1], e[2] tangents; origin: foot point. */
-struct place {
-    const struct part *part;
-    double e[3][3];
-    double depth;            /* m: of the cell over the surface */
-    int n, step[STENCIL];    /* known cells around; the last one again fills up the lanes */
-    int known;               /* of them not again */
-    int room;                /* how many the window could hold */
-    bool mixed;              /* some of the known are other blocks' */
-    double r[3][STENCIL];    /* their places in the frame, in units of h */
-    double self[3], spacing; /* the cell's own; mean h (m), no axis before another */
-};
-
 /* 1, then the dim coordinates r (from `skip' on: a normal one left out), then their products, at n
  * places; the number of terms. */
 static int terms(int dim, int order, bool skip, const double (*r)[STENCIL], int n,
@@ -130,26 +113,11 @@ static void terms_at(int dim, int order, bool skip, const double *r, double *e)
         e[i] = b[i][0];
 }
 
-/* grad phi of a cell. */
-static void slope_at(const struct fv *s, const struct part *p, int64_t c, double n[3])
-{
-    const struct block *b = &s->b;
-    if (s->m) {
-        surface_mesh_gradient(s, p, c, s->surface->phi, n);
-        return;
-    }
-    const int row = block_row(b, c);
-    for (int a = 0; a < b->dim; a++)
-        n[a] = (blocked_beside(s, s->surface->phi, c, b->stride[a]) -
-                blocked_beside(s, s->surface->phi, c, -b->stride[a])) /
-               (block_step(b, a, row) + block_step(b, a, row + 1));
-}
-
-static void make_frame(const struct fv *s, int64_t c, struct place *p)
+static void make_frame(const struct fv *s, int64_t c, int row, struct place *p)
 {
     const double *q = s->surface->phi + c;
     double size = 0.0, n[3] = {0.0, 0.0, 0.0};
-    slope_at(s, p->part, c, n);
+    s->surface->ops->gradient(s, p->part, c, row, s->surface->phi, n);
     for (int a = 0; a < s->dim; a++)
         size += n[a] * n[a];
     size = sqrt(size);
@@ -179,141 +147,6 @@ static void make_frame(const struct fv *s, int64_t c, struct place *p)
     for (int a = 0; a < 3; a++)
         p->e[2][a] = p->e[0][(a + 1) % 3] * p->e[1][(a + 2) % 3] -
                      p->e[0][(a + 2) % 3] * p->e[1][(a + 1) % 3];
-}
-
-/* Cells of the window (its corner at `corner' from the cell c) that are reached from c over faces
- * within it: water beyond a thin box is none of this cell's. False: no box is near, all are. */
-static bool look_past_boxes(const struct fv *s, int64_t c, const int *corner, bool *seen)
-{
-    const struct block *b = &s->b;
-    const int deep = b->dim == 3 ? 5 : 1, n = 25 * deep, width[3] = {1, 5, 25};
-    int64_t cell[125];
-    int queue[125], head = 0, tail = 0;
-    bool near = false;
-    for (int m = 0; m < n; m++) {
-        cell[m] = c + corner[0] + m % 5 + (corner[1] + m / 5 % 5) * b->stride[1] +
-                  (corner[2] + m / 25) * b->stride[2];
-        near = near || is_blocked(s, cell[m]);
-        seen[m] = cell[m] == c;
-        if (seen[m])
-            queue[tail++] = m;
-    }
-    while (near && head < tail) {
-        const int m = queue[head++], at[3] = {m % 5, m / 5 % 5, m / 25};
-        for (int way = 0; way < 2 * b->dim; way++) {
-            const int a = way / 2, to = m + (way % 2 ? width[a] : -width[a]);
-            if (way % 2 ? at[a] == 4 : at[a] == 0)
-                continue;
-            if (!seen[to] && !s->forcing->forced[cell[to]]) {
-                seen[to] = true;
-                queue[tail++] = to;
-            }
-        }
-    }
-    return near;
-}
-
-/* The last known cell again until the lanes are full. */
-static void fill_lanes(struct place *p, int n)
-{
-    p->known = n;
-    for (; n % LANES; n++) {
-        p->step[n] = p->step[p->known - 1];
-        for (int a = 0; a < 3; a++)
-            p->r[a][n] = p->r[a][p->known - 1];
-    }
-    p->n = n;
-    p->self[0] = p->depth / p->spacing;
-    p->self[1] = p->self[2] = 0.0;
-}
-
-/* Cells on either side of the middle of a cell's window. Layers further out carry phi where it is
- * made a distance again: nearer cells do for them, but where blocks overlap, whose donors they are,
- * and where the surface goes several cells a step. */
-static int reach_of(const struct fv *s, int layer)
-{
-    const bool donors = grid_overlaps(&s->grid), far = s->prm.integrator != INTEGRATOR_RK3;
-    return layer <= 2 || donors || far ? 2 : 1;
-}
-
-/* Known cells of a window of 3 or 5 cells a side, moved one cell into the water. */
-static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
-{
-    const struct block *b = &s->b;
-    const unsigned char *known = s->surface->layer + c;
-    const bool *out = s->surface->closed + c;
-    const int reach = reach_of(s, layer), deep = b->dim == 3 ? reach : 0;
-    const double per = 1.0 / p->spacing, *y = b->rows ? b->rows->y + block_row(b, c) : NULL;
-    int shift[3], n = 0;
-    p->room = 0;
-    for (int a = 0; a < 3; a++)
-        shift[a] = a < b->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
-    const int corner[3] = {shift[0] - 2, shift[1] - 2, shift[2] - (b->dim == 3 ? 2 : 0)};
-    bool seen[125], *const some = s->blocked && look_past_boxes(s, c, corner, seen) ? seen : NULL;
-    for (int k = -deep; k <= deep; k++)
-        for (int j = -reach; j <= reach; j++) {
-            const int row = 5 * (j + 2 + 5 * (deep ? k + 2 : 0));
-            const int step =
-                (int)(shift[0] - 2 + (j + shift[1]) * b->stride[1] + (k + shift[2]) * b->stride[2]);
-            double x[3], r[3];
-            x[0] = (shift[0] - 2) * b->h[0] + p->depth * p->e[0][0];
-            x[1] = (y ? y[shift[1] + j] - y[0] : (shift[1] + j) * b->h[1]) + p->depth * p->e[0][1];
-            x[2] = deep ? (shift[2] + k) * b->h[2] + p->depth * p->e[0][2] : 0.0;
-            for (int a = 0; a < 3; a++)
-                r[a] = (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) * per;
-            for (int i = 2 - reach; i <= 2 + reach;
-                 i++) { /* kept without a branch: n goes on if it is known */
-                const bool there = !out[step + i] && !(some && !some[row + i]);
-                p->room += there;
-                for (int a = 0; a < 3; a++)
-                    p->r[a][n] = r[a] + i * p->e[a][0] * (b->h[0] * per);
-                p->step[n] = step + i;
-                n += there && known[step + i] < layer;
-            }
-        }
-    fill_lanes(p, n);
-}
-
-/* The same on blocks: the window moves along the indices that lead into the water; dry cells that
- * other blocks interpolate are not known. */
-static void look_around_on_blocks(const struct fv *s, int64_t c, int layer, struct place *p)
-{
-    const struct mesh *m = s->m;
-    const struct surface_mesh *w = s->surface->mesh;
-    const struct part *part = p->part;
-    const int reach = reach_of(s, layer), deep = m->dim == 3 ? reach : 0;
-    int shift[3] = {0, 0, 0}, n = 0;
-    p->room = 0;
-    for (int a = 0; a < m->dim; a++) {
-        double along = 0.0, size = 0.0;
-        for (int k = 0; k < m->dim; k++) {
-            const double S = m->S[a][k][c] + m->S[a][k][c + part->stride[a]];
-            along += p->e[0][k] * S;
-            size += S * S;
-        }
-        shift[a] = -(int)lround(1.2 * along / sqrt(size));
-    }
-    for (int k = -deep; k <= deep; k++)
-        for (int j = -reach; j <= reach; j++)
-            for (int i = -reach; i <= reach; i++) {
-                const int64_t step = shift[0] + i + (shift[1] + j) * part->stride[1] +
-                                     (shift[2] + k) * part->stride[2];
-                const int64_t at = c + step;
-                double x[3];
-                for (int a = 0; a < 3; a++)
-                    x[a] = w->x[a][at] - w->x[a][c] + p->depth * p->e[0][a];
-                for (int a = 0; a < 3; a++)
-                    p->r[a][n] =
-                        (x[0] * p->e[a][0] + x[1] * p->e[a][1] + x[2] * p->e[a][2]) / p->spacing;
-                p->step[n] = (int)step;
-                const int of = s->surface->layer[at];
-                p->room += !w->out[at];
-                const bool known =
-                    !w->out[at] && of < layer && (of == 0 || m->status[at] == CELL_COMPUTED);
-                p->mixed = p->mixed || (known && m->status[at] == CELL_FRINGE);
-                n += known;
-            }
-    fill_lanes(p, n);
 }
 
 /* The best fit that the cells allow, of at most this order; the order done. */
@@ -384,33 +217,15 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
  * 0.4. */
 static bool is_thin(const struct fv *s, const struct place *p, int layer)
 {
-    if (reach_of(s, layer) == 1)
+    if (window_reach(s, layer) == 1)
         return 2 * p->known < p->room;
     /* slopes over what two blocks have, each for itself, drive them apart */
-    if (p->mixed && s->surface->mesh->slanting)
+    if (p->mixed && surface_any_leans(s))
         return true;
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
     if (surface_leans(s, p->part) && p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
         return true;
     return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
-}
-
-static double mean_size(const struct fv *s, int64_t c)
-{
-    const double *h = s->b.h, volume = s->m ? s->m->V[c] : h[0] * h[1] * (s->dim == 3 ? h[2] : 1.0);
-    return s->dim == 2 ? sqrt(volume) : cbrt(volume);
-}
-
-/* A dry cell of the fringe whose block has water of its own beside it: what donors have there comes
- * from another block's surface, and where the surface runs along a block's side the two drive each
- * other. */
-static bool keep_own(const struct fv *s, int64_t c, const struct place *p)
-{
-    int own = 0;
-    for (int k = 0; k < p->known; k++)
-        own += s->m->status[c + p->step[k]] == CELL_COMPUTED;
-    s->surface->mesh->keep[c] = own >= (s->dim == 2 ? OWN : 3 * OWN);
-    return s->surface->mesh->keep[c];
 }
 
 /* Whether the second layer may be as slow as a film's: where viscosity crosses a cell while a wave
@@ -421,19 +236,16 @@ static bool may_slow(const struct fv *s, double h)
     return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_leans(s);
 }
 
-static void add_carry(struct fv *s, const struct part *part, int64_t c, int layer)
+static void add_carry(struct fv *s, const struct part *part, int64_t c, int row, int layer)
 {
     struct surface *f = s->surface;
     const int dim = s->dim;
-    struct place p = {.part = part, .spacing = mean_size(s, c)};
+    struct place p = {.part = part, .spacing = f->window->size(s, c)};
     struct least_squares q;
     double e[TERMS];
-    make_frame(s, c, &p);
-    if (s->m)
-        look_around_on_blocks(s, c, layer, &p);
-    else
-        look_around(s, c, layer, &p);
-    if (s->m && s->m->status[c] == CELL_FRINGE && !keep_own(s, c, &p))
+    make_frame(s, c, row, &p);
+    f->window->look_around(s, c, layer, &p);
+    if (f->window->is_own && !f->window->is_own(s, c, &p))
         return;
     make_room(f, STENCIL, (int64_t)dim * STENCIL);
     struct carry x = {.cell = c, .first = (int)f->nstencil, .n = p.n, .first_grad = (int)f->ngrad};
@@ -529,21 +341,18 @@ void extension_build(struct fv *s)
 {
     struct surface *f = s->surface;
     find_layers(s);
-    if (s->m) {
-        memset(f->mesh->keep, 0, (size_t)s->size);
-        s->m->fringe.keep = f->mesh->keep;
-    }
+    if (f->window->begin)
+        f->window->begin(s);
     f->nstencil = f->ngrad = f->ndeep = 0;
     for (int l = 0; l <= LAYERS; l++)
         f->ncarry[l] = 0;
     FLOW_NEAR_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
             const int l = f->layer[c];
-            if (s->m && s->m->status[c] != CELL_COMPUTED &&
-                !(s->m->status[c] == CELL_FRINGE && l == 1))
+            if (f->window->is_wanted && !f->window->is_wanted(s, c, l))
                 continue;
             if (l >= 1 && l <= LAYERS)
-                add_carry(s, part, c, l);
+                add_carry(s, part, c, j, l);
             else if (l == DEEP)
                 f->deep[f->ndeep++] = c;
         }

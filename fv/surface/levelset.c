@@ -8,6 +8,7 @@
 
 #include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
+#include "extension_window.h"
 #include "level_ops.h"
 #include "mesh_view.h"
 #include "plane.h"
@@ -187,6 +188,7 @@ struct surface *levelset_create(const struct fv *s)
     const double *g = s->gravity.hydrostatic;
     f->ops = s->m ? &block_level : &even_level;
     f->reinit = s->m ? &block_reinit : &even_reinit;
+    f->window = s->m ? &block_window : &even_window;
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         *fields[k] = NEW(double, s->size);
     for (int a = 0; a < s->dim; a++)

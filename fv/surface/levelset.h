@@ -40,11 +40,13 @@ struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted a
 struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none */
 struct surface_mesh;   /* blocks as the surface sees them, mesh_view.h */
 struct level_ops;      /* what the cells offer to it, level_ops.h */
+struct window_ops;     /* and to the velocity of dry cells, extension_window.h */
 struct reinit_ops;     /* the same to its reinitialisation, reinit_band.h */
 
 struct surface {
     const struct level_ops *ops;
     const struct reinit_ops *reinit;
+    const struct window_ops *window;
     struct fraction *fraction;
     struct surface_forced *forced;
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
