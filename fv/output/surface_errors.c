@@ -93,7 +93,8 @@ static double foot_on_blocks(const struct fv *s, const struct part *p, int64_t i
 static bool has_water(const struct fv *s, int64_t c)
 {
     const struct surface_forced *p = s->surface->forced;
-    return s->surface->phi[c] < 0.0 && (s->m->status[c] == CELL_COMPUTED || (p && p->holds[c]));
+    return s->surface->phi[c] < 0.0 &&
+           (s->m->status[c] == CELL_COMPUTED || (p && p->holds && p->holds[c]));
 }
 
 /* On blocks: to the surface along the indices, or to a wall. */

@@ -154,6 +154,37 @@ static void add_shared(const struct fv *s, double sums[2])
     }
 }
 
+static double spacing_along(const struct fv *s, const struct part *p, int a)
+{
+    return s->surface->mesh->size[p - s->grid.part][a];
+}
+
+static void close_cells(struct fv *s)
+{
+    surface_mesh_update(s);
+    surface_mesh_count(s);
+    surface_ghosts(s, s->surface->phi);
+}
+
+/* Dry cells take no part in the flow. */
+static void find_faces(struct fv *s)
+{
+    FLOW_NEAR (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
+    surface_mesh_find_faces(s);
+}
+
+static double face_slope(const struct fv *s, int a, int64_t face, double change)
+{
+    return s->m->G[a][a][face] * change;
+}
+
+static double cut_slope(const struct fv *s, int a, const struct cut *x, double slope)
+{
+    return slope * (s->m->G[a][a][x->face] * x->step);
+}
+
 /* --- start --- */
 
 static void start(const struct fv *s, struct surface *f)
@@ -175,4 +206,10 @@ const struct level_ops block_level = {.start = start,
                                       .gradient = gradient,
                                       .volume = volume,
                                       .counted = counted,
-                                      .add_shared = add_shared};
+                                      .add_shared = add_shared,
+                                      .spacing_along = spacing_along,
+                                      .close_cells = close_cells,
+                                      .find_faces = find_faces,
+                                      .fluxes = surface_mesh_fluxes,
+                                      .face_slope = face_slope,
+                                      .cut_slope = cut_slope};

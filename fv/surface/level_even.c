@@ -6,6 +6,7 @@
 
 #include "../boundary/bc.h"
 #include "../boundary/blocked.h"
+#include "../boundary/forcing.h"
 #include "../boundary/still.h"
 #include "levelset.h"
 #include "weno.h"
@@ -167,6 +168,34 @@ static double counted(const struct fv *s, int64_t c, double share)
     return share;
 }
 
+static double spacing_along(const struct fv *s, const struct part *p, int a)
+{
+    (void)p;
+    return s->b.h[a];
+}
+
+/* A partner's near cells take part as water or air; nothing is known in all others that are forced.
+ */
+static void close_cells(struct fv *s)
+{
+    const struct forcing *g = s->forcing;
+    for (int64_t c = 0; g && c < s->b.size; c++)
+        s->surface->closed[c] = g->forced[c] && !(s->surface->forced && g->known[c]);
+}
+
+static double face_slope(const struct fv *s, int a, int64_t face, double change)
+{
+    return change / block_step(&s->b, a, block_row(&s->b, face));
+}
+
+static double cut_slope(const struct fv *s, int a, const struct cut *x, double slope)
+{
+    (void)s;
+    (void)a;
+    (void)x;
+    return slope;
+}
+
 /* --- start --- */
 
 static void fill_even(const struct fv *s, double *phi)
@@ -185,7 +214,7 @@ static void fill_even(const struct fv *s, double *phi)
 static void set_sizes(const struct block *b, const double *g, struct surface *f)
 {
     f->least = f->across = INFINITY;
-    f->leans = still_leans(g);
+    f->leans[0] = f->any_leans = still_leans(g);
     for (int a = 0; a < b->dim; a++) {
         const double along = fabs(g[a]);
         if (along < 0.7 * f->g)
@@ -211,4 +240,10 @@ const struct level_ops even_level = {.start = start,
                                      .slopes = slopes,
                                      .gradient = gradient,
                                      .volume = volume,
-                                     .counted = counted};
+                                     .counted = counted,
+                                     .spacing_along = spacing_along,
+                                     .close_cells = close_cells,
+                                     .find_faces = level_find_cuts,
+                                     .fluxes = level_cut_fluxes,
+                                     .face_slope = face_slope,
+                                     .cut_slope = cut_slope};

@@ -9,6 +9,8 @@
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */
 
+struct cut; /* levelset.h */
+
 struct level_ops {
     /* What the surface keeps of the cells, phi of the scene's water at the start, with no ghosts
      * yet. Collective. */
@@ -32,6 +34,18 @@ struct level_ops {
     /* See surface_cell_volume and surface_counted. */
     double (*volume)(const struct fv *s, int64_t c, int j);
     double (*counted)(const struct fv *s, int64_t c, double share);
+    /* m: mean spacing of a part's cells along index a. */
+    double (*spacing_along)(const struct fv *s, const struct part *p, int a);
+    /* Which cells hold nothing, of where boxes, a partner and blocks stand now. Collective. */
+    void (*close_cells)(struct fv *s);
+    /* The cuts, and what else the layers make of faces. */
+    void (*find_faces)(struct fv *s);
+    /* U of these faces less tau times the flux of psi. */
+    void (*fluxes)(const struct fv *s, double tau, const double *psi);
+    /* Of a change of psi over the lower face of a cell along a: its slope, on blocks its flux; of
+     * the slope on a cut, in the same unit. */
+    double (*face_slope)(const struct fv *s, int a, int64_t face, double change);
+    double (*cut_slope)(const struct fv *s, int a, const struct cut *x, double slope);
     /* Adds to the volume of water (m^dim) and its change with phi what cells that are shared have
      * beyond their counts; NULL: there are none. */
     void (*add_shared)(const struct fv *s, double sums[2]);
@@ -44,6 +58,9 @@ void level_blend(const struct fv *s, double w, const double *p, double dt, const
                  double *q);
 /* Parts of a step in which phi crosses so many cells. */
 int level_parts(double cfl);
+/* surface_pressure.c: of even cells. */
+void level_find_cuts(struct fv *s);
+void level_cut_fluxes(const struct fv *s, double tau, const double *psi);
 /* Share of a cell below phi + shift = 0. */
 double level_share(const struct fv *s, const struct part *p, int64_t c, double shift);
 

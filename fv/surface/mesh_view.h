@@ -47,8 +47,6 @@ struct surface_mesh {
         *keep; /* 1: a dry cell of the fringe whose velocity is that of its block's water */
     bool slants[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright, or end in an
                                      overlap */
-    bool leans[MESH_BLOCKS_MAX];  /* the former */
-    bool slanting;                /* some block has such lines */
     int64_t nface[3], face_room[3];
     struct wet_face *face[3];
     int64_t nat, at_room;

@@ -101,8 +101,8 @@ struct surface_forced *surface_forced_create(const struct fv *s)
             if (g->forced[c] == 1 || grid_is_given(&s->grid, c))
                 f->cell[f->n++] = c;
     f->nforced = f->n;
-    f->holds = s->m ? NEW(bool, s->size) : NULL;
-    for (int64_t i = 0; i < f->n && s->m; i++)
+    f->holds = grid_all_computed(&s->grid) ? NULL : NEW(bool, s->size);
+    for (int64_t i = 0; i < f->n && f->holds; i++)
         f->holds[f->cell[i]] = true;
     for (int64_t i = g->npartner; i < g->npartner + g->nrim; i++)
         f->cell[f->n++] = g->partner[i];

@@ -16,6 +16,7 @@
 #include <math.h>
 
 #include "../boundary/forcing.h"
+#include "level_ops.h"
 #include "mesh_view.h"
 
 static bool is_water(const struct fv *s, int64_t c)
@@ -36,8 +37,7 @@ static bool is_deep(const struct fv *s, int64_t c, int64_t d)
 static double slope(const struct fv *s, int a, int64_t d, int64_t face, const double *psi)
 {
     const double change = psi[face] - psi[face - d];
-    return s->m ? s->m->G[a][a][face] * change
-                : change / block_step(&s->b, a, block_row(&s->b, face));
+    return s->surface->ops->face_slope(s, a, face, change);
 }
 
 static void solve(double theta, double cut, const double F[3], double g[2])
@@ -72,8 +72,7 @@ static bool look(const struct fv *s, int a, const struct cut *x, const double *p
     const int64_t up = p->stride[a], d = above ? -up : up, face = above ? x->wet : x->wet + d;
     if (!surface_takes_lines(s, p) || !is_deep(s, x->wet, d))
         return false;
-    const double cut =
-        surface_cut_gradient(x, psi, change) * (s->m ? s->m->G[a][a][x->face] * x->step : 1.0);
+    const double cut = s->surface->ops->cut_slope(s, a, x, surface_cut_gradient(x, psi, change));
     double F[3];
     for (int k = 0; k < 3; k++)
         F[k] = slope(s, a, up, face + k * d, psi);

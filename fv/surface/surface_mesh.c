@@ -35,13 +35,10 @@ static double mean_spacing(const struct mesh_block *b, int dim, int a)
 
 bool surface_leans(const struct fv *s, const struct part *p)
 {
-    return s->m ? s->surface->mesh->leans[p - s->grid.part] : s->surface->leans;
+    return s->surface->leans[p - s->grid.part];
 }
 
-bool surface_any_leans(const struct fv *s)
-{
-    return s->m ? s->surface->mesh->slanting : s->surface->leans;
-}
+bool surface_any_leans(const struct fv *s) { return s->surface->any_leans; }
 
 /* Whether some edge of the block is neither along gravity nor across it. */
 static bool is_slanting(const struct fv *s, const struct mesh_block *b)
@@ -242,7 +239,7 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
     w->count = mesh_field(s->m);
     w->height = mesh_field(s->m);
     for (int k = 0; k < s->m->nblocks; k++)
-        w->slanting = w->slanting || is_slanting(s, s->m->block + k);
+        f->any_leans = f->any_leans || is_slanting(s, s->m->block + k);
     w->out = NEW(unsigned char, s->size);
     w->keep = NEW(unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
@@ -255,8 +252,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
         const struct part *p = s->grid.part + q;
         for (int a = 0; a < s->dim; a++)
             w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
-        w->leans[q] = is_slanting(s, s->m->block + p->block);
-        w->slants[q] = s->m->has_fringe || w->leans[q];
+        f->leans[q] = is_slanting(s, s->m->block + p->block);
+        w->slants[q] = s->m->has_fringe || f->leans[q];
         set_centres(s, p, w);
         set_metric(s, p, w);
         most = p->n[0] > most ? p->n[0] : most;

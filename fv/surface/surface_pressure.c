@@ -16,6 +16,7 @@
 #include "../boundary/forcing.h"
 #include "../boundary/levels.h"
 #include "../boundary/still.h"
+#include "level_ops.h"
 #include "mesh_view.h"
 
 double surface_rise(const struct fv *s, const double *e)
@@ -76,6 +77,12 @@ static void find_cuts(struct fv *s, int a)
         }
 }
 
+void level_find_cuts(struct fv *s)
+{
+    for (int a = 0; a < s->dim; a++)
+        find_cuts(s, a);
+}
+
 static void count(struct fv *s)
 {
     struct surface *f = s->surface;
@@ -90,25 +97,11 @@ static void count(struct fv *s)
     f->cuts = n[1];
 }
 
-/* On blocks dry cells take no part in the flow. */
-static void set_free(struct fv *s)
-{
-    FLOW_NEAR (s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
-}
-
 void surface_rebuild(struct fv *s)
 {
     struct surface *f = s->surface;
     extension_build(s);
-    if (s->m) {
-        set_free(s);
-        surface_mesh_find_faces(s);
-    } else {
-        for (int a = 0; a < s->dim; a++)
-            find_cuts(s, a);
-    }
+    f->ops->find_faces(s);
     count(s);
     f->setups++;
 }
@@ -150,11 +143,12 @@ double surface_cut_gradient(const struct cut *x, const double *psi, bool change)
 
 void surface_fluxes(const struct fv *s, double tau, const double *psi)
 {
+    s->surface->ops->fluxes(s, tau, psi);
+}
+
+void level_cut_fluxes(const struct fv *s, double tau, const double *psi)
+{
     const struct surface *f = s->surface;
-    if (s->m) {
-        surface_mesh_fluxes(s, tau, psi);
-        return;
-    }
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++)
             s->U[a][f->cut[a][i].face] -= tau * surface_cut_gradient(f->cut[a] + i, psi, false);

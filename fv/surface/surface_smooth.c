@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "../boundary/forcing.h"
+#include "level_ops.h"
 #include "mesh_view.h"
 
 enum {
@@ -70,8 +71,7 @@ static void smooth_part(const struct fv *s, const struct part *p, int m, const d
 /* Cells that are flat along gravity know waves along axis a well that are short in cells. */
 static double flatness(const struct fv *s, const struct part *p, int a)
 {
-    const double h = s->m ? s->surface->mesh->size[p - s->grid.part][a] : s->b.h[a],
-                 flat = s->surface->least / h;
+    const double h = s->surface->ops->spacing_along(s, p, a), flat = s->surface->least / h;
     return fmin(1.0, flat * flat);
 }
 
@@ -82,7 +82,7 @@ static double share_of(const struct fv *s, const struct part *p, int a, double d
     if (surface_leans(s, p))
         return 1.0;
     if (grid_overlaps(&s->grid))
-        return s->surface->mesh->slanting ? 1.0 : 0.5;
+        return s->surface->any_leans ? 1.0 : 0.5;
     return calm * flatness(s, p, a) * fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
 }
 

@@ -17,7 +17,9 @@
 #include "../operators/operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/fraction.h"
+#include "../surface/level_ops.h"
 #include "../surface/mesh_view.h"
+#include "../surface/reinit_band.h"
 #include "../surface/surface_forced.h"
 #include "moving.h"
 #include "stages.h"
@@ -42,33 +44,15 @@ static bool add_velocity(struct fv *s, int64_t c, const double *x)
     return any;
 }
 
-static bool add_on_even_cells(struct fv *s)
-{
-    const struct block *b = &s->b;
-    bool any = false;
-    double x[3];
-    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
-        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
-            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
-                block_centre(b, i, j, k, x);
-                any = add_velocity(s, block_at(b, i, j, k), x) || any;
-            }
-    return any;
-}
-
-static bool add_on_blocks(struct fv *s)
-{
-    double *const *x = s->surface->mesh->x;
-    bool any = false;
-    for (int64_t c = 0; c < s->size; c++)
-        any = add_velocity(s, c, (const double[]){x[0][c], x[1][c], x[2][c]}) || any;
-    return any;
-}
-
 /* Velocities that shapes add to the field's. */
 static void add_velocities(struct fv *s)
 {
-    bool any = s->m ? add_on_blocks(s) : add_on_even_cells(s);
+    bool any = false;
+    double x[3];
+    for (int64_t c = 0; c < s->size; c++) {
+        grid_place(&s->grid, c, x);
+        any = add_velocity(s, c, x) || any;
+    }
     MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm);
     if (!any && !s->m)
         return;
@@ -98,21 +82,6 @@ static void set_level(struct fv *s)
         return;
     s->gravity.level += top / f->g;
     rebuild(s);
-}
-
-/* A partner's near cells take part as water or air; nothing is known in all others that are forced.
- */
-static void close_cells(struct fv *s)
-{
-    const struct forcing *g = s->forcing;
-    if (s->m) {
-        surface_mesh_update(s);
-        surface_mesh_count(s);
-        surface_ghosts(s, s->surface->phi);
-        return;
-    }
-    for (int64_t c = 0; g && c < s->b.size; c++)
-        s->surface->closed[c] = g->forced[c] && !(s->surface->forced && g->known[c]);
 }
 
 /* m: how wide a side of the domain is across gravity. */
@@ -166,7 +135,7 @@ static void set_openings(struct fv *s)
 
 void surface_outline_moved(struct fv *s, double before)
 {
-    close_cells(s);
+    s->surface->ops->close_cells(s);
     s->surface->volume0 += surface_volume(s) - before;
     rebuild(s);
 }
@@ -174,7 +143,7 @@ void surface_outline_moved(struct fv *s, double before)
 void surface_start(struct fv *s)
 {
     struct surface *f = s->surface;
-    close_cells(s);
+    s->surface->ops->close_cells(s);
     if (fraction_wanted(s)) {
         fraction_start(s);
         f->fraction->carries = !fraction_is_calm(s);
@@ -206,7 +175,7 @@ static void refresh(struct fv *s)
     const double travelled = s->surface->travelled, before = s->surface->travelled_before;
     if (travelled > 2.0)
         surface_reinit(s, REINIT_STEPS);
-    else if (!s->m && floor(10.0 * travelled) != floor(10.0 * before))
+    else if (s->surface->reinit->is_known && floor(10.0 * travelled) != floor(10.0 * before))
         surface_redistance(s);
 }
 
