@@ -1,17 +1,20 @@
-/* colour.h - how high a place stands over the surface of water, from the share of a kernel around
- * it that the water fills ("colour"): F of the height over a plane surface, turned round. 1/2
- * stands on a plane surface by symmetry, so nothing is to be calibrated; of distances to particles
- * that cannot be said. Kernel: Wendland C2. SPDX-License-Identifier: BSD-3-Clause */
+/* colour.h - the height of a point over a water surface from the fraction of the kernel around it
+ * that the water fills (its "colour"). F is that fraction as a function of the height over a plane
+ * surface; a table of F is inverted. A fraction of 1/2 is on a plane surface by symmetry, so that
+ * nothing has to be calibrated, which cannot be said of distances to particles. Kernel: Wendland
+ * C2.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_COLOUR_H
 #define COMMON_COLOUR_H
 
-/* F at s/R from -1 to 1, in equal steps; its place in a table of COLOUR_PARTS + 1. */
+/* Fills table[COLOUR_PARTS + 1] with F at equal steps of height/R from -1 to 1, in dim = 2 or 3
+ * dimensions. */
 enum { COLOUR_PARTS = 400 };
 void colour_profile(int dim, double *table);
-/* Height over the plane (m) at that share; beyond 0.7 R, where the kernel has next to nothing,
- * +-0.7 R. */
+/* Height over the plane, m, at which F is `share', for a kernel of support R, m; limited to +-0.7
+ * R, beyond which the kernel has next to no weight. */
 double colour_height(const double *table, double R, double share);
-/* The largest height that it returns, m. */
+/* That limit, 0.7 R, m. */
 double colour_reach(double R);
 
 #endif

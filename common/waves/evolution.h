@@ -15,41 +15,46 @@
 
 enum { EVOLUTION_STAGES = 4 };
 
+/* The physical and numerical parameters of an evolution. */
 struct evolution_spec {
     double g, depth; /* m/s^2, m */
     double dt;       /* s */
     double highest;  /* 1/m: number of the shortest modes */
     double height;   /* m: of the layer at rest */
-    int nodes;       /* of the layer */
-    int order;       /* of hos.h; 0: by the layer */
+    int nodes;       /* of the layer, along the vertical */
+    int order;       /* M of hos.h, 1 to HOS_ORDERS; 0: W by the layer */
 };
 
+/* A wave field and its state. Every rank evolves the same field to the same bits. */
 struct evolution {
     struct evolution_spec of;
     struct wave_grid *grid;    /* owned */
     struct sigma_layer *layer; /* owned */
-    struct hos *hos;           /* owned; NULL */
+    struct hos *hos;           /* owned; NULL: by the layer */
     long step;                 /* steps done */
-    bool looked;               /* eta, phi and layer are the state's */
+    bool looked;               /* eta, phi and layer belong to the present state */
     double *state;             /* [cells][2]: modes of eta + i phi_s */
-    double *eta, *phi;         /* m, m^2/s, [cells]: of the state, by evolution_look */
-    double *linear;            /* 1/m, [cells]: W over phi_s of small waves, as it is found */
+    double *eta, *phi;         /* m, m^2/s, [cells]: fields of the state, set by evolution_look */
+    double *linear;            /* 1/m, [cells]: W over phi_s of small waves, mode by mode, as the
+                                  discretisation has it */
     double energy;             /* m^3/s^2: mean of (phi_s eta_t + g eta^2)/2, by evolution_step */
-    int products;              /* with the layer's operator, since it was made */
+    int products; /* applications of the layer's operator since the start, a measure of cost */
     double *work[2], *fields, *rate[EVOLUTION_STAGES], *at[2];
 };
 
-/* The grid becomes its own. */
+/* Makes an evolution at rest; takes over the grid. Owned by the caller. */
 struct evolution *evolution_create(const struct evolution_spec *of, struct wave_grid *grid);
+/* Frees it with its grid and sets *e to NULL. */
 void evolution_free(struct evolution **e);
-/* The state of the fields eta, phi_s [cells], as step 0. */
+/* Sets the state from eta[cells], m, and phi_s[cells], m^2/s, as step 0. */
 void evolution_start(struct evolution *e, const double *eta, const double *phi);
-/* Takes modes [cells][2] as the state after `step' steps. */
+/* Sets the state after `step' steps from its modes [cells][2], as `state' has them. */
 void evolution_restore(struct evolution *e, long step, const double *modes);
-/* Finds eta, phi_s and the layer's potential of the state; false: there is none, waves break. Its
- * bits are those of the state alone. */
+/* Computes eta, phi_s and the layer's potential of the present state, to the same bits however the
+ * state was reached. false: the surface cuts the layer's lower end or the solver does not converge:
+ * waves break. */
 bool evolution_look(struct evolution *e);
-/* One step; false: waves break. */
+/* Advances by one step; false: waves break, and the state is unchanged or of no use. */
 bool evolution_step(struct evolution *e);
 
 #endif

@@ -11,13 +11,15 @@
 
 enum { HOS_ORDERS = 9 };
 
+/* work arrays of the expansion: made by hos_create, freed by hos_free */
 struct hos;
 
-/* Of the order M <= HOS_ORDERS; modes of more than `highest' (1/m) are left out. grid: borrowed. */
+/* Of the order M <= HOS_ORDERS over water of depth m; modes with |k| > highest, 1/m, are left out.
+ * The grid is borrowed until hos_free. */
 struct hos *hos_create(const struct wave_grid *grid, double depth, int order, double highest);
 void hos_free(struct hos **h);
-/* Of eta, phi_s [cells] and |grad eta|^2 consistently to order M: what (1 + |grad eta|^2) W and
- * (1 + |grad eta|^2) W^2 are, [cells]. */
+/* From eta, m, phi_s, m^2/s, and slope2 = |grad eta|^2, all [cells], consistently to order M: rise
+ * = (1 + |grad eta|^2) W, m/s, and square = (1 + |grad eta|^2) W^2, m^2/s^2, [cells]. */
 void hos_rise(struct hos *h, const double *eta, const double *phi, const double *slope2,
               double *rise, double *square);
 

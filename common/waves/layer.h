@@ -15,7 +15,8 @@
 
 #include "wave_grid.h"
 
-/* Columns hold nodes values, surface first, then zeros up to `rows'. Fields of [cells][rows]. */
+/* The layer and its last solution. Fields are [cells][rows]: a column holds `nodes' values, the
+ * surface first, then zeros up to `rows'. */
 struct sigma_layer {
     const struct wave_grid *grid; /* borrowed */
     int nodes, rows;
@@ -25,31 +26,35 @@ struct sigma_layer {
     double *phi_s;          /* m^2/s: its derivative along sigma */
     /* Of the shape, [cells]: height, gradient and Laplacian of the surface, of the bed's depth. */
     double *D, *eta_x[2], *eta_xx, *h, *h_x[2], *h_xx;
-    bool uneven;
+    bool uneven;                 /* the lower end is a bed h(x, y) */
     struct layer_solver *solver; /* owned */
 };
 
-/* Over water of `depth' m down to `a' m below the still level, a <= depth; nodes along sigma. grid
- * is borrowed. */
+/* Over a level bed at `depth', m: the layer reaches a, m, below the still level, a <= depth, and
+ * has `nodes' points along sigma. grid is borrowed until layer_free. Owned by the caller. */
 struct sigma_layer *layer_create(const struct wave_grid *grid, double depth, double a, int nodes);
-/* On a bed h[cells] m below the still level, periodic and smooth; copied. */
+/* Over an uneven bed h[cells], m below the still level, periodic and smooth; copied. */
 struct sigma_layer *layer_create_over(const struct wave_grid *grid, const double *h, int nodes);
+/* Frees the layer and sets *l to NULL. */
 void layer_free(struct sigma_layer **l);
-/* m: the height at rest that suits waves of the number k and the amplitude over depth. */
+/* The height at rest, m, that suits waves of wave number k, 1/m, and the amplitude, m, over that
+ * depth, m. */
 double layer_height(double k, double amplitude, double depth);
-/* Sets the surface eta[cells], m. */
+/* Sets the surface to eta[cells], m, with all that follows from it; before layer_solve. */
 void layer_shape(struct sigma_layer *l, const double *eta);
-/* The potential whose values on the surface are phi_s[cells], m^2/s, until the residual is
- * `tolerance' of them; warm: starts from the last solution. flux[cells]: what the lower end gives
- * instead of 0, m/s; NULL: 0. Products with the operator, -1: it did not converge. */
+/* Solves for the potential whose values on the surface are phi_s[cells], m^2/s, until the residual
+ * is `tolerance' times their norm. warm: starts from the last solution. flux[cells], m/s:
+ * right-hand side of the condition at the lower end; NULL: 0. Returns the number of products with
+ * the operator, -1: it did not converge. */
 int layer_solve(struct sigma_layer *l, const double *phi_s, const double *flux, double tolerance,
                 bool warm);
-/* m/s: w on the surface at a cell. */
+/* Vertical velocity W on the surface at a cell, m/s, of the last solution. */
 double layer_rise(const struct sigma_layer *l, int cell);
-/* -: what W of small waves of the number k is over k tanh kh: 1 but for what few nodes leave out.
- */
+/* W of small waves of the wave number k over its exact value k tanh kh phi_s: 1 but for the error
+ * of few nodes. */
 double layer_flat_rise(const struct sigma_layer *l, double k);
-/* Velocities along x, up and along y at the nodes of a cell, [nodes] each; y may be NULL. */
+/* Velocities along x, upwards and along y at the nodes of a cell, m/s, [nodes] each; y may be
+ * NULL. */
 void layer_velocity(const struct sigma_layer *l, int cell, double *x, double *up, double *y);
 
 #endif

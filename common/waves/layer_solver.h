@@ -1,4 +1,5 @@
-/* layer_solver.h - inside of layer.h: its flat operator mode by mode, and GMRES.
+/* layer_solver.h - the inside of layer.h: the operator of a flat surface, inverted mode by mode,
+ * and GMRES preconditioned by it. For layer.c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_LAYER_SOLVER_H
 #define COMMON_LAYER_SOLVER_H
@@ -9,6 +10,7 @@ struct sigma_layer;
 
 enum { LAYER_VECTORS = 40, LAYER_RESTARTS = 3 };
 
+/* Operators and work arrays of one layer. */
 struct layer_solver {
     double *D1, *D2;     /* [nodes][rows], transposed: derivatives along sigma and twice */
     double *lower;       /* 1/m, [cells]: K of each mode */
@@ -22,19 +24,22 @@ struct layer_solver {
     double *start, *vectors[LAYER_VECTORS + 1]; /* [cells][rows]: preconditioned unknown */
 };
 
-/* y = A x of a transposed matrix [nodes][rows]. */
+/* y = A x for a matrix stored transposed, [nodes][rows]; rows beyond nodes are zeros. */
 void layer_solver_multiply(const double *transposed, int nodes, int rows, const double *x,
                            double *restrict y);
-/* Chebyshev's points sigma[nodes] in -1 .. 0 and derivatives along them, [nodes][rows]
- * transposed. */
+/* Sets sigma[nodes] to Chebyshev's points in -1 .. 0, and D1, D2 to the first and second derivative
+ * along them, [nodes][rows], transposed. */
 void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double *D2);
+/* The solver of a layer over water of `depth', m; owned by the layer. */
 struct layer_solver *layer_solver_create(const struct sigma_layer *l, double depth);
 void layer_solver_free(const struct sigma_layer *l, struct layer_solver **s);
-/* From y the potential P^-1 y and its derivatives into slopes and level, as fields. */
+/* From y the potential P^-1 y and its derivatives, as fields in slopes and level. P is the operator
+ * of the flat surface. */
 void layer_solver_flat(struct sigma_layer *l, const double *y);
-/* Ay = b to a residual of tolerance |b|; y: start, then solution. Products, -1: not converged. */
+/* Solves A P^-1 y = b to a residual of tolerance |b|; y is the start on entry. Returns the number
+ * of products, -1: not converged. */
 int layer_solver_gmres(struct sigma_layer *l, const double *b, double tolerance, double *y);
-/* r = A P^-1 y, and what layer_solver_flat leaves. */
+/* r = A P^-1 y; leaves slopes and level as layer_solver_flat does. */
 void layer_product(struct sigma_layer *l, const double *y, double *r);
 
 #endif

@@ -17,26 +17,32 @@
 
 struct wave_component;
 
-/* Per a1 a2: level eta cos, and at z = 0 the velocities u cos along K, w sin upward; phi = u/K. */
+/* A bound wave per a1 a2: the level is eta cos; at z = 0 the velocity is u cos along K and w sin
+ * upwards; phi = u/K. */
 struct bound_wave {
     double eta, u, w;
     double K, W; /* 1/m (|k1 + s k2|), 1/s */
 };
-/* Not of a wave and itself with s = -1, which is a mean. */
+/* The bound wave of two components of wave vectors k1, k2, 1/m, and angular frequencies w1, w2,
+ * rad/s; s = 1: of the sum, -1: of the difference. Not for a wave and itself with s = -1, which is
+ * a mean. */
 struct bound_wave bound_wave_of(const double k1[2], const double k2[2], double w1, double w2, int s,
                                 double g, double depth);
 /* Second harmonic of a wave over the first, k a (3 - t^2)/(4 t^3), t = tanh kh. */
 double bound_wave_stokes(double a, double k, double depth);
 
 struct second_order;
-/* Of waves along a line; nodes: heights (m) of the WAVE_NODES of a flat table. mean: with the mean
- * level and current that waves which come as a group have below them; else without. */
+/* For n waves along a line (`of' is borrowed). nodes: heights, m, of the WAVE_NODES of a flat
+ * table. mean: with the mean level and return current below a wave group, else without. Owned by
+ * the caller. */
 struct second_order *second_order_create(int n, const struct wave_component *of, double g,
                                          double depth, const double *nodes, bool mean);
 void second_order_free(struct second_order **s);
-/* Adds to the level and to the velocities (along, up) at the nodes of the column x, t. */
+/* Adds to the level *eta, m, and to the velocities u (along, up), m/s, at the nodes of the column
+ * at x, m, at time t, s. */
 void second_order_add(struct second_order *s, double x, double t, double *eta, double *u);
-/* Frequencies between which pairs are told; multiplications of a column. */
+/* Number of frequencies between which pairs are interpolated; multiplications that one column
+ * costs. */
 int second_order_frequencies(const struct second_order *s);
 double second_order_products(const struct second_order *s);
 

@@ -13,24 +13,26 @@
 
 enum { STEADY_MODES = 128 };
 
+/* The solution; plain data, nothing to free. */
 struct steady {
-    double k, g, rho;     /* 1/m, m/s^2, kg/m^3 */
-    double x;             /* m: of the crest at t = 0 */
-    double c;             /* m/s: to +x, over water that is still on average below the troughs */
-    double frame, b, y0;  /* -: speed in the frame of the wave; Bernoulli's constant; level */
-    double strip;         /* -: h* */
-    double back;          /* -: speed under the trough of a solitary wave, taken out */
-    double crest, trough; /* m: over the still level */
-    double tail;          /* |Y_N/Y_1|: what the series leaves out */
-    int modes;
+    double k, g, rho;       /* 1/m, m/s^2, kg/m^3 */
+    double x;               /* m: of the crest at t = 0 */
+    double c;               /* m/s: to +x, over water that is still on average below the troughs */
+    double frame, b, y0;    /* -: speed in the frame of the wave; Bernoulli's constant; level */
+    double strip;           /* -: h* */
+    double back;            /* -: speed under the trough of a solitary wave, taken out */
+    double crest, trough;   /* m: over the still level */
+    double tail;            /* |Y_N/Y_1|: what the series leaves out */
+    int modes;              /* N; 0: none was found */
     double A[STEADY_MODES]; /* Y_j/(1 - e^(-2j h*)), j = 1 .. modes */
 };
 
-/* Depth, length, height from trough to crest (m), crest at x; solitary: length is not used, depth
- * is that of the still water. false: there is no such wave. */
+/* Solves for the wave of that depth, length and height from trough to crest, m, whose crest is at
+ * x, m, at t = 0. solitary: length is not used, depth is that of the still water. false: there is
+ * no such wave, or Newton's method does not find it. */
 bool steady_create(struct steady *w, bool solitary, double depth, double length, double height,
                    double x, double g, double rho);
-/* m over the still level at x, t. */
+/* Level over the still one at x, t, m. */
 double steady_eta(const struct steady *w, double x, double t);
 /* u, v (m/s), p (Pa, 0 on the surface) at (x, y), y = 0 at the still level; above the surface as on
  * it. u, p may be NULL. */

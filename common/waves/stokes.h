@@ -13,6 +13,7 @@ struct stokes {
     double g, rho, highest; /* m/s^2, kg/m^3, m: of the crest */
 };
 
+/* The wave of that length and amplitude, m; a crest is at x = 0. */
 struct stokes stokes_create(double length, double g, double rho, double amplitude);
 /* m over the still level. */
 double stokes_eta(const struct stokes *w, double x);

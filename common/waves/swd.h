@@ -18,13 +18,16 @@ struct swd_header {
     double dt;        /* s */
 };
 
-/* NULL: it cannot be read; why, with the byte at fault, in error. */
+/* Opens and checks a file. NULL: it cannot be read; error[size] says why, with the byte at fault.
+ * Owned by the caller. Local to a rank. */
 struct swd *swd_open(const char *path, char *error, size_t size);
+/* Closes the file and sets *s to NULL. */
 void swd_close(struct swd **s);
 struct swd_header swd_header_of(const struct swd *s);
-/* h and c of a time, [n + 1][2]. */
+/* Reads the amplitudes h, m, and c, m^2/s, of one time, [n + 1][2] (real, imaginary). */
 void swd_read(struct swd *s, int step, double *h, double *c);
-/* Fields eta, phi_s on the surface at `points' even places over 2 pi/dk, of h and c. */
+/* Fields eta and phi_s on the surface at `points' equidistant positions over 2 pi/dk, from h and
+ * c. */
 void swd_fields(const struct swd *s, const double *h, const double *c, int points, double *eta,
                 double *phi);
 

@@ -10,6 +10,7 @@
 
 #include <complex.h>
 
+/* The mode; plain data. */
 struct wave {
     double H, k, g, nu, rho; /* m, 1/m, m/s^2, m^2/s, kg/m^3 */
     double complex s, m;     /* 1/s, 1/m; nu = 0: m is not used */
@@ -17,7 +18,8 @@ struct wave {
     double complex E;        /* m */
 };
 
-/* Depth H, wave length, amplitude of eta (m); nu may be 0 (then bottom and surface slip). */
+/* The wave of depth H, length and amplitude of eta, m; nu may be 0, and then bottom and surface
+ * slip. */
 struct wave wave_create(double H, double length, double g, double nu, double rho, double amplitude);
 /* u, v, p (0 at the still surface) and vorticity dv/dx - du/dy at (x, y), y = 0 at the still
  * surface; pointers may be NULL. */

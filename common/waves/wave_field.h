@@ -15,6 +15,8 @@
 
 enum { WAVE_FIELD_KEPT = 8 };
 
+/* A field with what is needed to return to earlier steps. Every rank holds and evolves the same
+ * field. */
 struct wave_field {
     struct evolution *of;   /* owned */
     struct swd *file;       /* what its frames are read from; NULL: it evolves; owned */
@@ -26,7 +28,7 @@ struct wave_field {
     const struct wave_component *components; /* borrowed: n of them, which it begins with at t0 */
     int n;
     double t0;                  /* s */
-    bool begun;                 /* start is known */
+    bool begun;                 /* `start' has been computed */
     double *start;              /* modes of eta + i phi_s before all steps */
     double *z, *padded, *work;  /* modes and fields of the columns */
     long kept[WAVE_FIELD_KEPT]; /* steps whose states are kept, to go back to; -1: none */
@@ -34,26 +36,28 @@ struct wave_field {
     double energy; /* m^3/s^2: when all terms had grown; 0: not yet */
 };
 
-/* Of waves whose peak has that period and length; its components, by |k|, become the caller's, but
- * must outlive it. */
+/* Of waves whose peak has that period, s, and length, m. Its components, *n by |k|, become the
+ * caller's, but must outlive the field. */
 struct wave_field *wave_field_create(const struct wave_spec *of, double period, double length,
                                      struct wave_component **components, int *n);
-/* One whose frames are the times of the file of->file, which was found sound (wave_file.h). */
+/* One whose frames are the times of the file of->file, which wave_file_probe found sound. */
 struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
                                       struct wave_component **components, int *n);
 void wave_field_free(struct wave_field **f);
-/* A table of the places that will be asked for; longest: m, of the waves. */
+/* An empty table that covers of->window; longest: length of the longest waves, m. */
 struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,
                                    double longest);
-/* [modes]: factors of velocities that make up for the zone; NULL: no zone. Owned by the caller. */
+/* Factors of the velocities that correct for the zone, [modes]; NULL: there is no zone. Owned by
+ * the caller (mem_free). */
 double complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,
                                   const struct wave_component *components, int n);
-/* The table of a frame, 0 at t = 0. false: the waves break before it. */
+/* Fills `to' with the velocities of a frame, which is 0 at t = 0. false: the waves break before
+ * it. */
 bool wave_field_frame(struct wave_field *f, long frame, const double complex *filter,
                       struct wave_table *to);
-/* Goes on from modes [cells][2] of a step. */
+/* Continues from the modes [cells][2] of a step (restart). */
 void wave_field_set(struct wave_field *f, long step, const double *modes, double energy);
-/* s: of computing that a period of them costs, about. */
+/* Estimated computing time of one period of these waves on one rank, s. */
 double wave_field_seconds(const struct wave_field *f, double period);
 
 #endif

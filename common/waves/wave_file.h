@@ -6,11 +6,11 @@
 #include "swd.h"
 #include "waves.h"
 
-/* Of the level at the first time, by |k|: linear waves towards +x; their number in n; owned by the
- * caller. */
+/* The level at the first time as linear waves towards +x, by |k|; *n of them, owned by the caller
+ * (mem_free). */
 struct wave_component *wave_file_components(struct swd *s, double g, double depth, int *n);
-/* Significant height and mean length, m, of a file over `depth' m of water that is asked for from
- * the file's time t0 to t1, s. false: it does not do; why in error. */
+/* Significant height and mean length, m, of a file over water of `depth', m, of which the times t0
+ * to t1, s, will be needed. false: the file does not fit; error[size] says why. */
 bool wave_file_probe(const char *path, double depth, double t0, double t1, double *height,
                      double *length, char *error, size_t size);
 

@@ -1,11 +1,13 @@
-/* wave_grid.h - even grid of a periodic line (one row) or a periodic plane on which wave fields
- * evolve, and its modes e^(i(kx x + ky y)). Fields z[rows][columns][2][batch] as in fft.h.
+/* wave_grid.h - uniform grid of a periodic line (one row of points) or a periodic plane on which
+ * wave fields evolve, and its modes e^(i(kx x + ky y)). Fields are z[rows][columns][2][batch] as in
+ * fft.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVE_GRID_H
 #define COMMON_WAVE_GRID_H
 
 #include "fft.h"
 
+/* The grid; constant after its creation. */
 struct wave_grid {
     int n[2];         /* columns, rows (1: a line) */
     int cells;        /* their product */
@@ -16,10 +18,12 @@ struct wave_grid {
     struct fft *of[2];
 };
 
-/* Numbers of points are fft_size's, or 1 row. */
+/* n: numbers of points, values of fft_size, n[1] = 1 for a line; length in m. Owned by the
+ * caller. */
 struct wave_grid *wave_grid_create(const int n[2], const double length[2]);
 void wave_grid_free(struct wave_grid **g);
-/* Fields to modes, divided by the number of cells, and back; work: as large as z. */
+/* Transforms fields to modes, divided by the number of cells, and back, in place; work: as large as
+ * z. */
 void wave_grid_to_modes(const struct wave_grid *g, int batch, double *z, double *work);
 void wave_grid_to_fields(const struct wave_grid *g, int batch, double *z, double *work);
 

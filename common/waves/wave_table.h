@@ -1,8 +1,9 @@
 /* wave_table.h - the velocities of waves at one time, tabulated over columns along their direction
- * (short-crested ones: and rows of columns across it) and nodes between a depth and its surface, so
- * that sampling costs the same whatever made them. Cubic in x and in sigma = (z - eta)/(eta +
- * reach); nodes of a flat table end at the still level and close up towards it (sigma = -s^2, cubic
- * in s). Heights z from the still level. SPDX-License-Identifier: BSD-3-Clause */
+ * (for short-crested waves over rows of columns across it) and over nodes between a depth and the
+ * surface, so that sampling costs the same whatever made them. Cubic in x and in sigma = (z -
+ * eta)/(eta + reach). The nodes of a flat table end at the still level and are denser near it
+ * (sigma = -s^2, cubic in s). Heights z count from the still level.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVE_TABLE_H
 #define COMMON_WAVE_TABLE_H
 
@@ -10,6 +11,7 @@
 
 enum { WAVE_NODES = 36, WAVE_UPPER = 18 }; /* nodes of a column; of a layered one above the level */
 
+/* The table; eta, u and slope are owned. */
 struct wave_table {
     int n, rows;       /* columns of a row; 1: all rows are the same */
     int parts;         /* of a velocity: along, up; of several rows: and across */
@@ -27,19 +29,22 @@ struct wave_table {
     double *slope;
 };
 
-/* Weights of four places a step apart, of which the second and the third are about s = 0 .. 1. */
+/* Weights of four equidistant values for the position s = 0 .. 1 between the second and the
+ * third. */
 void wave_table_cubic(double s, double weight[4]);
-/* n >= 4 columns, one row or rows >= 4; all values 0; slope: with one. */
+/* n >= 4 columns, one row or rows >= 4, all values 0; slope: with the array slope. Freed by
+ * wave_table_free. */
 struct wave_table wave_table_create(int n, int rows, double gap, double reach, bool slope);
 void wave_table_free(struct wave_table *t);
-/* z of a node of a column, m; needs its eta. */
+/* Height z of a node of a column, m; uses the column's eta. */
 double wave_table_height(const struct wave_table *t, int column, int node);
 /* to = sum weight[k] of[k] of tables of the same shape. */
 void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
                       const double *weight);
-/* m at x, y (along, across); columns that are not periodic go on as at their ends. */
+/* Level at (x, y), along and across, m. A table that is not periodic continues with its end
+ * columns. */
 double wave_table_eta(const struct wave_table *t, double x, double y);
-/* u (m/s: along, up, across) at (x, y), z; above the highest node as on it. */
+/* u (m/s: along, up, across) at (x, y), z, m; above the highest node as on it, but for `slope'. */
 void wave_table_velocity(const struct wave_table *t, double x, double y, double z, double u[3]);
 
 #endif
