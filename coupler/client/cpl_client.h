@@ -1,5 +1,7 @@
-/* cpl_client.h - a solver's place in a job: what cpl_client.c (life of a job),
- * cpl_declare.c, cpl_data.c and cpl_take.c (fields) share. Nothing here is public.
+/* cpl_client.h - a solver's place in a job: what cpl_client.c (life of a job), cpl_declare.c,
+ * cpl_data.c and cpl_take.c (fields) share. Private to libcpl. Every rank of the solver holds the
+ * same declarations and its own points and values; rank 0 alone sends what concerns the whole
+ * program.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_CPL_CLIENT_H
 #define COUPLER_CPL_CLIENT_H
@@ -16,7 +18,8 @@ enum { CPL_TEXT = 4096 };
 /* In the order of a job. */
 enum client_state { OPENED, MET, PLANNED, IN_WINDOW, BETWEEN, ENDING, LEFT };
 
-/* Points of a set, shared by the set and by puts that have not been replaced: counted. */
+/* Points of a set as of one cpl_move. They are shared by the set and by puts that have not been
+ * replaced: `users' counts these, and the last one frees it. */
 struct client_places {
     int users;
     long n;
@@ -25,6 +28,7 @@ struct client_places {
     double *volume;
 };
 
+/* A declared set: a grid, or points that move. */
 struct client_set {
     char name[CPL_NAME];
     bool is_grid;
@@ -36,21 +40,23 @@ struct client_set {
     int64_t first, total; /* of this rank's points among all ranks' */
 };
 
-/* Values of one put, kept until the put after the next: who wants them may still be unknown. */
+/* Values of one put, kept until the put after the next, since a target that wants them may not have
+ * asked yet. */
 struct slot {
     int64_t tick; /* -1: none */
     double t;
     int terms;
     double *v[CPL_TERMS]; /* terms in time; NULL: zero */
     struct client_places *places;
-    int *served; /* [ntakers][ncoupler] generation of the region that was answered */
+    int *served; /* [ntakers][ncoupler]: generation of the region that was answered with them */
 };
 
+/* A declared field, of which this solver is the source (CPL_PUT) or the target (CPL_GET). */
 struct client_field {
     char name[CPL_NAME], unit[CPL_NAME];
     int set, ncomp, how, direction;
-    int ntakers;            /* giver */
-    char partner[CPL_NAME]; /* who gives it, for messages */
+    int ntakers;            /* source: number of its targets */
+    char partner[CPL_NAME]; /* name of the program at the other side, for messages */
     bool from_grid;
     struct need {
         int generation; /* 0: nothing wanted yet */
@@ -64,16 +70,17 @@ struct client_field {
     struct cpl_grid grid;      /* taker: the giver's grid */
 };
 
+/* The solver's whole state in the job. */
 struct cpl {
     char name[CPL_NAME];
     MPI_Comm world, mine;
     int rank, size, ncoupler;
     enum client_state state;
-    int error;           /* CPL_EPARTNER stays */
+    int error;           /* 0, or CPL_EPARTNER, which stays */
     char text[CPL_TEXT]; /* of the last error */
     const char *faults;  /* lines for the coupler to print, borrowed until cpl_meet; NULL: none */
     struct wire wire;
-    struct message *inbox; /* received, not yet asked for */
+    struct message *inbox; /* received messages that no call has asked for yet; a list */
     int nzones;
     struct zone {
         char name[CPL_NAME];
@@ -84,25 +91,32 @@ struct cpl {
     struct client_field field[LIMIT_FIELDS];
     int64_t window; /* number of the coupling step under way or last done; before: of the first */
     double t0, t1, waited, heard;
-    struct pack told; /* key, value; empty: not begun */
+    struct pack
+        told; /* keys and values of cpl_tell, sent with the next advance; empty: not begun */
     int64_t ntold;
 };
 
-/* Sets the text; returns code. */
+/* Sets the text of cpl_strerror and returns code, for `return client_error(...)'. */
 int client_error(struct cpl *c, int code, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
+/* The same for a call out of order (CPL_EORDER) and for a name that is empty or too long
+ * (CPL_EINPUT; CPL_OK if it is sound). */
 int client_out_of_order(struct cpl *c, const char *call, const char *when);
 int client_check_name(struct cpl *c, const char *what, const char *name);
-/* Waits for a message; serves needs meanwhile. field -1: any. NULL: a partner is gone (c->error
- * set). */
+/* Waits for a message of this kind, field (-1: any), tick and coupler rank, answering the coupler's
+ * needs meanwhile; `what' names it in error reports. The caller frees it (message_free). NULL: a
+ * partner is gone, and c->error is set. */
 struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int64_t tick, int rank,
                              const char *what);
-/* CPL_OK, or why this call of a field is wrong: d is its direction. */
+/* CPL_OK, or the error of a call of a field in direction d that does not fit its declaration. */
 int client_check_field(struct cpl *c, int field, int d, const char *call);
-/* cpl_data.c */
+/* In cpl_data.c: takes a need of the coupler and sends the values at hand that lie in its
+ * region. */
 void client_need(struct cpl *c, struct message *m);
-/* What was put last: the coupler finds those who wait for nothing. */
+/* Packs the tick of the last put of each field, from which the coupler finds targets that wait in
+ * vain. */
 void client_pack_ticks(const struct cpl *c, struct pack *p);
+/* Frees what fields and sets hold. */
 void client_free_fields(struct cpl *c);
 
 #endif

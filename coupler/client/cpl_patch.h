@@ -10,6 +10,8 @@
 
 #include "../cpl.h"
 
+/* The cells lo <= i < lo + n of a grid with a polynomial in time per component; zeroed memory is
+ * empty. */
 struct client_patch {
     int dim, ncomp;
     bool cubic;
@@ -18,17 +20,21 @@ struct client_patch {
     int period[3];                /* cells; 0: not periodic */
     double t;                     /* s: time of v */
     double *v;                    /* [cell, x fastest][ncomp][CPL_TERMS]: terms in time */
-    double *now; /* [cell][ncomp] at the time now_at[0]: evaluations of a stage share it */
+    double *now; /* [cell][ncomp]: values at the time now_at[0], shared by the evaluations of one
+                    stage */
     double *now_at;
 };
 
-size_t patch_size(const struct client_patch *p); /* cells */
-/* Once, after v is filled. Cubic: turns the cell averages in v into values at cell centres. */
+/* Number of cells. */
+size_t patch_size(const struct client_patch *p);
+/* To be called once, after v was filled. Turns the cell averages in v into values at cell centres
+ * if the patch is cubic, and allocates `now'. */
 void patch_prepare(struct client_patch *p);
-/* v[n ncomp], grad[n ncomp 3] (or NULL) at x[3 n] and time t. Outside the patch: as at its nearest
- * place. */
+/* v[n ncomp] and grad[n ncomp 3], 1/m (NULL: not wanted), at x[3 n], m, and time t, s. A point
+ * outside of the patch gets the value at the patch's nearest point. Local to a rank. */
 void patch_eval(const struct client_patch *p, double t, long n, const double *x, double *v,
                 double *grad);
-void patch_clear(struct client_patch *p); /* frees v, leaves an empty patch */
+/* Frees the arrays and leaves an empty patch. */
+void patch_clear(struct client_patch *p);
 
 #endif

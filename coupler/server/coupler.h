@@ -1,6 +1,8 @@
-/* coupler.h - the whole state of the coupler and what its modules offer each other. Its ranks know
- * the same plan; rank 0 alone decides coupling steps and writes files, all of them bring fields
- * together. SPDX-License-Identifier: BSD-3-Clause */
+/* coupler.h - the whole state of the coupler and what its modules offer each other. All ranks of
+ * the coupler know the same plan; rank 0 alone decides coupling steps and writes files, and all of
+ * them bring fields together, each for its share of the targets. A tick counts coupling steps: tick
+ * k is the start of step k.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_COUPLER_H
 #define COUPLER_COUPLER_H
 
@@ -18,16 +20,18 @@
 
 enum { TEXT = 4096 };
 
-/* What one program reported: its last value for each key, in the order of their first mention. */
+/* What one program reported with cpl_tell: the last value of each key, in the order of their first
+ * mention. */
 struct told {
     int n;
-    bool full; /* and said so */
+    bool full; /* there were more keys than fit, which has been logged */
     struct told_number {
         char key[TOLD_KEY];
         double value;
     } of[TOLD_KEYS];
 };
 
+/* A program of the job other than the coupler: what it declared and how far it is. */
 struct solver {
     const char *name;
     int size, peer; /* ranks; its place in wire */
@@ -65,13 +69,14 @@ struct solver {
     struct told told;
 };
 
-/* A field on its way from one solver to another: rendezvous.c. */
+/* A field on its way from one solver, the source ("giver"), to another, the target ("taker"):
+ * rendezvous.c. */
 struct partner_link {
     int giver, gfield, taker, tfield; /* solver and its field */
     bool from_grid;
     int ncomp, dim;
     int number;            /* among the takers of the giver's field */
-    map_points *map;       /* consistent mappings; NULL: */
+    map_points *map;       /* consistent mappings; NULL: conservative, `deal' says which */
     enum map_dealing deal; /* conservative ones */
     struct cpl_grid grid;  /* of the giver */
     double support, period[3];
@@ -101,6 +106,7 @@ struct partner_link {
     int64_t served;
 };
 
+/* The coupler's state; one per process. */
 struct coupler {
     MPI_Comm world, comm;
     int rank, size;
@@ -138,53 +144,74 @@ struct coupler {
     struct server_sums *sums; /* sums.c; NULL: nobody reports any */
 };
 
-/* One more problem in a list that all programs print. */
+/* Appends one line to text[TEXT], a list of problems that all programs print; cut when it is
+ * full. */
 void problem(char *text, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 
-/* plan.c: what the programs have declared. */
+/* plan.c: the handshake and what the programs declare. Takes the first message of a solver: hash,
+ * faults, restart step, zones. */
 void plan_take_meet(struct coupler *c, struct solver *s, struct message *m);
+/* Takes its sets and fields. */
 void plan_take_ready(struct coupler *c, struct solver *s, struct message *m);
-/* Prints what the solvers found wrong in their input, each line once, but for those of own (NULL:
- * none), printed already. */
+/* Prints what the solvers found wrong in their input, each line once, without those of `own', which
+ * have been printed already (NULL: none). */
 void plan_say_faults(const struct coupler *c, const char *own);
+/* Adds to text[TEXT] where the programs contradict each other: hash, restart step, faults. */
 void plan_check_meet(struct coupler *c, char *text);
-/* Makes the links; the problems go to text. The same on all ranks. */
+/* Makes the links from the declared fields and adds the problems to text. The same on all ranks. */
 void plan_make_links(struct coupler *c, char *text);
+/* Sends the acceptance, or all problems in text, to all solvers. */
 void plan_answer_meet(struct coupler *c, const char *text);
+/* The same after plan_make_links, with the sources of each solver's fields. */
 void plan_answer_ready(struct coupler *c, const char *text);
+/* Logs the plan. */
 void plan_describe(const struct coupler *c);
 
-/* window.c: integer time. */
+/* window.c: coupling steps in integers, so that all programs agree on times to the bit. Divides the
+ * span into equal steps; problems are added to text. */
 void window_divide(struct coupler *c, char *text);
+/* Time at which coupling step k starts, s. */
 double window_start(const struct coupler *c, int64_t k);
-void window_announce(struct coupler *c); /* the next one, or the end */
+/* Sends the next coupling step, or the end, to all solvers. */
+void window_announce(struct coupler *c);
+/* Takes the message that a solver has done a step. */
 void window_advance(struct coupler *c, struct solver *s, struct message *m);
 
-/* rendezvous.c: fields brought together. */
+/* rendezvous.c: brings the values of sources to the points of targets. Prepares the links. */
 void rendezvous_open(struct coupler *c);
+/* Takes a target's request with its points or box. */
 void rendezvous_get(struct coupler *c, struct solver *s, struct message *m);
-void rendezvous_put(struct coupler *c, struct solver *s, struct message **m); /* may keep it */
+/* Takes a source's values; may keep the message, and then sets *m to NULL. */
+void rendezvous_put(struct coupler *c, struct solver *s, struct message **m);
+/* Takes how far each field of a solver has been put. */
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m);
-/* A giver has gone past what a taker waits for, or they wait for each other: text says so; false:
- * all is well. */
+/* true: a source has gone past what a target waits for, or programs wait for each other; text says
+ * so. */
 bool rendezvous_starved(const struct coupler *c, char *text);
-/* Rank by rank: a taker asks for values of a time at which its giver has put none. */
+/* true: on this rank a target asks for values of a time at which its source has put none. */
 bool rendezvous_skipped(const struct coupler *c, char *text);
-void rendezvous_waiting(const struct coupler *c, char *text); /* who waits for what */
+/* Writes to text who waits for what. */
+void rendezvous_waiting(const struct coupler *c, char *text);
+/* Frees the links. */
 void rendezvous_close(struct coupler *c);
 
-/* checkpoint.c: a restart point exists when its manifest does. */
+/* checkpoint.c: a restart point exists when its manifest does. At a restart takes the old point's
+ * files from the manifest, so that they are removed when two newer points exist; rank 0. */
 void checkpoint_resume(struct coupler *c); /* rank 0, at a restart */
+/* Takes the message that a solver's restart file is complete; writes the manifest with the last of
+ * them. */
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
 
-/* sums.c: rank 0; at the end of a coupling step, at the end of the job. */
+/* sums.c, rank 0: sums over all programs, "sum.kinetic", at the end of a coupling step. */
 void sums_window(struct coupler *c);
+/* The same at the end of the job. */
 void sums_summarise(const struct coupler *c, struct summary *to);
 void sums_free(struct coupler *c);
 
-/* report.c: progress lines, summary of the job, accepted or not. */
+/* report.c: progress lines and the summary of the job. Takes the keys and values in a message. */
 void report_told(struct wire *w, struct message *m, struct told *t);
 void report_progress(struct coupler *c);
-int report_summary(struct coupler *c, double coupler_cpu); /* the job's exit code */
+/* Writes summary.json, judges the case's criteria and returns the job's exit code. */
+int report_summary(struct coupler *c, double coupler_cpu);
 
 #endif

@@ -17,6 +17,7 @@ struct command_line;
 
 enum { JOB_GROUPS = SCENE_GROUPS + 1 };
 
+/* The group coupler of the case. */
 struct job {
     char programs[PARAM_TEXT_SIZE]; /* names, by spaces; empty: those whose groups the case has */
     double window, start;           /* s; window 0: as the programs wish */
@@ -30,9 +31,10 @@ void job_groups(struct job *j, struct scene *s, struct param_group *groups);
  * it may have; NULL: not known (--check). Collective over comm. */
 struct params *job_read(struct job *j, struct scene *s, MPI_Comm comm, const struct command_line *l,
                         const struct handshake *who, struct faults *f);
-/* Whether the job wants this program: it is in the list. */
+/* Whether the job wants this program: its name is in the list. */
 bool job_wants(const struct job *j, const char *program);
-/* The next name of the list from *at on, which moves (empty: too long); false: there is none. */
+/* Copies the next name of a list of names separated by spaces, from *at on, which moves; the name
+ * is empty if it is too long. false: there is no more. */
 bool job_next_program(const char **at, char name[HANDSHAKE_NAME]);
 
 #endif

@@ -1,6 +1,7 @@
-/* handshake.h - who is in this job: every rank sends every other its program's name, within a
- * deadline; then one communicator per program and one intercommunicator per solver with "coupler".
- * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
+/* handshake.h - finds out who is in this job: every rank sends every other its program's name,
+ * within a deadline; then there are one communicator per program and one intercommunicator per
+ * solver with "coupler". Part of libcpl.a: depends on MPI alone.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_HANDSHAKE_H
 #define COUPLER_HANDSHAKE_H
 
@@ -8,6 +9,7 @@
 
 enum { HANDSHAKE_NAME = 64, HANDSHAKE_PROGRAMS = 32, HANDSHAKE_TEXT = 2048 };
 
+/* The programs of the job, the same on all ranks but for `me', `mine' and `inter'. */
 struct handshake {
     int nprograms; /* in the order of their names, so that places in mpirun do not matter */
     struct handshake_program {
@@ -18,12 +20,13 @@ struct handshake {
     } program[HANDSHAKE_PROGRAMS];
     int me, coupler;           /* index into program; coupler -1: none */
     MPI_Comm mine;             /* this program's ranks */
-    char text[HANDSHAKE_TEXT]; /* what is wrong */
+    char text[HANDSHAKE_TEXT]; /* what is wrong; "": nothing */
 };
 
-/* Collective over world. version: of cpl.h, that this program was written for. 0; -2 if the
- * programs do not make a job (h->text, the same on all). Silent ranks at the deadline end the job
- * with code 2: MPI cannot be left in order without them. */
+/* Collective over world. version: CPL_VERSION that this program was compiled with. Returns 0, or -2
+ * if the programs do not make a job (h->text, the same on all). Ranks that are silent at the
+ * deadline, and programs of other versions, end the job with code 2: MPI cannot be finalized
+ * without them. */
 int handshake(MPI_Comm world, const char *name, double deadline_s, int version,
               struct handshake *h);
 

@@ -1,6 +1,7 @@
-/* region.h - the part of a giver's data that a coupler rank wants. Givers send nothing else, and it
- * is sent anew only when targets leave it. Points: cells of space around the targets. Grids: boxes
- * of cells, one per asking rank. Part of libcpl.a: no MPI. SPDX-License-Identifier: BSD-3-Clause */
+/* region.h - the part of a source's data that a coupler rank wants. Sources send nothing else, and
+ * the region is sent anew only when targets leave it. For points it is cells of space around the
+ * targets, for grids boxes of cells, one per asking rank. Part of libcpl.a: no MPI.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_REGION_H
 #define COUPLER_REGION_H
 
@@ -11,6 +12,7 @@ struct wire;
 struct message;
 struct pack;
 
+/* A region; the arrays are owned, see region_free. {0} wants nothing. */
 struct region {
     int dim;
     int all; /* every point, wherever it lies; no images */
@@ -25,7 +27,8 @@ struct region {
     } * box;
 };
 
-/* Cells that hold any point within R of the targets x[n][dim], and `slack' cells more. */
+/* Cells that hold any point within R, m, of the targets x[n][dim], and `slack' cells more on each
+ * side, so that small motions of the targets stay inside. */
 struct region region_around(int dim, double R, const double period[3], long n, const double *x,
                             int slack);
 /* Cells first <= i < last that a patch needs to be evaluated in the box [lo, hi]: those of the box
@@ -34,11 +37,12 @@ struct region region_around(int dim, double R, const double period[3], long n, c
 void region_cells(int dim, const double origin[3], const double spacing[3], const int cells[3],
                   const int periodic[3], const double lo[3], const double hi[3], int first[3],
                   int last[3]);
-/* Whether a holds all of b (both of points, with the same R, or both of grids). */
+/* Whether a includes all of b (both of points, with the same R, or both of grids). */
 bool region_holds(const struct region *a, const struct region *b);
-/* Number of images of a point (itself, periodic ones) in the region; their places, or NULL: 0 or 1.
- */
+/* Number of images of a point x (itself and its periodic ones) that lie in the region, with their
+ * positions in image. If image is NULL, only whether there is any: 0 or 1. */
 int region_images(const struct region *r, const double *x, double image[27][3]);
+/* Appends the region to a message; region_take reads it back, owned by the caller. */
 void region_pack(struct pack *p, const struct region *r);
 struct region region_take(struct wire *w, struct message *m);
 void region_free(struct region *r);

@@ -1,6 +1,8 @@
 /* wire.h - messages between the programs of a job: a fixed header and packed bytes, point to point
  * over intercommunicators, and a way of waiting that leaves the processor to those who have work.
- * Part of libcpl.a: depends on MPI alone. SPDX-License-Identifier: BSD-3-Clause */
+ * Bytes are those of the sender: all hosts must have the same byte order. Messages of one sender to
+ * one receiver keep their order. Part of libcpl.a: depends on MPI alone.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COUPLER_WIRE_H
 #define COUPLER_WIRE_H
 
@@ -11,11 +13,12 @@
 
 enum { WIRE_VERSION = 4, WIRE_PEERS = 40 };
 
-/* What a program, or a job, can have; more is refused. */
+/* The most that a program, or a job, can have; more is refused. */
 enum { LIMIT_SETS = 32, LIMIT_FIELDS = 64, LIMIT_TAKERS = 32, LIMIT_LINKS = 256, LIMIT_ZONES = 64 };
 enum { TOLD_KEYS = 192, TOLD_KEY = 96, SAVED_NAME = 256 }; /* bytes with the closing zero */
 
-/* Solver to coupler, or coupler to solver (>), in the order of a job. */
+/* Kinds of messages, from solver to coupler, or from coupler to solver (>), in the order of a
+ * job. */
 enum wire_kind {
     WIRE_MEET = 1, /* hash, restart coupling step, faults, zones */
     WIRE_MET,      /* > accepted, or all problems; all zones */
@@ -33,6 +36,8 @@ enum wire_kind {
     WIRE_KINDS
 };
 
+/* The header of every message. Its layout is part of the protocol: raise WIRE_VERSION with any
+ * change. */
 struct wire_head {
     uint32_t magic;
     uint16_t version, kind;
@@ -61,6 +66,7 @@ struct message {
     size_t at;
 };
 
+/* The connections of one program and its unfinished sends. */
 struct wire {
     int npeers;
     struct wire_peer {
@@ -73,7 +79,7 @@ struct wire {
     void (*broken)(const char *what); /* a message that cannot be read: must not return */
 };
 
-/* The waiting of one call: spins for some 30 us, then sleeps longer and longer: up to 0.2 ms, then
+/* The state of one wait: it polls for some 30 us, then sleeps longer and longer, up to 0.2 ms, then
  * 2 % of the time waited so far, at most 10 ms. */
 struct nap {
     double since;   /* s: when the waiting began */
@@ -82,19 +88,24 @@ struct nap {
 };
 
 double wire_time(void); /* s, monotonic */
-/* malloc, realloc that end the program when there is no memory; n = 0 is legal. */
+/* malloc and realloc that abort the program when there is no memory; n = 0 is legal. Freed by
+ * free(). */
 void *wire_alloc(size_t n);
 void *wire_grow(void *p, size_t n);
 
+/* Starts a message with its header; the functions below append to its body. */
 void pack_begin(struct pack *p, enum wire_kind kind, int field, int64_t tick);
-struct wire_head *pack_head(struct pack *p); /* valid until the next pack_... */
+/* The header of a message under construction; valid until the next pack_... */
+struct wire_head *pack_head(struct pack *p);
 void pack_bytes(struct pack *p, const void *from, size_t n);
-void *pack_room(struct pack *p, size_t n); /* n bytes to be filled at once */
+/* Appends n bytes to be filled by the caller at once. */
+void *pack_room(struct pack *p, size_t n);
 void pack_text(struct pack *p, const char *text);
 void pack_int(struct pack *p, int64_t i);
 void pack_real(struct pack *p, double r);
 
-/* Reads past the end end the program through wire.broken. */
+/* Read the body in the order in which it was packed. Reading past the end ends the program through
+ * wire.broken. */
 void take_bytes(struct wire *w, struct message *m, void *to, size_t n);
 const void *take_view(struct wire *w, struct message *m,
                       size_t n); /* bytes in place, any alignment */
@@ -102,15 +113,20 @@ void take_text(struct wire *w, struct message *m, char *to, size_t size);
 int64_t take_int(struct wire *w, struct message *m);
 double take_real(struct wire *w, struct message *m);
 
+/* Adds a program; returns its index in peer. comm and name are borrowed. */
 int wire_add_peer(struct wire *w, MPI_Comm comm, int size, const char *name);
+/* Sends to one rank of a peer without waiting; takes over p's memory and leaves p empty. */
 void wire_send(struct wire *w, int peer, int rank, struct pack *p);
-void wire_send_all(struct wire *w, int peer, struct pack *p); /* to each rank of a peer */
-/* One message of this peer (-1: of any), NULL if none is there. Never blocks longer than one
- * message takes. */
+/* The same to each rank of a peer. */
+void wire_send_all(struct wire *w, int peer, struct pack *p);
+/* Receives one message of this peer (-1: of any), owned by the caller (message_free); NULL if none
+ * is there. Never blocks for longer than the transfer of one message. */
 struct message *wire_poll(struct wire *w, int peer);
-bool wire_flushed(struct wire *w); /* moves sends along; true when all are done */
+/* Advances the sends; true when all are done. */
+bool wire_flushed(struct wire *w);
 void message_free(struct message **m);
 
+/* Starts a wait; nap_take sleeps once. */
 void nap_begin(struct nap *n);
 void nap_take(struct nap *n);
 
