@@ -1,4 +1,5 @@
-/* eigenvalue.h - how much of its support a particle sees: the smallest eigenvalue of its moments.
+/* eigenvalue.h - the smallest eigenvalue of a particle's moment matrix M [2.42], 1 in a full
+ * support and 0 for a lone particle: how much of its support is filled.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_EIGENVALUE_H
 #define SPH_EIGENVALUE_H

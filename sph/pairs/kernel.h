@@ -6,18 +6,20 @@
 
 #include <math.h>
 
+/* W(0), 1/m^dim, for the support R, m. */
 static inline double kernel_w0(int dim, double R)
 {
     return dim == 2 ? 7.0 / (M_PI * R * R) : 21.0 / (2.0 * M_PI * R * R * R);
 }
 
+/* W at the distance r, m; 0 from R on. */
 static inline double kernel_w(int dim, double r, double R)
 {
     const double q = r / R, t = q < 1.0 ? 1.0 - q : 0.0;
     return kernel_w0(dim, R) * t * t * t * t * (1.0 + 4.0 * q);
 }
 
-/* W'(r)/r <= 0, so that the gradient at i is this times (x_i - x_j). */
+/* W'(r)/r <= 0, 1/m^(dim+2): the gradient of W at x_i is this times (x_i - x_j). */
 static inline double kernel_dw_r(int dim, double r, double R)
 {
     const double q = r / R, t = q < 1.0 ? 1.0 - q : 0.0;

@@ -1,14 +1,15 @@
-/* kernel_sums.h - how much of its volume the fluid fills: sum w W.
+/* kernel_sums.h - how much of its volume the fluid fills, by the kernel sum of w W.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_KERNEL_SUMS_H
 #define SPH_KERNEL_SUMS_H
 
 #include "../sph.h"
 
-/* Sum of w W over particle i and its neighbours, -; needs prim and the list of pairs. */
+/* Sum of w W over particle i and its neighbours, -; 1 inside up to the quadrature's error. Needs
+ * prim and the list of pairs. Local to the rank. */
 double kernel_sum(const struct sph *s, int i);
-/* sum dx^D W over a lattice, which differs from 1 by the error of the quadrature: 1.0012 in 2D with
- * R = 4 dx. */
+/* The same sum over a whole lattice, which differs from 1 by the error of the quadrature: 1.0012 in
+ * 2D with R = 4 dx. */
 double kernel_lattice_sum(const struct sph *s);
 
 #endif

@@ -1,6 +1,7 @@
-/* neighbours.h - cells of edge R + skin, particles sorted by cell rows, list of pairs.
- * The list of i holds all j /= i (locals and ghosts) that come within R in the step: locals
- * ascending, then ghosts, so that the part with j > i is its tail.
+/* neighbours.h - cell grid, particles sorted by cell, and the list of pairs. The list of particle
+ * i, its row, holds all j /= i (locals and ghosts) that can come within R in the step: locals in
+ * ascending order, then ghosts, so that the part with j > i is its tail. It is made once a step and
+ * serves all its stages.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_NEIGHBOURS_H
 #define SPH_NEIGHBOURS_H
@@ -9,63 +10,74 @@
 
 struct list_grid; /* cells of the locals at hand */
 
+/* The list. Rows are padded with the dummy record (s->p.capacity) to a multiple of the vector
+ * width. */
 struct neighbours {
     int n;            /* rows: locals */
     int64_t capacity; /* of j */
     int64_t *start;   /* [n+1] first of row i in j */
+    /* [n] entries of row i; as many dummies follow as a vector that begins at any entry can
+     * reach. */
     int *count; /* [n] entries of row i; behind them as many dummy rows (s->p.capacity) as a vector
                    that begins at any entry can reach */
     int *tail;  /* [n] first entry of row i with j > i */
     int *j;
     unsigned char *whole; /* [n] so many neighbours that nothing of the support can be missing */
+    /* [n] rows in the order in which passes treat them: those whose lists hold locals only, the
+     * others, the deep ones (ROLE_DEEP). NULL: as they are stored; so it is on one rank, where
+     * ghosts need no wait, without deep rows. */
     int *order; /* [n] rows, those first whose lists hold locals only, those last that are deep
                    (ROLE_DEEP); NULL: as they are stored, on one rank, where ghosts are at hand at
                    once, and without deep ones */
     int order_capacity;
-    int ninner;   /* how many come first; 0 on one rank */
+    int ninner;   /* rows that need no ghosts and come first in order; 0 on one rank */
     int nshallow; /* rows but for the deep ones */
-    int treated;  /* rows that passes go through: all until slopes are known, then shallow ones */
-    double touching; /* m: pairs that may come this near in the step are close; 0: none */
+    int treated;  /* rows that passes go through: all until slopes are known, then without the deep
+                     ones */
+    double touching; /* m: pairs that may come this near in the step are put into close; 0: none */
     int *taken; /* [n] entries of the lists from which guards take their fields; NULL: no levels */
     int taken_capacity;
     int nclose, close_capacity;
     int (*close)[2];  /* pairs i < j that may collide in the step; collisions.h */
-    int begin, end;   /* places in order that a pass treats: neighbours_rows */
+    int begin, end;   /* range of order that a pass treats, set by neighbours_rows */
     bool first, last; /* part of the pass: sums begin with zeros; they are whole after it */
     int rows_capacity;
     struct list_grid *grid;
 };
 
+/* An empty list; neighbours_free frees it and sets *l to NULL. */
 struct neighbours *neighbours_create(void);
 void neighbours_free(struct neighbours **l);
-/* Sorts the locals by cell (stable), state, id and zone; before the halo is made. */
+/* Sorts the locals by cell (stable): state, id, zone, role and size. To be called before ghosts are
+ * made. */
 void neighbours_sort(struct sph *s);
-/* Builds the list from prim of locals and ghosts: pairs within R and what they can move towards
- * each other in a step of dt_most, at most s->lists.skin. */
+/* Builds the list from prim of locals and ghosts: pairs within R + s->lists.skin. The skin covers
+ * the distance by which two particles can approach each other in the step. */
 void neighbours_build(struct sph *s);
-/* Which rows the next passes treat: all (after neighbours_build), or inner ones while ghosts are
- * under way, then the outer ones. */
+/* The k-th row in the order of treatment. */
 static inline int neighbours_row(const struct neighbours *l, int k)
 {
     return l->order ? l->order[k] : k;
 }
+/* Which rows the next passes treat: all (as after neighbours_build), or the inner ones while ghosts
+ * are under way and then the others. */
 enum rows { ROWS_ALL, ROWS_INNER, ROWS_OUTER };
 void neighbours_rows(struct neighbours *l, enum rows which);
-/* [capacity + 1][width]: sums of a symmetric pass, one row for each line, width nstate at most;
- * zeros before the first row. They lie where s->p.rate will be written. */
+/* Zeroed sums of a symmetric pass, [capacity + 1][width], one record for each particle and ghost,
+ * width at most nstate. They lie where s->p.rate will be written. */
 double *neighbours_sums(struct sph *s, int width);
-/* Gathers the locals and ghosts without any of the bits `without' of enum sph_role (ROLE_GUARD:
- * those that flow) within reach of the box from lo to hi, for neighbours_pick; ghost_role: bits of
- * the ghosts. After neighbours_build. */
+/* Gathers the locals and ghosts within `reach', m, of the box from lo to hi that have none of the
+ * bits `without' of enum sph_role (ROLE_GUARD: those that flow), for neighbours_pick;
+ * ghost_role[nhalo]: bits of the ghosts. After neighbours_build. */
 void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
                        const unsigned short *ghost_role, int without);
-/* Numbers of those gathered last within reach of x; found is grown (its room: *capacity, at least
- * LANES more than there are), n are there already; returns their new number. */
+/* Appends to *found those gathered last within `reach' of x. n are there already; *found is grown
+ * (mem_grow) so that *capacity is at least LANES more than the new number, which is returned. */
 int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
                     int *capacity);
-/* Least distance of a listed pair, R at most; of this rank. */
+/* Smallest distance of a listed pair, m, at most R; of this rank. */
 double neighbours_least(const struct sph *s);
-/* Ordered pairs within R now; for the throughput figures. */
+/* Number of ordered pairs within R now, for the throughput figures; of this rank. */
 int64_t neighbours_pairs(const struct sph *s);
 
 #endif

@@ -1,5 +1,11 @@
-/* scheme.h - what a pair interaction provides. Both passes run over the list of s->list with prim
- * (and slope) of locals and ghosts; dimension, viscosity, limiter are constants of one body each.
+/* scheme.h - what a pair interaction provides. Both passes run over the list s->list with prim (and
+ * slope) of locals and ghosts; dimension, viscosity and limiter are compile-time constants of one
+ * body each.
+ *
+ * The first pass, gradients (one-sided): renormalised gradients of rho and u, and the transport
+ * velocity, of every local particle into slope. The slope is zero where the moment matrix M is
+ * nearly singular (smallest eigenvalue < 0.1), and full above 0.2. The second pass, rates
+ * (symmetric): p.rate of every local particle from prim and slope.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SCHEME_H
 #define SPH_SCHEME_H
@@ -17,25 +23,28 @@ typedef void scheme_pass(struct sph *s);
 /* The passes that the parameters of s name. */
 struct scheme scheme_pick(const struct sph *s);
 
-/* All slopes, whatever the scheme needs of them: for output. */
+/* The first pass with all slopes, whatever the scheme needs of them: for output as well. */
 scheme_pass *scheme_gradients(int dim, int transport);
-/* Those of rho alone, and u0 = u. */
+/* The first pass with the slopes of rho alone, and u0 = u. */
 scheme_pass *scheme_density_gradients(int dim);
-scheme_pass *scheme_rates(const struct sph *s); /* riemann_ale, riemann */
-/* The same with exact Riemann problems; viscosity: VISCOSITY_OFF without any. */
+/* The second pass of riemann_ale and riemann. */
+scheme_pass *scheme_rates(const struct sph *s);
+/* The same with exact Riemann problems; viscosity: enum sph_viscosity, or VISCOSITY_OFF for
+ * none. */
 scheme_pass *scheme_exact_rates(int dim, int scheme, int viscosity);
-scheme_pass *scheme_delta_rates(const struct sph *s); /* delta, standard */
+/* The second pass of delta and standard. */
+scheme_pass *scheme_delta_rates(const struct sph *s);
 
-/* Adds to the rates of particle i what delta and standard take along with the shift, and no pair
- * has. */
+/* Adds to the rates of particle i the terms of delta and standard that convect with the shift and
+ * belong to no pair. */
 void scheme_take_along(const struct sph *s, int i, double *rate);
 
-/* The speed that the shift of local particle i is measured by, m/s. Where velocities are given from
- * outside it is the most that shift stands: particles are created there where the flow of their
- * face has it, beside others that do not wait for them, and the disorder that they carried into the
- * free zone was most of the error there (vortices carried by (0.3, -2) U in a box with the exact
- * flow outside: velocity 0.0006 U off, with this 0.0002; the mass within fluctuated by 0.5 %, now
- * by 0.1 %). */
+/* The speed, m/s, that scales the shift of local particle i: step.shift_speed, but in the
+ * transition and buffer zones at least 0.1 c0 (with walls) or 0.2 c0. Particles are created there
+ * where the flow of their face carries them, beside others that do not wait for them, and the
+ * disorder that they took into the free zone was most of the error there (vortices carried by (0.3,
+ * -2) U in a box with the exact flow outside: velocity 0.0006 U off, with this 0.0002; the mass
+ * within fluctuated by 0.5 %, now by 0.1 %). */
 static inline double scheme_shift_speed(const struct sph *s, int i)
 {
     const double most = (s->walls ? 0.1 : 0.2) * s->c0;
@@ -43,7 +52,7 @@ static inline double scheme_shift_speed(const struct sph *s, int i)
     return given && most > s->step.shift_speed ? most : s->step.shift_speed;
 }
 
-/* P_min = max(0, -min P) over all particles of all ranks [2.105], Pa; 0 if it is off. Collective
+/* P_min = max(0, -min P) over all particles of all ranks, Pa [2.105]; 0 if it is off. Collective
  * over s->run->comm. */
 double scheme_background(const struct sph *s);
 

@@ -1,6 +1,8 @@
-/* domain.h - which rank owns which part of the region: orthogonal recursive bisection, migration of
- * particles (and of other things that have a place), ghosts: halo of other ranks and periodic
- * images. SPDX-License-Identifier: BSD-3-Clause */
+/* domain.h - which rank owns which part of the region, by orthogonal recursive bisection; migration
+ * of particles and of other things that have a position; ghosts: the halo of other ranks and
+ * periodic images. Collective over s->run->comm where no other is said. Finer levels share the cuts
+ * of the coarsest.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_DOMAIN_H
 #define SPH_DOMAIN_H
 
@@ -8,37 +10,44 @@
 
 struct domain;
 
-struct domain *domain_create(struct sph *s); /* collective over s->run->comm */
+/* The partition of level s, for a uniform filling; owned by the caller (domain_free). Sets
+ * s->domain. */
+struct domain *domain_create(struct sph *s);
 void domain_free(struct domain **d);
-/* Cuts the region anew so that every rank has the same work, if the imbalance is above `tolerance'
- * (max/mean - 1); returns whether it did. Then domain_migrate is due. Work: pairs in the list and a
- * constant, or particles where the list is not of the present state. */
+/* Cuts the region anew so that all ranks have the same work, if the imbalance max/mean - 1 is above
+ * `tolerance'; returns whether it did, and then domain_migrate is due. Work is pairs in the list
+ * plus a constant per particle, or the number of particles where the list is not of the present
+ * state. */
 bool domain_balance(struct sph *s, double tolerance);
-/* The region has moved: s->lo, s->hi. The cuts stay until the work wants others. */
+/* Takes over a region that has moved (s->lo, s->hi). The cuts stay until the work asks for
+ * others. */
 void domain_follow(struct sph *s);
-/* Work of a rank, mean over largest, on average over the times when it was looked at, each before
- * the cuts were made anew; 1 on one rank. */
+/* Parallel efficiency: mean over largest work of a rank, averaged over the times when it was
+ * measured, each before the cuts were made anew; 1 on one rank. Local. */
 double domain_tau(const struct domain *d);
-/* Rank that owns the place x (clamped into the region). */
+/* Rank that owns the point x, also where x is outside of the region. Local. */
 int domain_owner(const struct domain *d, const double *x);
-/* Bounds of this rank's part. */
+/* Box of this rank's part, m. Local. */
 void domain_bounds(const struct domain *d, double lo[3], double hi[3]);
 /* Wraps periodic positions and sends particles to their owners. Ghosts are gone afterwards. */
 void domain_migrate(struct sph *s);
-/* Sends items (rows of `width' doubles, place in the first dim of them) to the owners of their
- * places; returns the new number; *items is reallocated (mem_grow). Order: by sending rank, then as
- * they were. */
+/* Sends items, n records of `width' doubles with a position in the first dim of them, to the owners
+ * of their positions. Returns the new number; *items is reallocated (mem_grow). They come ordered
+ * by sending rank, then as they were. */
 int domain_send_items(struct sph *s, double **items, int n, int width);
-/* Makes the ghosts: places within R + skin of this rank's part; fills prim of the ghosts. */
+/* Makes the ghosts, all particles and images within R + skin of this rank's part, and fills their
+ * prim. */
 void domain_ghosts(struct sph *s);
-/* Refreshes prim (positions shifted for images) or slope of the ghosts, start and finish apart so
- * that interior work can run between. */
+/* Refresh prim (positions shifted for images) or slope of the ghosts. Start and finish are apart so
+ * that rows without ghosts can be computed between them. */
 void domain_halo_start(struct sph *s, bool slopes);
 void domain_halo_finish(struct sph *s, bool slopes);
-/* Rows of `width' doubles of the locals to their ghosts, in the order of these; those of walls and
- * openings get none. Collective. */
+/* Sends one record of `width' doubles per local to its ghosts, in the order of these
+ * (ghosts[nhalo][width]); ghosts of walls and open sides get none. */
 void domain_share(struct sph *s, const double *rows, int width, double *ghosts);
-/* Bit-for-bit restart: the cuts; after the particles. On another number of ranks new ones. */
+/* The cuts in the restart file, after the particles, so that a run continues bit for bit. On
+ * another number of ranks domain_load makes new ones from the particles. false: the file has no
+ * cuts. */
 void domain_save(const struct sph *s, struct h5 *f);
 bool domain_load(struct sph *s, struct h5 *f);
 

@@ -1,4 +1,6 @@
-/* eos.h - Tait's equation of state [1.8-1.9] with gamma 7 or 1.
+/* eos.h - Tait's equation of state [1.8-1.9] with gamma 7 or 1,
+ *   p = rho0 c0^2/gamma ((rho/rho0)^gamma - 1),   c = c0 (rho/rho0)^((gamma - 1)/2).
+ * Pressures in Pa, 0 at rho0; densities in kg/m^3.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_EOS_H
 #define SPH_EOS_H
@@ -17,15 +19,17 @@ static inline double eos_c(double rho, double rho0, double c0, double gamma)
     return gamma == 1.0 ? c0 : c0 * r * r * r;
 }
 
-/* Inverse of eos_p; p below -rho0 c0^2/gamma, where no density fits, counts as just above it. */
+/* Inverse of eos_p. With gamma 7 a pressure so low that no density fits counts as just above
+ * that. */
 static inline double eos_rho(double p, double rho0, double c0, double gamma)
 {
     const double s = 1.0 + gamma * p / (rho0 * c0 * c0);
     return gamma == 1.0 ? rho0 * s : rho0 * pow(s > 1e-3 ? s : 1e-3, 1.0 / 7.0);
 }
 
-/* Pressure at which the enthalpy, the integral of dp/rho, is that of a flow of constant density at
- * pressure p: gradients over density are then the same, and so is the level of water at rest. */
+/* Pressure whose enthalpy, the integral of dp/rho from 0, equals p/rho0, that of a flow of constant
+ * density at pressure p: gradients over density are then the same, and so is the hydrostatic
+ * state. */
 static inline double eos_p_from_constant(double p, double rho0, double c0, double gamma)
 {
     const double s = p / (rho0 * c0 * c0), t = 1.0 + 6.0 * s;

@@ -1,4 +1,6 @@
-/* particles.h - arrays of the particles and where their rows keep what.
+/* particles.h - the arrays of the particles, and where their records keep what. State and rates are
+ * records of nstate doubles, so that a Runge-Kutta stage is one loop; packed records ("lines") are
+ * what the loops over pairs load.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_PARTICLES_H
 #define SPH_PARTICLES_H
@@ -9,12 +11,13 @@
 
 struct sph;
 
+/* Where a particle is in a region with open sides: zones.h. */
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
-/* Bits of what a particle is where there are levels (refinement/refinement.h): its fields are those
- * of others; it has given birth; a guard too far from flow for its slopes to count; one whose
- * support its level does not fill; it flows, within R of the surface; it is one guard too many;
- * from bit ROLE_SOURCE on the finer of a guard's two sources. Restart files hold them: struct
- * program, meaning. */
+/* Bits of a particle's role where there are levels (refinement/refinement.h): it is a guard, whose
+ * fields are interpolated from particles that flow; it is a parent, i.e. has created children; it
+ * is a guard too far from the flow for its slopes to count; its level does not fill its support; it
+ * flows within R of the surface; it is a guard to be removed. From bit ROLE_SOURCE on: the finer of
+ * a guard's two source levels. Restart files hold these bits: see `meaning' in struct program. */
 enum sph_role {
     ROLE_GUARD = 1,
     ROLE_MOTHER = 2,
@@ -26,25 +29,27 @@ enum sph_role {
 };
 enum { PRIM = 8 }; /* doubles of a line of prim */
 
-/* Particles of one size level. State and rates are rows of nstate doubles,
- *   x[dim], q[dim] = m u, w (volume), m (mass),
- * so that Runge-Kutta is one loop. Lines are what the pair loops load: 64-byte multiples, aligned;
- * row `capacity' of lines is the dummy that pads neighbour rows (far away, volume 0).
+/* Particles of one size level. A record of the state (y, y0, rate, sum) is
+ *   x[dim], q[dim] = m u, w (volume), m (mass).
+ * Packed records are multiples of 64 bytes, aligned; record `capacity' is the dummy that pads
+ * neighbour rows (far away, volume 0):
  *   prim  [8]:        x[dim] u[dim] w rho (2D: then p c)
  *   slope [8 | 16]:   grad rho [dim], grad u [dim][dim] (a: component, b: direction), u0 [dim]
- * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images) n ..
- * n+nghost-1: only prim and slope exist for them. */
+ * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images, then ghosts of
+ * walls and open sides) are n .. n+nghost-1 and have only prim and slope. All arrays are owned. */
 struct particles {
     int n, nghost, capacity;
     int nhalo;      /* ghosts, the first ones, that are particles of other ranks or images */
     int nstate;     /* 2 dim + 2 */
     int nslope;     /* 8 (2D) or 16 (3D) */
     double *y, *y0; /* [capacity][nstate] state, at t_n */
-    double *rate;   /* [capacity+1][nstate] its time derivative; until then sums of the pairs */
-    double *sum;    /* of rates, where the scheme in time needs one; particles_sum */
+    double
+        *rate; /* [capacity+1][nstate] its time derivative; before that, sums of a symmetric pass */
+    double *sum; /* [sum_capacity][nstate] weighted sum of rates, where the Runge-Kutta scheme needs
+                    one */
     int sum_capacity;
-    double *prim;         /* [capacity+1][8] */
-    double *slope;        /* [capacity+1][nslope] */
+    double *prim;         /* [capacity+1][8] packed primitive variables */
+    double *slope;        /* [capacity+1][nslope] packed gradients and transport velocity */
     int64_t *id;          /* [capacity] unique over all ranks */
     unsigned char *zone;  /* [capacity] enum sph_zone */
     unsigned short *role; /* [capacity] bits of enum sph_role, 0 without levels */
@@ -52,12 +57,13 @@ struct particles {
                              ghosts too; NULL: they do not. refinement/mixed.h */
 };
 
-/* Places in a row of the state and in a line: x and u (q) come first. */
+/* Offsets within a record of the state and within prim; x and u (q) come first in both. */
 static inline int at_volume(int dim) { return 2 * dim; }
 static inline int at_mass(int dim) { return 2 * dim + 1; } /* of a row: y, rate, .. */
 static inline int at_rho(int dim) { return 2 * dim + 1; }  /* of a line: prim */
 
-/* Row i of y, y0, sum or rate; lines i of prim and slope. */
+/* The record of particle i in y, y0, sum or rate; in prim; in slope. Valid until the arrays
+ * grow. */
 static inline double *state_row(const struct particles *p, double *rows, int i)
 {
     return rows + (ptrdiff_t)p->nstate * i;
@@ -71,31 +77,39 @@ static inline double *slope_line(const struct particles *p, int i)
     return p->slope + (ptrdiff_t)p->nslope * i;
 }
 
-/* Whether particle i takes its fields from others: no part of any sum over the fluid. */
+/* Whether particle i is a guard, which takes part in no sum over the fluid. */
 static inline bool particles_is_guard(const struct particles *p, int i)
 {
     return (p->role[i] & ROLE_GUARD) != 0;
 }
 
+/* Makes room for `capacity' particles in 2 or 3 dimensions; there are none yet. The old contents of
+ * *p are not freed. */
 void particles_create(struct particles *p, int dim, int capacity);
+/* Frees the arrays and zeroes *p. */
 void particles_free(struct particles *p);
-/* Each has an R and a weight of its own from now on; these are set. */
+/* Allocates size and sets it to R, m, and weight 1 for all locals. */
 void particles_add_sizes(struct particles *p, double R);
-/* Room for n + nghost = total lines; keeps everything. */
+/* Makes room for n + nghost = total records. Contents are kept, pointers into the arrays are
+ * not. */
 void particles_reserve(struct particles *p, int total);
-/* One more particle at the end (ghosts must be gone); returns its index; the row y is the caller's.
- */
+/* Adds a particle at the end (there must be no ghosts) and returns its index; its state is 0, for
+ * the caller to set. */
 int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
-/* Room for sums of rates; contents are lost when capacity has grown. */
+/* The array `sum', allocated for capacity records; its contents are lost when capacity has
+ * grown. */
 double *particles_sum(struct particles *p);
-/* Copies particle `from' over `to' (state, id, zone, role; slope, which births look at). */
+/* Copies particle `from' over `to': state, id, zone, role, size and slope, which creations of
+ * particles read. */
 void particles_copy(struct particles *p, int to, int from);
-/* Reorders state, id, zone, role: new i is old order[i]; n entries. slopes: these too. */
+/* Reorders state, id, zone, role and size of the locals: new i is old order[i]; n entries. slopes:
+ * these too. Overwrites y0. */
 void particles_permute(struct particles *p, int n, const int *order, bool slopes);
+/* Sets the state of local i from position, m, velocity, m/s, volume, m^dim, and density, kg/m^3. */
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
-/* prim of all locals from y (u = q/m, rho = m/w; 2D: p, c). */
+/* Computes prim of all locals from y (u = q/m, rho = m/w; in 2D also p and c). */
 void particles_lines(struct sph *s);
-/* The same of the share `part' of the way from y0 to y. */
+/* The same for the state y0 + part (y - y0). */
 void particles_lines_between(struct sph *s, double part);
 
 #endif

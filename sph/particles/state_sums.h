@@ -6,11 +6,16 @@
 struct sph;
 
 enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
-/* Sums over all particles of all ranks: kg, m^dim, J, J (kinetic, elastic, potential), kg m/s. */
+/* Sums over all particles of all levels and ranks, guards left out: kg, m^dim, J (kinetic), J
+ * (kinetic, elastic and potential), kg m/s. With levels the mass is that of sph_step.mass.
+ * Collective. */
 void sph_sums(const struct sph *s, double sums[SUM_COUNT]);
-/* J of one row of the state: all kinds, and the kinetic one. */
+/* Energy of one record y of the state, J: kinetic, elastic (the integral of p/rho^2 from rho0) and
+ * potential in gravity along axes that are not periodic and in the central force; *kinetic is the
+ * first part. */
 double sph_energy(const struct sph *s, const double *y, double *kinetic);
-/* Curl of u of a local particle, 1/s; needs slope of the present state. In 2D w[2] only. */
+/* Curl of u of local particle i, 1/s, from slope, which must be of the present state. In 2D w[2]
+ * only, the others are 0. */
 void sph_vorticity(const struct sph *s, int i, double w[3]);
 
 #endif

@@ -1,5 +1,7 @@
 /* body.h - rigid bodies: where they are, driven as prescribed or moved by forces. In 2D the same in
- * the plane, rotations about z, masses per metre. SPDX-License-Identifier: BSD-3-Clause */
+ * the plane, with rotations about z and masses per metre. Every rank holds all bodies in the same
+ * state; all functions are local and give the same on all ranks.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BODY_H
 #define SPH_BODY_H
 
@@ -12,14 +14,18 @@ struct paddle; /* of ../bodies/paddles.h */
 
 /* --- body_free.c: motion by forces --- */
 
-/* State of a free body: what a stage integrates. */
+/* The state of a free body, which the stages of a step integrate: position of the centre, m,
+ * quaternion, angle, rad (one axis), momentum, N s, angular momentum, N m s. */
 enum { BODY_X, BODY_Q = 3, BODY_ANGLE = 7, BODY_P, BODY_L = 11, BODY_STATE = 14 };
+/* It does not rotate; about one fixed axis; freely. */
 enum body_rotation { TURNS_NOT, TURNS_AXIS, TURNS_FREE };
 
+/* A body that forces move: its inertia, its constraints, its state and the forces of the last
+ * stage. */
 struct body_free {
     double mass;                         /* kg; 2D: kg/m */
     double inertia[3][3], inverse[3][3]; /* kg m^2 about the mass centre at the start */
-    int locked;                          /* bits of enum body_axis */
+    int locked;                          /* bits 1 << enum body_axis of what does not move */
     int rotation;                        /* enum body_rotation */
     double axis[3], J;                   /* TURNS_AXIS: unit axis, inertia about it */
     bool hinged, slides, held;           /* held: before release */
@@ -29,61 +35,67 @@ struct body_free {
     double tension[LINES_MAX], slack[LINES_MAX]; /* N, m: of lines; length without force */
     double contact[3];                           /* N: force of contact in the last stage */
     double stiffness, damping;                   /* N/m, N s/m: of contact */
-    double lambda;                               /* 1/s: largest rate at which the fluid stops it */
+    double
+        lambda; /* 1/s: largest rate at which the fluid's impedance brakes it; it bounds the step */
     double impulse[2][3]; /* N s: of the fluid by either rule; of |F| in size */
-    double size;          /* N s: int |F| dt */
+    double size;          /* N s: integral of |F| over the run */
 };
 
+/* One body. */
 struct body {
-    const struct scene_body *is;
+    const struct scene_body *is; /* its keys; borrowed */
     const struct trimesh
         *mesh; /* 3D: its surface as the case places it, normals into it; borrowed */
     int dim;
     double centre[3]; /* m: of rotation and moments at the start */
-    double middle[3]; /* m: of the box round it at the start */
-    bool moves;       /* ever */
+    double middle[3]; /* m: centre of its bounding box at the start */
+    bool moves;       /* whether it ever moves */
     double reach;     /* m: of the farthest point from it */
     double volume;    /* m^3; 2D: m^2 */
-    int first, n;     /* 2D: its segments */
+    int first, n;     /* 2D: its segments in struct walls */
     struct body_drive drive;
     struct scene_contact contact;
     struct body_free *free; /* NULL: driven */
     struct paddle *paddle;  /* NULL: it does not absorb waves */
-    struct body_motion now;
+    struct body_motion now; /* its motion at the time of the last body_move */
 };
 
-/* Mass, centre and inertia as the case has them; false: impossible, why says it. mesh: NULL in 2D.
- */
+/* Mass, centre, m, and inertia about it as the case has them. body_mass_of returns false if they
+ * are impossible, and why[size] says why. mesh: NULL in 2D. */
 struct body_mass {
     double mass, centre[3], inertia[3][3];
 };
 bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int dim,
                   struct body_mass *m, char *why, size_t size);
-/* Of what its surface encloses, m^3; 2D: m^2. */
+/* Volume that its surface encloses, m^3; 2D: m^2. */
 double body_volume_of(const struct scene_body *is, const struct trimesh *mesh);
-/* Drive, and for a free body its state at the start; the files of its motion are read once a start.
- */
+/* Sets *b: its drive, and for a free body its state at the start. is, mesh and files are
+ * borrowed. */
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
                  struct motion_files *files);
+/* Frees what body_create allocated. */
 void body_destroy(struct body *b);
-/* From t on it is held, or no longer. */
+/* Sets whether a free body is held at time t, s (key release). */
 void body_hold(struct body *b, double t);
-/* now, of the state and the time. */
+/* Sets b->now from the drive or the state at time t, s. */
 void body_move(struct body *b, double t);
-/* Where a point at `from' at the start is now; its velocity (NULL: not wanted). */
+/* Where the point that is at `from' at the start is now, m. */
 void body_place(const struct body *b, const double *from, double *to);
+/* Velocity of its material point at `at' now, m/s. */
 void body_velocity(const struct body *b, const double *at, double *u);
-/* Largest of a point of it now, m/s. */
+/* Largest speed of any of its points now, m/s. */
 double body_speed(const struct body *b);
-/* Rates of the state from force and moment about the centre, weight and all. */
+/* Sets the rates of a free body's state from the force F, N, and the moment T about the centre, N
+ * m, of all that acts on it, weight included. */
 void body_rates(struct body *b, const double F[3], const double T[3]);
-/* An impulse at a point. */
+/* Applies an impulse, N s, and its moment about the centre, N m s, at once. */
 void body_hit(struct body *b, const double impulse[3], const double moment[3]);
 /* Normalises the quaternion after a step. */
 void body_finish(struct body *b);
-/* J: kinetic, and of gravity g. */
+/* Kinetic and potential energy in gravity g, m/s^2; J. *kinetic is the former. */
 double body_energy(const struct body *b, const double g[3], double *kinetic);
-/* Inertia of a body against a force along n at the arm r from its centre: 1/(n.M^-1 n), kg. */
+/* Effective mass of a body against a force along the unit vector n at the arm r, m, from its
+ * centre: 1/(n.M^-1 n), kg. */
 double body_effective_mass(const struct body *b, const double *r, const double *n);
 
 #endif

@@ -1,5 +1,6 @@
-/* level_window.h - the inside of a body of water over its ground and below its level: what a gauge
- * measures there of the section that particles fill is free of what ground and surface do to them.
+/* level_window.h - the part of a body of water that is well above its ground and below its level.
+ * How much of the section the particles fill there is free of the effects of ground and surface on
+ * them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_LEVEL_WINDOW_H
 #define SPH_LEVEL_WINDOW_H
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Heights of its edges, which are ramps 2 dx wide, m: sums over a lattice are exact. */
+/* Heights of its two edges, m. They are ramps 2 dx wide, so that sums over a lattice are exact. */
 struct level_window {
     double low, high, dx;
 };
@@ -17,19 +18,20 @@ static inline struct level_window level_window(double ground, double level, doub
     return (struct level_window){ground + dx, level - 2.5 * dx, dx};
 }
 
-/* Whether water is deep enough for it: 5.5 dx. */
+/* Whether the water is deep enough for it: 5.5 dx. */
 static inline bool level_window_fits(const struct level_window *w)
 {
     return w->high - w->low >= 2.0 * w->dx;
 }
 
-/* 0 below height h, 1 above it. */
+/* 0 below the height h, 1 above it, linear over 2 dx. */
 static inline double level_window_ramp(double z, double h, double dx)
 {
     return fmax(0.0, fmin(1.0, 0.5 + 0.5 * (z - h) / dx));
 }
 
-/* Share of a volume at height z that lies above, and of what does not that lies inside. */
+/* Fraction of a volume at height z that lies above the window; then of the rest, the fraction
+ * inside. */
 static inline double level_window_above(const struct level_window *w, double z)
 {
     return level_window_ramp(z, w->high, w->dx);
@@ -40,7 +42,8 @@ static inline double level_window_inside(const struct level_window *w, double z,
     return (1.0 - above) * level_window_ramp(z, w->low, w->dx);
 }
 
-/* filled: section that particles fill over that of the room; air or a cavity is no water. */
+/* filled: section that particles fill over that of the room. Whether this is water, not air or a
+ * cavity. */
 static inline bool level_window_is_water(double filled) { return fabs(filled - 1.0) < 0.15; }
 
 #endif

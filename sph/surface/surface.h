@@ -9,44 +9,48 @@
 
 #include "../sph.h"
 
+/* Inside; within reach of a particle on the surface; on it. */
 enum surface_class { SURFACE_INNER, SURFACE_NEAR, SURFACE_ON };
 
+/* What was detected. All arrays have `capacity' entries and are owned. */
 struct free_surface {
     int capacity;
     unsigned char *is; /* [n] enum surface_class of the locals */
-    double *normal;    /* [n][dim] out of the fluid: on and near the surface, else 0 */
+    double *normal;    /* [n][dim] unit vector out of the fluid: on and near the surface, else 0 */
     double *M, *g;     /* [n][dim^2], [n][dim] moments with wall terms */
     double *lambda;    /* [n] smallest eigenvalue of M; 1 where there are neighbours enough */
-    double *less;      /* [n] volume_feedback.h: sum w W of the first pass, then the share of their
-                          room that volumes lack; if `follows' */
+    double *less; /* [n] volume_feedback.h: sum w W after the first pass, then the share of their
+                     room that volumes lack; if `follows' */
     int less_capacity;
-    bool follows;
-    bool fades;   /* shifts do, towards the surface [5.14], for comparison */
+    bool follows; /* volumes are corrected in this step */
+    bool fades;   /* shifts fade towards the surface [5.14], for comparison */
     double reach; /* m: near is within this of a particle on the surface */
-    bool known;   /* detected for the present places; else the first pass fills M */
+    bool known;   /* detected for the present list; else the first pass fills M */
 };
 
-/* The law of transition [5.16] (exponent 4: illegible in print, the best reading), v = 1 - sum w W:
- * the whole shift below 0.1, nothing from 0.5 on. */
+/* The law by which the shift fades [5.16] (exponent 4: illegible in print, the best reading), with
+ * v = 1 - sum w W: 1 below 0.1, 0 from 0.5 on. */
 static inline double surface_beta(double v)
 {
     const double b = 1.0 - fmax(0.0, fmin(v, 0.5) - 0.1) / 0.4;
     return b * b * b * b;
 }
 
-/* NULL: no free surface in the scene. */
+/* NULL: the scene has no free surface. Owned by the caller (sph_surface_free). */
 struct free_surface *sph_surface_create(struct sph *s);
 void sph_surface_free(struct free_surface **f);
-/* Room for n locals. */
+/* Makes room for n locals; contents are kept. */
 void surface_room(struct free_surface *f, int n, int dim);
-/* After the first pass. Collective. */
+/* Classifies the locals, after the first pass. SURFACE_NEAR and its normals are found for the
+ * transport velocities tvs and tvo alone, for only those use them. Collective. */
 void surface_detect(struct sph *s);
-/* Takes the divergence out of the gradients of u as far as the support lacks neighbours: lambda
- * from 1 (none of it) to 0.75 (all). For the damper. */
+/* For the acoustic damper: removes the divergence from the gradients of u as far as the support
+ * lacks neighbours, from lambda = 1 (nothing) to 0.75 (all), since there it is an error and no
+ * sound. */
 void surface_calm(struct sph *s);
 
-/* transport.c: the last word on u0 = u + delta at every stage, after wall terms: nothing on a
- * surface, along it near it, and the largest size [2.113]. */
+/* In transport.c: the last correction of u0 = u + delta in every stage, after wall terms. delta is
+ * 0 on a surface, along it near it, and bounded in size [2.113]. */
 void transport_finish(struct sph *s);
 
 #endif

@@ -1,20 +1,22 @@
-/* volume_feedback.h - volumes follow, slowly, the room that particles have.
+/* volume_feedback.h - volumes slowly follow the room that particles have: a correction of the drift
+ * that div u alone leaves in the volumes under a free surface. For schemes without mass flux, with
+ * transport tvs and gravity, without zones and levels; otherwise the functions do nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_VOLUME_FEEDBACK_H
 #define SPH_VOLUME_FEEDBACK_H
 
 #include "surface.h"
 
-/* Before the first pass of a step: whether volumes are to follow, and room for n locals. */
+/* At a new list: decides whether volumes are to follow, and makes room for the locals. */
 void volume_feedback_prepare(struct sph *s);
-/* After surface_detect and the walls' measures: rates of the step from the kernel sums that the
- * first pass has left in s->surface->less. */
+/* After surface_detect and the walls' integrals: turns the kernel sums in s->surface->less into
+ * the rates of this step. */
 void volume_feedback_find(struct sph *s);
-/* Adds them to the rates of a stage. */
+/* Adds them to the rates of volume of a stage. */
 void volume_feedback_add(struct sph *s);
-/* At the start, after gradients: goes the whole way at once, with the masses, where walls are near.
- * What the first particles leave free between themselves and walls is so filled, and the level
- * stays where it is. Lists are to be made again; false: nothing follows. */
+/* At the start, after gradients: scales volumes, momenta and masses at once of the particles whose
+ * support meets a wall, so that what the first particles leave free beside walls is filled and the
+ * level stays. Lists must be made again. false: nothing was done. */
 bool volume_feedback_fill(struct sph *s);
 
 #endif

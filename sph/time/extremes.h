@@ -1,5 +1,6 @@
-/* extremes.h - largest values over the particles of each level, then over ranks by one reduction:
- * what the next step, its skin and the watch depend on. SPDX-License-Identifier: BSD-3-Clause */
+/* extremes.h - extremes over the particles of each level, then over ranks by one reduction: what
+ * the next step, its skin and the watch depend on.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_EXTREMES_H
 #define SPH_EXTREMES_H
 
@@ -25,18 +26,20 @@ enum {
     EXTREMES
 };
 
-/* most: rows by level; here of all levels, the others of the row of one. */
+/* most: one record per level, minima negated so that all are maxima. extremes_clear sets all to
+ * -1e300; extremes_raise replaces *most by v if v is larger. */
 void extremes_clear(double most[LEVELS][EXTREMES]);
 void extremes_raise(double *most, double v);
-/* Velocities of displacement of one level, from prim and slope. The step is not bound by guards,
- * which are moved alone. */
+/* Velocities of displacement of one level, from prim and slope, into its record. Guards count for
+ * u0 alone, since they are moved with the flow but do not bound the step. */
 void extremes_of_lines(struct sph *s, double *most);
-/* Speeds, densities and faults of one level, from y. */
+/* Speeds, densities and faults (sph_fault_of) of one level, from y. */
 void extremes_of_state(struct sph *s, double *most);
-/* most[0] gets the values over all levels and ranks, and all levels of s learn them. Collective. */
+/* most[0] becomes the extremes over all levels and ranks, and all levels of s take over s->step
+ * from it, each with its own signal. s: the coarsest. Collective. */
 void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES]);
-/* The row of one level, over all ranks; that level learns its signal and how fast its particles
- * part. Collective. */
+/* Reduces the record of one level over all ranks; that level takes over its signal and stray.
+ * Collective. */
 void extremes_reduce_level(struct sph *s, double *most);
 
 #endif

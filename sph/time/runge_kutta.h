@@ -10,6 +10,7 @@
 
 enum { STAGES_MOST = 4 };
 
+/* The coefficients of one scheme; constant tables. */
 struct rk_stages {
     const char *name;
     int n;
@@ -19,7 +20,8 @@ struct rk_stages {
     double real_axis;           /* stable for dt lambda down to minus that */
 };
 
-/* integrator: enum sph_integrator but auto. */
+/* The scheme that a run uses. integrator: enum sph_integrator but AUTO; scheme: enum sph_scheme.
+ * Static memory. */
 const struct rk_stages *stages_of(int integrator, int scheme);
 
 #endif
