@@ -1,14 +1,14 @@
 /* facet.h - integrals of Wendland's C2 kernel over a triangle of a wall in closed form: its part of
- * the Shepard factor [4.60-4.82], its weight and the centre of that weight. Sums over the edges of
- * polynomials, two angles and a logarithm, for many edges at once.
+ * the Shepard factor [4.60-4.82] (Chiron 2017), its weight and the centre of that weight. Sums over
+ * the edges of polynomials, two angles and a logarithm, for many edges at once.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_FACET_H
 #define SPH_FACET_H
 
 #include <stdbool.h>
 
-/* A triangle v0 v1 v2 with what the integrals ask of it; n on the side from which the corners run
- * counter-clockwise: out of the fluid. */
+/* A triangle v0 v1 v2 with what the integrals need of it; n is on the side from which the corners
+ * run counter-clockwise: out of the fluid. */
 struct facet {
     double v[3][3]; /* m */
     double n[3], t[3][3],
@@ -18,23 +18,25 @@ struct facet {
     double longest, area;     /* m, m^2 */
 };
 
+/* The facet with the corners a, b, c, m. */
 struct facet facet_of(const double *a, const double *b, const double *c);
 
-/* What a wall has of a particle's kernel. */
+/* Integrals over a piece of wall of the kernel around a particle at x. */
 struct wall_integrals {
     double gamma; /* -: 1 + sum of it over the walls is the Shepard factor */
     double W;     /* m^(1-dim): int W dS */
     double e[3];  /* m^(2-dim): int W (y - x) dS */
 };
 
-/* Where a particle stands over a triangle. */
+/* Where a particle is relative to a triangle. */
 struct facet_place {
     double height;   /* m: over its plane, > 0 on the side of the fluid */
-    double distance; /* m: of the triangle; of small far ones of their centre */
+    double distance; /* m: to the triangle; of small far ones to their centre */
     bool foot;       /* the foot of the particle lies on the triangle */
 };
 
-/* Edges that wait until there are enough of them for the vectors. */
+/* Edges that are collected until there are enough of them for the vector loops. Start with n =
+ * 0. */
 enum { FACET_EDGES = 256 };
 struct facet_batch {
     int n;
@@ -45,18 +47,19 @@ struct facet_batch {
     double D[FACET_EDGES], R[FACET_EDGES];
 };
 
-/* Adds the integrals of f over the support R around x to *to, not before facet_finish; f and to
- * are borrowed until then. Triangles small against their distance go by points, with errors below
- * 1e-5 of gamma. */
+/* Adds the integrals of f for the support R, m, around x to *to, at the latest in facet_finish; f
+ * and to are borrowed until then. Triangles that are small against their distance are integrated by
+ * points, with errors below 1e-5 of gamma. */
 struct facet_place facet_ask(struct facet_batch *b, const struct facet *f, const double *x,
                              double R, struct wall_integrals *to);
 void facet_finish(struct facet_batch *b);
-/* For comparison, W and e by quadrature instead: n x n squares, clipped; a point a triangle. */
+/* For comparison, W and e by quadrature instead: facet_clip by n x n squares clipped by the
+ * triangle, facet_centroid by one point. */
 void facet_clip(const struct facet *f, const double *x, double R, int n, struct wall_integrals *to);
 void facet_centroid(const struct facet *f, const double *x, double R, struct wall_integrals *to);
-/* int W dS over the plane through x and an edge, beyond the edge as seen from x, 1/m. */
+/* Integral of W over the plane through x and an edge, beyond the edge as seen from x, 1/m. */
 double facet_rim(const struct facet *f, int edge, const double *x, double R);
-/* The nearest point of f to x; returns its distance, m. */
+/* Sets foot to the point of f nearest to x; returns its distance, m. */
 double facet_nearest(const struct facet *f, const double *x, double *foot);
 
 #endif

@@ -1,28 +1,29 @@
-/* ghost_lines.h - lines of mirrored ghosts: the state behind a wall from a state before it
- * [3.1-3.10], and the friction of no-slip walls.
+/* ghost_lines.h - packed records of mirrored ghosts: the state behind a wall from a state before it
+ * [3.1-3.10], and the friction of no-slip walls (Chiron 2017, chapter 3).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_GHOST_LINES_H
 #define SPH_GHOST_LINES_H
 
 #include "../sph.h"
 
-/* Ghosts of walls: a block among the ghosts of s->p. */
+/* Ghosts of walls: a contiguous block among the ghosts of s->p. */
 struct ghost_block {
     int n, first; /* first: counted from the first ghost */
     int capacity;
-    double *rub; /* [n][dim] m/s: u of the no-slip form less u of the slip form */
+    double *rub; /* [n][dim] m/s: u of the no-slip form minus u of the slip form; owned */
     bool rubs;   /* any of it is not zero */
 };
 
-/* Density at distance d along n from a place with density rho: (1/rho) dp/dn = K [3.9-3.10]. */
+/* Density at the distance d, m, along n from a point with density rho, by (1/rho) dp/dn = K, m/s^2
+ * [3.9-3.10]. */
 double ghost_density(const struct sph *s, double rho, double K, double d);
-/* Writes x, u, w, rho (2D: p, c) into the line of a ghost. */
+/* Writes x, u, w, rho (2D: p, c) into the packed record of a ghost. */
 void ghost_set_line(const struct sph *s, double *line, const double *x, const double *u, double w,
                     double rho);
-/* Adds to the rates of momentum what no-slip ghosts do beyond slip ghosts in the Laplacian [2.31];
- * both forms in one pass would clump particles [3.4]. */
+/* Adds to the rates of momentum the difference between no-slip and slip ghosts in the Laplacian
+ * [2.31]; both forms in one pass would make particles clump [3.4]. */
 void ghost_friction(struct sph *s, const struct ghost_block *g);
-/* Room for more ghosts behind those of s->p; returns the first's index. */
+/* Makes room for n more ghosts behind those of s->p; returns the index of the first. */
 int ghost_append(struct sph *s, struct ghost_block *g, int n);
 
 #endif

@@ -1,24 +1,26 @@
-/* wall_cover3.h - what of a side of the domain lies behind meshes at rest, in 3D: the floor under a
- * slope that is drawn into a tank. SPDX-License-Identifier: BSD-3-Clause */
+/* wall_cover3.h - removes from a side of the domain what lies behind meshes at rest, in 3D, such as
+ * the floor under a slope that is drawn into a tank.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WALL_COVER3_H
 #define SPH_WALL_COVER3_H
 
 #include "../../common/geometry/tree.h"
 
-/* A plane rectangle across an axis, normal towards +axis if high; m. */
+/* A plane rectangle normal to an axis, its normal towards +axis if high; m. */
 struct cover_side {
     int axis;
     bool high;
     double at, lo[3], hi[3];
 };
 
-/* Its triangles, but for what lies behind the n meshes; two if nothing does. Where it meets a mesh
- * it is cut by the plane of the mesh there, in squares of at most `size', m. The caller's. */
+/* The side's triangles without what lies behind the n meshes; two if nothing does. Where it meets a
+ * mesh it is cut by the plane of the mesh there, in squares of at most `size', m. Owned by the
+ * caller. */
 struct trimesh wall_cover_side(const struct cover_side *is, int n, const struct tree *const *mesh,
                                double size);
 
-/* What of m lies in the box, of which any end may be infinite; m must be connected, the result is
- * not. The caller's. */
+/* The part of m inside the box, of which any end may be infinite; m must be connected, the result
+ * is not. Owned by the caller. */
 struct trimesh wall_cover_clip(const struct trimesh *m, const double lo[3], const double hi[3]);
 
 #endif

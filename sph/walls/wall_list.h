@@ -1,7 +1,8 @@
 /* wall_list.h - particles near walls, the pieces of wall near each (segments in 2D, triangles in
- * 3D), and what each piece has of the particle's kernel. The list is made once a step; its
- * integrals once a stage, for all who ask. Whoever sums over touches need not know what a piece
- * is. SPDX-License-Identifier: BSD-3-Clause */
+ * 3D), and the integrals of the particle's kernel over each piece. The list is made once a step,
+ * its integrals once a stage, for all who ask. Whoever sums over touches need not know what a piece
+ * is. Local to the rank.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WALL_LIST_H
 #define SPH_WALL_LIST_H
 
@@ -9,7 +10,7 @@
 #include "wall_joint.h"
 #include "walls.h"
 
-/* One piece as one particle sees it. */
+/* One piece of wall near one particle. */
 struct wall_touch {
     struct wall_integrals is; /* W = 0: beyond the support; e divided by W: m, from the particle to
                                  the centre of that weight */
@@ -32,13 +33,14 @@ struct wall_near {
     int mesh, facet;
 };
 
+/* The list. All arrays are owned; zeroed memory is empty. */
 struct wall_list {
     int n, capacity;
-    int *who, *first; /* [n], [n+1] */
+    int *who, *first; /* [n] locals near walls; [n+1] the first touch of each */
     int touches_capacity;
     struct wall_touch *touch; /* [first[n]] */
     double *gamma;            /* [n] Shepard factor */
-    bool measured;            /* touch and gamma are of the present places */
+    bool measured;            /* touch and gamma belong to the present positions */
     int boxes_capacity;
     double (*boxes)[4]; /* 2D: around groups of segments: low x, y, high x, y */
     /* 2D, where walls touch: points that part the fluid, which particles are beside one [n, NULL:
@@ -62,9 +64,9 @@ struct wall_list {
 };
 
 void wall_list_free(struct wall_list *l);
-/* Particles nearer than R, the skin and the way of a step to a wall. */
+/* Lists the particles that can come within R of a wall in the step, with the pieces near each. */
 void wall_list_build(const struct sph *s, struct wall_list *l);
-/* touch and gamma at the present places of particles and walls. */
+/* Computes touch and gamma at the present positions of particles and walls, once a stage. */
 void wall_list_measure(const struct sph *s, struct wall_list *l);
 /* Sums for the Shepard factor above this are of places behind a wall, which have one more: not by
  * the last digits, nor by what points miss of it. */
@@ -72,48 +74,50 @@ static inline double wall_list_behind_from(const struct sph *s)
 {
     return s->prm.wall_integrals == INTEGRALS_NUMERICAL ? 1.25 : 1.0 + 1e-6;
 }
-/* Lists locals whose state is behind the nearest wall; returns their number. */
+/* Lists locals whose state is behind the nearest wall into who[n]; returns their number. */
 int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who);
-/* int W dS over the piece of a touch with another support R, m^(1-dim). */
+/* Integral of W over the piece of a touch with another support R, m, for a particle at x;
+ * m^(1-dim). */
 double wall_list_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                         const double *x, double R);
-/* Parts of the Shepard factor at a place x near particle k, -, one for each of its touches from
+/* Parts of the Shepard factor at a point x near particle k, one for each of its touches from
  * first[k] on; NULL: no face of another owner than `body' reaches there. Valid until the next
  * call. */
 const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int body,
                                const double *x);
-/* The nearest point of its piece to x, m; returns the distance, m. */
+/* Sets foot to the point of the touch's piece nearest to x; returns the distance, m. */
 double wall_list_nearest(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                          const double *x, double *foot);
 /* Velocity of the wall's material point x, m/s. */
 void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x,
                         double *u);
 
-/* Whether the k-th of the list, beside a joint, is behind the faces of its own fluid now: where it
- * came through. */
+/* Whether the k-th particle of the list, beside a joint, is now behind the faces of its own fluid;
+ * f: where it came through. */
 bool wall_list_strayed(const struct sph *s, const struct wall_list *l, int k, struct wall_foot *f);
 
 /* --- of wall_list.c and wall_list3.c --- */
 
-/* Takes those out of the k-th's row of the list of pairs that it does not see. */
+/* Removes from the k-th particle's row of the list of pairs those that `sees' says it does not
+ * interact with. */
 typedef bool wall_sees(const struct sph *s, const struct wall_list *l, int k, const double *x);
 void wall_list_cut_row(const struct sph *s, const struct wall_list *l, int k, wall_sees *sees);
 
-/* Room for one particle more and so many touches. */
+/* Makes room for one particle more with so many touches. */
 void wall_list_room(struct wall_list *l, int touches);
 void wall_list3_build(const struct sph *s, struct wall_list *l);
 void wall_list3_measure(const struct sph *s, struct wall_list *l);
 int wall_list3_behind(const struct sph *s, const struct wall_list *l, int *who);
 double wall_list3_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                          const double *x, double R);
-/* Whether its triangle is nearer than R to x. */
+/* Whether the touch's triangle is nearer than R, m, to x. */
 bool wall_list3_reaches(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                         const double *x);
 void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, const double *x);
 double wall_list3_nearest(const struct sph *s, const struct wall_list *l,
                           const struct wall_touch *t, const double *x, double *foot);
 void wall_list3_free(struct wall_list *l);
-/* Of a touch: its triangle in the frame of the mesh, its number there; a place seen from there. */
+/* The triangle of a touch in the frame of its mesh; its number there; a point in that frame. */
 const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t);
 int wall_list3_triangle(const struct wall_list *l, const struct wall_touch *t);
 void wall_list3_to_own(const struct sph *s, const struct wall_touch *t, const double *x,
@@ -121,13 +125,15 @@ void wall_list3_to_own(const struct sph *s, const struct wall_touch *t, const do
 
 /* --- wall_thin3.c --- */
 
+/* Whether some mesh is thin. */
 bool wall_list3_any_thin(const struct walls *w);
-/* Takes pairs out of the list that look through thin walls. */
+/* Removes pairs from the list that would interact through thin walls. */
 void wall_list3_cut(const struct sph *s, struct wall_list *l);
-/* After the integrals: what of thin walls is not seen counts for nothing; rims. */
+/* After the integrals: pieces of thin walls that the particle does not see count for nothing, and
+ * the sums are closed at their rims. */
 void wall_list3_shade(const struct sph *s, struct wall_list *l);
-/* Whether the k-th of the list has gone through a thin wall since the list was made: where, with
- * the normal away from the side that it came from. */
+/* Whether the k-th particle of the list has gone through a thin wall since the list was made; f:
+ * where, with the normal away from the side that it came from. */
 bool wall_list3_crossed(const struct sph *s, const struct wall_list *l, int k, struct wall_foot *f);
 
 #endif

@@ -1,12 +1,14 @@
 /* wall_moments.h - integrals of Wendland's C2 kernel over the part of a straight wall within the
- * support, in closed form: what the wall takes from the Shepard factor [4.52-4.59], its weight and
- * its centre. One angle and one logarithm, the rest are polynomials. Lengths in units of R.
+ * support, in closed form (Chiron 2017): what the wall takes from the Shepard factor [4.52-4.59],
+ * its weight and its centre. One angle and one logarithm, the rest are polynomials. Lengths in
+ * units of R.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WALL_MOMENTS_H
 #define SPH_WALL_MOMENTS_H
 
 #include <math.h>
 
+/* The integrals over one wall of the kernel around one particle. */
 struct wall_moments {
     double gamma; /* -: 1 + sum of it over the walls is the Shepard factor: 1 inside, 1/2 on a flat
                      wall, angle/(2 pi) in a corner; behind a wall one more */
@@ -14,8 +16,8 @@ struct wall_moments {
     double along; /* R: int W y ds / W, y counted from the foot of x along the wall */
 };
 
-/* The piece from a to b (counted from the foot) of a line at distance d > 0: int r^k ds, int y^k ds
- * with r^2 = d^2 + y^2. */
+/* The piece from a to b (counted from the foot of the particle) of a line at the distance d > 0:
+ * integrals J_k of r^k and Y_k of y^(k-1) along it, with r^2 = d^2 + y^2. */
 struct wall_piece {
     double a, b, ra, rb;
     double angle; /* int d/r^2: under which x sees it */
@@ -42,7 +44,7 @@ static inline struct wall_piece wall_piece(double d, double a, double b)
     return p;
 }
 
-/* W = 7/pi (1 - 10 r^2 + 20 r^3 - 15 r^4 + 4 r^5) */
+/* Integral of W = 7/pi (1 - 10 r^2 + 20 r^3 - 15 r^4 + 4 r^5) along the piece; d2 = d^2. */
 static inline double wall_weight(const struct wall_piece *p, double d2)
 {
     return 7.0 / M_PI *
@@ -50,7 +52,7 @@ static inline double wall_weight(const struct wall_piece *p, double d2)
             15.0 * (d2 * d2 * p->Y1 + 2.0 * d2 * p->Y3 + p->Y5) + 4.0 * p->J5);
 }
 
-/* int_r^1 W s ds: W y = -d/dy of it */
+/* Integral of W s ds from r to 1, whose derivative along y is -W y. */
 static inline double wall_ring(double r)
 {
     const double r2 = r * r;
@@ -68,8 +70,8 @@ static inline double wall_shepard(double y, double r, double d)
     return d * y * (radial - plain);
 }
 
-/* Of a straight wall whose line is at `distance' from x (> 0 on the fluid side) and that goes from
- * `from' to `to' along it, counted from the foot of x. */
+/* Of a straight wall whose line is at `distance' from x (> 0 on the fluid's side) and that goes
+ * from `from' to `to' along it, counted from the foot of x. All 0 beyond the support. */
 static inline struct wall_moments wall_moments(double distance, double from, double to)
 {
     const double d = fmax(fabs(distance), 1e-12);

@@ -1,5 +1,6 @@
-/* wall_thin.h - walls and bodies through which particles would see each other, and gaps that hold
- * no particle: found in the case, in 2D. SPDX-License-Identifier: BSD-3-Clause */
+/* wall_thin.h - finds in the case, in 2D, walls and bodies so thin that particles would interact
+ * through them, and gaps that hold no particle.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WALL_THIN_H
 #define SPH_WALL_THIN_H
 
@@ -11,13 +12,14 @@ struct wall_thin {
     char what[160];      /* "faces of wall 2", "wall 2 and body 1 (hull)" */
 };
 
-/* Solid thinner than `least' between two faces that are wet on both sides; sharp corners are none.
- */
+/* Sets *t to solid thinner than `least', m, between two faces that are wet on both sides; sharp
+ * corners do not count. false: there is none. */
 bool wall_thin_solid(const struct scene *c, double least, struct wall_thin *t);
-/* Fluid narrower than `least' between faces along 4 `least' and more; faces that touch are none. */
+/* The same for fluid narrower than `least' between faces along 4 `least' and more; faces that touch
+ * do not count. */
 bool wall_thin_gap(const struct scene *c, double least, struct wall_thin *t);
 /* The narrowest passage between two walls or bodies, one of which is no side of the domain, if it
- * is narrower than `least' along a sixth of that: a free body has none. */
+ * is narrower than `least' along a sixth of that. Free bodies are left out. */
 bool wall_thin_passage(const struct scene *c, double least, struct wall_thin *t);
 
 #endif

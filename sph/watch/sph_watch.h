@@ -108,7 +108,7 @@ void sph_watch_removed(struct sph *s, int i);
 void sph_watch_judge(struct sph *s, struct diagnosis *d);
 /* Appends the headings of its columns of series.csv to names and returns their number. */
 int sph_watch_columns(const struct run *r, const struct sph_params *prm, const char **names);
-/* Writes their values on rank 0 and returns the end of them. */
+/* Writes their values and returns the end of them. */
 double *sph_watch_row(const struct sph *s, double *values);
 /* Writes the figures to the summary. */
 void sph_watch_summarise(const struct sph *s);
