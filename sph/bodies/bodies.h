@@ -1,6 +1,7 @@
 /* bodies.h - free bodies within a run: their part of a stage, what limits their step, what they
- * show. A stage: places of the bodies, rates of the fluid, forces on the bodies, their rates; then
- * fluid and bodies go on with the same weights. All ranks hold all bodies and compute the same.
+ * report. A stage: positions of the bodies, rates of the fluid, forces on the bodies, their rates;
+ * then fluid and bodies advance with the same weights. All ranks hold all bodies and compute the
+ * same bits. s is the coarsest level.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BODIES_H
 #define SPH_BODIES_H
@@ -9,55 +10,61 @@
 
 struct h5;
 
-/* What the fluid's impedance, contact and lines need to know of the walls at the start. */
+/* At the start: what the fluid's impedance, contact and lines need to know of the walls.
+ * Collective. */
 void bodies_create(struct sph *s);
-/* A step begins; after the rates of a stage; then on by y = y0 + ahead * rate, having added weight
- * * rate to the sum, or at the last stage by y = y0 + sum; after the step. Stage and finish are
- * collective. */
+/* The parts of a step. bodies_begin stores the state as y0. bodies_stage, after the rates of a
+ * stage, sums all loads on the free bodies and computes their rates. bodies_advance adds weight
+ * times the rate to the sum and sets y = y0 + ahead rate, or at the last stage y = y0 + sum.
+ * bodies_finish, after the step, takes the impulses of particles that were put back and fills d
+ * where a body cannot go on. Stage and finish are collective. */
 void bodies_begin(struct sph *s);
 void bodies_stage(struct sph *s, double weight);
 void bodies_advance(struct sph *s, double ahead, double weight, bool last);
 void bodies_finish(struct sph *s, struct diagnosis *d);
-/* Largest step, s: dt <= 2/lambda, lambda the rate at which the sound that a body sends out stops
- * it (2.785 on the real axis of Runge-Kutta schemes); INFINITY without free bodies. */
+/* Largest step, s: 2/lambda, lambda being the rate at which the fluid's acoustic impedance brakes a
+ * body (2.785 is the limit of RK4 on the real axis); INFINITY without free bodies. */
 double bodies_dt(const struct sph *s);
 
-/* body_lines.c */
-int body_line_other(const struct scene *c, const struct scene_line *l); /* -1: fixed in space */
+/* body_lines.c: index of the body at the other end of a line; -1: it is fixed in space. */
+int body_line_other(const struct scene *c, const struct scene_line *l);
 void body_lines_slack(struct body *b);
 void body_lines_add(const struct scene *c, struct body *bodies, int k, double (*loads)[6]);
 double body_lines_energy(const struct scene *c, const struct body *bodies, int k);
-/* Adds factor F at a place, and its moment about the centre, to what loads a body. */
+/* Adds factor F, N, at the point `at', m, and its moment about the centre to a body's load (force,
+ * moment). */
 void body_load(const struct body *b, const double *at, const double *F, double factor,
                double load[6]);
 
-/* body_contact.c: forces between free bodies and what they touch. What is nearer at the start than
- * contact holds rests there. */
+/* body_contact.c: forces between free bodies and what they touch. At the start: what is nearer than
+ * the distance that contact keeps rests there. */
 void body_contacts_start(struct sph *s);
 /* m: how deep a contact without damping lets in what comes at v, m/s, in steps of dt, s. */
 double body_contact_depth(double v, double dt);
+/* Adds these forces to the loads of a stage. */
 void body_contacts_add(struct sph *s, double (*loads)[6]);
 
-/* body_average.c: force on body k from the pressure on its surface, at each point the kernel
- * average of what the particles around would have there in a fluid that goes with it: the second
- * opinion. (What the walls' terms of the particles add up to is 1.39 times a constant pressure.)
- * Needs prim and slope. Collective. */
+/* body_average.c: an independent estimate of the force on body k, from the pressure on its surface:
+ * at each point the kernel average of the pressure that the particles around would have there in a
+ * fluid that moves with the body. (The sum of the particles' wall terms is 1.39 times a constant
+ * pressure.) Needs prim and slope. Collective. */
 struct force body_average(struct sph *s, int k);
-/* The same with what pushes on it, |p| times area, N, of the axis where that is largest, half of
- * both sides; and the mean of |p|, Pa. */
+/* The same, with *pushed = |p| times area, N, along the axis where that is largest, half of both
+ * sides, and *pressure = the mean of |p|, Pa. */
 struct force body_average_pushed(struct sph *s, int k, double *pushed, double *pressure);
-/* Of the reference of the pressure alone, which the particles leave out, on what the domain and
- * other walls leave wet of the surface: nothing, or the weight of what the body displaces, unless
- * they cut it. */
+/* The force of the pressure reference alone, which the particles leave out, on the part of the
+ * surface that the domain and other walls leave wet: zero, or the weight of what the body
+ * displaces, unless they cut it. */
 struct force body_reference(const struct sph *s, int k);
 
-/* body_seal.c: adds to the forces of the stage what the water that seeps between a free body and
- * what it has rested on since the start pushes them apart with. Needs prim and slope.
- * Collective. */
+/* body_seal.c: adds to the forces of the stage the pressure of the water that seeps between a free
+ * body and what it has rested on since the start. Needs prim and slope. Collective. */
 void body_seals_add(struct sph *s);
 
-/* body_output.c */
+/* body_output.c: columns of series.csv of body k; appends their headings to names, returns their
+ * number. */
 int bodies_columns(const struct run *r, int k, const char **names);
+/* Writes the values of these columns; returns the end of them. */
 double *bodies_row(const struct sph *s, int k, double *values);
 void bodies_summarise(const struct sph *s);
 void bodies_save(const struct sph *s, struct h5 *f);

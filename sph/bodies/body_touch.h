@@ -5,29 +5,31 @@
 
 #include "../walls/walls.h"
 
-/* One corner of one near the other. */
+/* A corner of one near the other. */
 struct touch {
-    double x[3], out[3]; /* place; unit normal out of what is touched */
+    double x[3], out[3]; /* m: position of the corner; unit normal out of what is touched */
     double depth, u[3];  /* m; m/s of the corner's body relative to what it touches */
     bool mine;           /* the corner belongs to the first of the pair */
 };
 
+/* Two bodies with their touches; touch is owned. */
 struct pair {
     int a, b; /* bodies; b = -1: walls at rest */
     int n, capacity;
     struct touch *touch;
 };
 
-/* A corner (mine: of a) at x that is `depth' nearer than contact holds. */
+/* Adds a corner (mine: of a) at x that is `depth', m, nearer than the distance that contact keeps;
+ * `out' is the normal there. */
 void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
               double depth, bool mine);
-/* Signed distance, m, of x to what a body (-1: walls at rest) has within reach, INFINITY: nothing
- * there; unit normal out of it. */
+/* Signed distance, m, of x to the surface of a body (-1: walls at rest) within reach, with the unit
+ * normal out of it; INFINITY: nothing is within reach. */
 double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
                       double out[3]);
-/* Whether x is within gap of the axis that one of the two is hinged about. */
+/* Whether x is within `gap', m, of the axis that one of the two is hinged about. */
 bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, double gap);
-/* Adds all corners nearer than gap: of polylines, of meshes (body_touch3.c). */
+/* Adds all corners nearer than `gap', m: of polylines; pair_find3 (body_touch3.c) of meshes. */
 void pair_find2(const struct walls *w, struct pair *p, double gap);
 double touch_distance3(const struct walls *w, int body, const double *x, double reach,
                        double out[3]);

@@ -1,16 +1,18 @@
-/* box_chase.h - a box of particles that goes with a breaker: with the crest in it.
+/* box_chase.h - a box of particles that follows a breaking wave, keeping its crest inside
+ * (sph.box_follows = "breaker").
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BOX_CHASE_H
 #define SPH_BOX_CHASE_H
 
 #include "../sph.h"
 
-/* sph.box_follows = BOX_CHASE. */
+/* The value of sph.box_follows that asks for it. */
 #define BOX_CHASE "breaker"
 
-/* m/s: the most that the box goes; 0 without gravity. */
+/* Largest speed of the box, m/s: sqrt(g H) with the height H of the domain; 0 without gravity. */
 double box_chase_speed(const struct run *r);
-/* Adds the way of a step to way[3] along the axes that `along' names. Collective. */
+/* Adds the box's displacement in a step of dt, s, to way[3], m, along the axes that `along' names.
+ * Collective. */
 void box_chase_step(struct sph *s, double dt, const bool along[3], double way[3]);
 
 #endif

@@ -1,7 +1,8 @@
-/* level_gap.h - the level of the particles over that of the outer solution, along each open side
- * that a free surface crosses. Velocity and pressure tell neither program the other's level: a step
- * between them would die by what the blending lets through alone. A small outflow in proportion to
- * it, by Flather's condition, closes it and feeds nothing. SPDX-License-Identifier: BSD-3-Clause */
+/* level_gap.h - the difference between the level of the particles and that of the outer solution,
+ * along each open side that a free surface crosses. Velocity and pressure tell neither program the
+ * other's level: a step between them would decay only through the blending. A small outflow in
+ * proportion to it, after Flather's condition, closes it without adding energy.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_LEVEL_GAP_H
 #define SPH_LEVEL_GAP_H
 
@@ -10,25 +11,28 @@
 
 enum { LEVEL_COLUMNS = 8 };
 
+/* The measured differences and the correction. */
 struct level_gap {
     double *profile;   /* colour.h */
-    double at_rest[6]; /* m: gap at the start, which is no step */
-    double gap[6];     /* m: now, over that */
-    double lasting[6]; /* m/s: part of it that a lasting gap has called for */
+    double at_rest[6]; /* m: difference at the start, which counts as none */
+    double gap[6];     /* m: present difference beyond that, by side */
+    double lasting[6]; /* m/s: part of the outflow that a lasting difference has called for */
     bool started;      /* at_rest is known */
-    double mean;       /* m: of |gap| over some coupling steps, the largest side: what is judged */
+    double mean;       /* m: mean |gap| over some coupling steps, of the worst side; it is judged */
     struct watch watched;
     int probes; /* places that were compared, last time */
 };
 
+/* Owned by the caller (level_gap_free). */
 struct level_gap *level_gap_create(const struct sph *s);
 void level_gap_free(struct level_gap **g);
-/* Compares at s->t, dt after the last time: zones' `outflow' follows. Collective. */
+/* Compares the levels at s->t, dt, s, after the last time, and sets the zones' outflow.
+ * Collective. */
 void level_gap_look(struct sph *s, double dt);
 /* Names and values of LEVEL_COLUMNS columns. Collective. */
 extern const char *const level_gap_columns[LEVEL_COLUMNS];
 void level_gap_row(struct sph *s, double *values);
-/* Once a coupling step: fills d where the levels have parted. */
+/* Once a coupling step: fills d where the levels differ too much. */
 void level_gap_judge(struct sph *s, struct diagnosis *d);
 void level_gap_summary(const struct sph *s, struct summary *to);
 void level_gap_save(const struct sph *s, struct h5 *f);

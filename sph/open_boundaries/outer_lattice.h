@@ -1,13 +1,14 @@
 /* outer_lattice.h - the particles that the lattice would have behind the faces of the open sides,
- * so that supports near them are whole. SPDX-License-Identifier: BSD-3-Clause */
+ * as ghosts, so that supports near them are full.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OUTER_LATTICE_H
 #define SPH_OUTER_LATTICE_H
 
 #include "../sph.h"
 
-/* Adds them, with the flow outside, as ghosts behind those of the halo. After domain_ghosts. */
+/* Adds them, with the outer solution, behind the ghosts of the halo. After domain_ghosts. */
 void outer_lattice_ghosts(struct sph *s);
-/* Their lines at s->t. */
+/* Updates their packed records to s->t. */
 void outer_lattice_move(struct sph *s);
 
 #endif

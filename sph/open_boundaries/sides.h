@@ -1,16 +1,18 @@
-/* sides.h - inlets and outlets on sides of the domain: what the zones of zones.h impose when the
- * flow outside is not known but for one half of it. Inflow: velocity given, pressure of the flow
- * inside; outflow: pressure given at the domain's end, velocity of the flow inside; absorbing: both
- * from the characteristics of the flow inside and of a far state (u, p of the case), so that sound
- * leaves. SPDX-License-Identifier: BSD-3-Clause */
+/* sides.h - inlets and outlets on sides of the domain: what the zones of zones.h impose when only
+ * one half of the flow outside is known. Inflow: velocity given, pressure of the flow inside.
+ * Outflow: pressure given at the domain's end, velocity of the flow inside. Absorbing: both from
+ * the characteristics of the flow inside and of a far state (u, p of the case), so that sound
+ * leaves.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SIDES_H
 #define SPH_SIDES_H
 
 #include "zones.h"
 
+/* Installs this outer solution in z; sides_free frees it. */
 void sides_create(struct sph *s, struct zones *z);
 void sides_free(struct zones *z);
-/* m: of the water outside a side under a free surface; NAN: none. */
+/* Level of the water outside a side under a free surface, m against gravity; NAN: there is none. */
 double sides_level(const struct sph *s, int side);
 void sides_save(const struct sph *s, struct h5 *f);
 bool sides_load(struct sph *s, struct h5 *f);

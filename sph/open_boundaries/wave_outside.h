@@ -6,7 +6,7 @@
 
 #include "zones.h"
 
-/* Whether such a wave is around the region, with a surface. */
+/* Whether the case has such a wave around the region, with a surface. */
 bool wave_outside_wanted(const struct run *r, const struct sph_params *prm);
 zones_eval wave_outside_eval;       /* gradients by central differences */
 zones_surface wave_outside_surface; /* distance to the surface's tangent over x */

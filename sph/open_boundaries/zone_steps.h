@@ -1,27 +1,29 @@
-/* zone_steps.h - what is done in the zones of zones.h within a step, and what they keep.
+/* zone_steps.h - what is done in the zones of zones.h within a step, and what they save.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_ZONE_STEPS_H
 #define SPH_ZONE_STEPS_H
 
 #include "zones.h"
 
-/* Zones if the region s->lo..hi has open sides, else NULL. */
+/* The zones of level s if its region has open sides, else NULL. Owned by the caller
+ * (zones_free). */
 struct zones *zones_create(struct sph *s);
 void zones_free(struct zones **z);
-/* Start of a stage: buffer particles take u and p from outside at s->t; m = rho w. */
+/* Start of a stage: buffer particles take u and p of the outer solution at s->t; m = rho w.
+ * Collective. */
 void zones_stage(struct sph *s);
-/* After the gradients of a stage: buffer slopes from outside; transport shift near the open sides.
- */
+/* After the gradients of a stage: slopes of buffer particles from the outer solution; transport
+ * velocity near the open sides. */
 void zones_slopes(struct sph *s);
-/* kg: of all particles of the region. Collective. */
+/* Mass of all particles of the region, kg. Collective. */
 double zones_mass(const struct sph *s);
-/* At an exchange with a partner: sets the gauge by the mass of the region under a surface, else
- * lets out what it gained. Collective. */
+/* At an exchange with a partner: under a surface sets the reference pressure by the mass of the
+ * region, otherwise lets out what it gained. Collective. */
 void zones_gauge(struct sph *s);
-/* After the RK cycle: transition particles are blended with the outside [6.7-6.8]. */
+/* After the stages: transition particles are blended with the outer solution [6.7-6.8]. */
 void zones_blend(struct sph *s);
-/* After the positions moved by dt, and the box with them: removals, face masses, births
- * [6.13-6.14]. Lists and slopes do not hold any longer. Collective. */
+/* After positions, and the box with them, moved by a step of dt, s: removals, fluxes of the faces,
+ * creations [6.13-6.14]. Lists and slopes do not hold any longer. Collective. */
 void zones_openings(struct sph *s, double dt);
 void zones_save(struct sph *s, struct h5 *f);
 bool zones_load(struct sph *s, struct h5 *f);

@@ -1,41 +1,46 @@
 /* zones.h - free, transition and buffer zones of a particle region inside a larger flow (Chiron
- * 2017, 6.2-6.3). The flow outside is known through a function of place and time: an exact solution
- * or the patch of a partner. Births and removals at the outer face: openings.h.
+ * 2017, 6.2-6.3). In the buffer the outer solution is imposed, in the transition it is blended in,
+ * in the free zone particles are on their own. The outer solution is a function of position and
+ * time: an exact solution, the patch of a partner, or sides.h. Creation and removal at the outer
+ * face: openings.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_ZONES_H
 #define SPH_ZONES_H
 
 #include "../sph.h"
 
-/* u[n][dim] (m/s), p[n] (Pa) and their gradients gu[n][dim][3], gp[n][3] (NULL: not wanted) at
- * x[n][3], t. */
+/* The outer solution: u[n][dim], m/s, p[n], Pa, and their gradients gu[n][dim][3], gp[n][3] (NULL:
+ * not wanted) at x[n][3], m, and t, s. */
 typedef void zones_eval(void *ctx, double t, int n, const double *x, double *u, double *p,
                         double *gu, double *gp);
 
-/* Height over the surface outside (m, < 0: water) and its gradient gphi[n][3] (NULL: not wanted).
- */
+/* Height over the outer solution's surface, m, < 0 in water, and its gradient gphi[n][3] (NULL: not
+ * wanted). */
 typedef void zones_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi);
 
 struct openings;
 struct overlap;
 struct level_gap;
+/* The zones of a region and their outer solution. */
 struct zones {
     int dim;
     double dx, lo[3], hi[3]; /* m: of the region */
     bool open[6];
     double transition, buffer; /* m: widths */
-    double overlap;            /* m: of the border of the free zone where a partner is free, too */
-    double counted[2][3];      /* m: zones_counted_box, as the coupling step has begun */
-    bool along[3];             /* the box moves along this axis */
-    double way[3], speed[3];   /* m, m/s: of the box since the start, over the last step */
-    double fastest;            /* m/s: as fast as it will be */
-    double chase[3];           /* m/s: box_chase.h, speed that it remembers */
+    double overlap;       /* m: width of the margin of the free zone where a partner is free, too */
+    double counted[2][3]; /* m: zones_counted_box, as the coupling step has begun */
+    bool along[3];        /* the box moves along this axis */
+    double way[3],
+        speed[3]; /* m, m/s: displacement of the box since the start, velocity over the last step */
+    double fastest;  /* m/s: largest speed that the box will have */
+    double chase[3]; /* m/s: box_chase.h, speed that it remembers */
     zones_eval *eval;
     struct sph_eos {
         double rho0, c0, gamma;
-    } eos;                  /* the particles', for a partner of constant density */
-    zones_surface *surface; /* of the flow outside, which has a part of it; NULL: full of water */
-    struct level_gap *gap;  /* level_gap.h; NULL without that surface */
+    } eos; /* the particles', for a partner of constant density */
+    zones_surface
+        *surface; /* of the outer solution, if it has a free surface; NULL: full of water */
+    struct level_gap *gap;         /* level_gap.h; NULL without that surface */
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* borrowed */
     struct openings *openings;
@@ -43,8 +48,11 @@ struct zones {
                                 blending leaves it alone */
     double drain;            /* m/s: outwards, added to the flow outside: see openings.h */
     double outflow[6];       /* m/s: the same by side: see level_gap.h */
-    void (*look_inside)(struct sph *s); /* in a stage, when the surface has been detected; NULL */
-    struct overlap *watched;            /* overlap.h; NULL without a partner */
+    void (*look_inside)(
+        struct sph *s);      /* in a stage, after the surface was detected; NULL: no need */
+    struct overlap *watched; /* overlap.h; NULL without a partner */
+    /* Pa: reference pressure added to the outer solution, which an incompressible partner knows up
+     * to a constant only; 0 without a free surface. */
     double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to
                      a constant; 0 without a free surface */
     double level; /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
@@ -56,42 +64,45 @@ struct zones {
     double *phi, *gphi; /* with a surface outside: see zones_surface */
 };
 
-/* Widths and box of the free zone from parameters alone (open sides: not s->periodic). */
+/* Widths of transition and buffer, m, from parameters alone. */
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer);
 /* The outer box along axis a around a free zone, m: transition and buffer on either side, and what
- * makes it whole particles. */
+ * makes it a whole number of particles. */
 void zones_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
                   double *from, double *to);
+/* Width of the overlap with a partner, m. */
 double zones_overlap(const struct run *r, const struct sph_params *prm);
-/* "(0, 0) to (1, 1)": corners of a box as messages have them; valid until the next call. */
+/* "(0, 0) to (1, 1)": corners of a box for messages; valid until the next call. */
 const char *zones_extent(int dim, double box[2][3]);
-/* The box that partners leave to SPH: the free zone less the overlap. */
+/* The box that a partner leaves to SPH, i.e. the free zone less the overlap; zones_free_box: the
+ * free zone; m. */
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
-/* Of that box, which has moved by `way', what a partner's cells fill whole: there it forces them,
- * and there ends its water. */
+/* The part of that box, moved by `way', that is made of whole cells of the partner: there it
+ * imposes them, and there its water ends. */
 void zones_counted_box(const struct run *r, const struct sph_params *prm, const double way[3],
                        double lo[3], double hi[3]);
-/* Side of the region nearest to x; *below: depth of x below it. */
+/* Side of the region nearest to x; *below: depth of x below it, m. */
 int zones_nearest(const struct zones *z, const double *x, double *below);
-/* Depth of x below the open sides of the region, m: negative outside. */
+/* Depth of x below the open sides of the region, m; negative outside. */
 double zones_depth(const struct sph *s, const double *x);
 
-/* Part of a particle that is SPH's to count where a partner counts the rest: what of its square or
- * cube lies in the free zone. */
+/* Fraction of a particle that SPH counts where a partner counts the rest: the part of its square or
+ * cube in the free zone. */
 double zones_share(const struct sph *s, int i);
 
-/* Zone of every local particle by its depth; before the list is built. */
+/* Sets the zone of every local particle by its depth; before the list is built. */
 void zones_mark(struct sph *s);
-/* How far the flow outside is to be imposed there: 1 in its water, 0 in its air, where particles
- * are free (spray, drops). */
+/* How far the outer solution is imposed at a height phi over its surface: 1 in its water, 0 in its
+ * air, where particles are free (spray, drops). */
 double zones_wet(const struct zones *z, double phi);
-/* Fills phi and gphi alone. */
+/* Sets phi and gphi of the listed particles alone. */
 void zones_look_at_surface(struct zones *z, double t);
-/* Fills u, p (and gradients), with a surface phi, of z->who[0..n-1] at places z->x. */
+/* Sets u, p (and gradients), with a surface phi, of the particles z->who[0..n-1] at their positions
+ * z->x, at time t, s. */
 void zones_look(struct zones *z, double t, bool gradients);
-/* Adds local particle i to that list. */
+/* Adds local particle i to that list; zones_room makes room for n. */
 void zones_list(struct sph *s, int i);
 void zones_room(struct zones *z, int n);
 
