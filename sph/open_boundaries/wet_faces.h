@@ -7,7 +7,7 @@
 
 #include "openings.h"
 
-/* Sets share of all faces at time t, s, the same on all ranks. Collective. */
+/* Sets share of all faces at time t, s; the same on all ranks, without communication. */
 void wet_faces_find(struct sph *s, double t);
 /* Fraction below phi = 0 of a face of edge dx, m, by the plane through its centre; g: gradient of
  * phi. */

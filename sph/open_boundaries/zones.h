@@ -94,8 +94,9 @@ double zones_share(const struct sph *s, int i);
 
 /* Sets the zone of every local particle by its depth; before the list is built. */
 void zones_mark(struct sph *s);
-/* How far the outer solution is imposed at a height phi over its surface: 1 in its water, 0 in its
- * air, where particles are free (spray, drops). */
+/* How far the outer solution is imposed at a height phi over its surface, m: 1 in its water and up
+ * to dx/2 above, then falling linearly to 0 at 3 dx, above which particles are free (spray,
+ * drops). */
 double zones_wet(const struct zones *z, double phi);
 /* Sets phi and gphi of the listed particles alone. */
 void zones_look_at_surface(struct zones *z, double t);

@@ -1,4 +1,5 @@
-/* apr_params.h - the parameters of group apr: where particles are refined, and how far.
+/* apr_params.h - the parameters of group apr: where particles are refined, and how far. Levels
+ * count from 0, the coarsest, each with half the spacing of the one before.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_APR_PARAMS_H
 #define SPH_APR_PARAMS_H
@@ -9,11 +10,12 @@ struct run;
 
 enum region_shape { REGION_BOX, REGION_SPHERE, REGION_BODY, REGION_WALL };
 enum criterion_kind { CRITERION_SURFACE, CRITERION_VORTICITY, CRITERION_PRESSURE, CRITERION_JUMP };
-/* Guards: the method of refinement.h. The others are there to be compared with; mixed.h. */
+/* Guards: the method of refinement.h. The others exist for comparison: mixed.h. */
 enum apr_method { APR_GUARDS, APR_WEIGHTS, APR_COALESCENCE, APR_GRADED };
 enum apr_guards { GUARDS_SLOPES, GUARDS_MEAN };
 enum { REGIONS_MAX = 32, CRITERIA_MAX = 8, APR_LEVELS_MAX = 12, APR_ROWS = 10 };
 
+/* A region of the case in which particles are refined. */
 struct apr_region {
     int level;                  /* 0: the finest */
     int shape;                  /* enum region_shape */
@@ -26,24 +28,27 @@ struct apr_region {
     struct scene_motions motion;
     char follow[PARAM_TEXT_SIZE]; /* name of a body, or "peak" */
     char along[PARAM_TEXT_SIZE];  /* axes of that, as in "x"; "": all */
-    double pressure;              /* Pa: least of a peak that is followed */
+    double pressure;              /* Pa: pressure from which on a peak is followed */
 };
 
+/* A condition on the flow under which particles are refined: criteria.h. */
 struct apr_criterion {
-    int level; /* finest that it asks for; 0: the finest of all */
-    int kind;  /* enum criterion_kind */
-    double above, distance;
+    int level;              /* finest that it asks for; 0: the finest of all */
+    int kind;               /* enum criterion_kind */
+    double above, distance; /* bound of the indicator, in its own unit; m, of the surface */
 };
 
+/* Group apr. */
 struct apr_params {
     int method;       /* enum apr_method */
     int guards;       /* enum apr_guards: where their fields come from */
     int levels;       /* halvings of dx; 0: as regions and criteria have it */
-    double margin;    /* R of the coarser level: between the edges of regions made automatically */
-    int around;       /* cells of R of the coarser level around those that a criterion marks */
+    double margin;    /* in R of the coarser level: distance between the edges of regions made
+                         automatically */
+    int around;       /* cells, R of the coarser level wide, around those that a criterion marks */
     double particles; /* of all levels, never exceeded; 0: no bound */
     bool local_steps;
-    bool unshifted_finest; /* the law of shifting moves particles of coarser levels alone */
+    bool unshifted_finest; /* shifting moves particles of the coarser levels only */
     struct apr_regions {
         int n;
         struct apr_region of[REGIONS_MAX];
@@ -54,11 +59,12 @@ struct apr_params {
     } criteria;
 };
 
+/* The rows of the table, and the struct that they fill. */
 extern const struct param apr_rows[APR_ROWS];
 extern struct apr_params apr_given; /* the target of the table */
 
-/* As the run uses them, levels filled in; NULL: nothing is refined. Borrowed until the end of the
- * program. */
+/* The parameters as the run uses them, levels filled in; NULL: nothing is refined. Borrowed until
+ * the end of the program. */
 const struct apr_params *apr_params_of(const struct run *r);
 
 #endif

@@ -9,8 +9,9 @@ struct ball {
     double centre[3], radius; /* m */
 };
 
-/* m, positive inside: inside, the distance to the part of the sphere that lies within `room', whose
- * faces are walls or at infinity; INFINITY: there is none. x lies in room. */
+/* Signed distance of x, m, positive inside. Inside it is the distance to the part of the sphere
+ * that lies within `room', whose faces are walls or at infinity; INFINITY: there is none. x must
+ * lie in room. */
 double ball_distance(const struct ball *b, int dim, const struct box *room, const double *x);
 
 #endif

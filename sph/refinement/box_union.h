@@ -3,22 +3,25 @@
 #ifndef SPH_BOX_UNION_H
 #define SPH_BOX_UNION_H
 
+/* An axis-parallel box. */
 struct box {
     double lo[3], hi[3]; /* m; infinite where it has no face */
 };
 
-/* Inside, the distance to the edge is that to what the boxes leave, which is a union of boxes, too.
- */
+/* A union of boxes with its complement cut into boxes: inside, the distance to the edge is that to
+ * the complement, which is a union of boxes, too. */
 struct box_union {
     int dim, n, nrest;
-    double near;           /* m: gaps as narrow as this are none */
+    double near;           /* m: gaps as narrow as this are closed */
     struct box *of, *rest; /* the boxes; what they leave of space, cut into boxes */
 };
 
-/* box is copied. Coordinates closer than `near' (m) are one. */
+/* Of n boxes, which are copied; coordinates closer than `near', m, become one. Freed by
+ * box_union_free. */
 struct box_union box_union_create(int dim, int n, const struct box *box, double near);
 void box_union_free(struct box_union *u);
-/* m, positive inside; -INFINITY: no box at all, INFINITY: they leave nothing. */
+/* Signed distance of x to the edge, m, positive inside; -INFINITY: there is no box, INFINITY: they
+ * cover all. */
 double box_union_distance(const struct box_union *u, const double *x);
 
 #endif

@@ -1,8 +1,9 @@
 /* criteria.h - regions that the flow asks for. Each level has a grid of cells as wide as R of the
- * level below it; particles that flow put their indicators in; cells above a criterion's bound, and
+ * level below it; particles that flow enter their indicators; cells above a criterion's bound, and
  * some around them, are refined. A cell is released when its indicator has fallen below a third of
- * the bound and 20 R/c have passed since it was above. A budget of particles raises all bounds
- * alike. SPDX-License-Identifier: BSD-3-Clause */
+ * the bound and 20 R/c have passed since it was above. A budget of particles raises all bounds by
+ * one factor.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_CRITERIA_H
 #define SPH_CRITERIA_H
 
@@ -11,10 +12,11 @@
 struct regions;
 struct h5;
 
-/* Of the budget: it is kept by forecasts; between two of them particles cross edges. */
+/* Fraction of the budget that is used: it is kept by forecasts, between two of which particles
+ * cross edges. */
 #define CRITERIA_SHARE 0.9
 
-/* What a particle that flows has to say. */
+/* The indicators of one particle that flows. */
 struct flow_sample {
     double volume;      /* m^dim */
     double rho, speed;  /* kg/m^3, m/s: |u| */
@@ -23,22 +25,24 @@ struct flow_sample {
     bool on_surface;
 };
 
-/* Whether criteria are to be looked at, at time t: every R/(2 c) of the level below the finest that
- * they ask for. Then: begin, add for each particle that flows, of all levels, end. */
+/* Whether criteria are to be evaluated at time t, s: every R/(2 c) of the level below the finest
+ * that they ask for. Then: criteria_begin, criteria_add for each particle that flows, of all
+ * levels, criteria_end. */
 bool criteria_due(const struct regions *g, double t);
-/* speed: m/s, largest of the flow now; gravity: m/s^2. */
+/* speed: largest of the flow now, m/s; gravity: m/s^2; both scale the bounds. */
 void criteria_begin(struct regions *g, double speed, double gravity);
+/* Enters the sample of a particle at x. */
 void criteria_add(struct regions *g, const double *x, const struct flow_sample *is);
-/* Regions are made anew. c: m/s, speed of sound. Collective. */
+/* Makes the regions anew. c: speed of sound, m/s. Collective. */
 void criteria_end(struct regions *g, double t, double c);
-/* Whether the slopes of neighbours must be looked at for `jump'. */
+/* Whether `jump' is needed, which looks at the slopes of neighbours. */
 bool criteria_want_jumps(const struct regions *g);
 /* Factor on all bounds that the budget asks for, >= 1; 1 without criteria. */
 double criteria_factor(const struct regions *g);
-/* Particles of all levels that the last evaluation expects. */
+/* Number of particles of all levels that the last evaluation expects. */
 double criteria_forecast(const struct regions *g);
 
-/* For regions.c. */
+/* For regions.c: the criteria of g, NULL if it has none; their state in restart files. */
 struct criteria *criteria_create(struct regions *g);
 void criteria_free(struct regions *g);
 void criteria_save(const struct regions *g, struct h5 *f);

@@ -18,43 +18,45 @@ struct mixed;
 struct faults;
 struct h5;
 
-/* What these methods do not go together with. */
+/* Adds faults for what these methods cannot be combined with. */
 void mixed_check(const struct run *r, const struct sph_params *used, const struct apr_params *prm,
                  struct faults *f);
 
-/* After the first particles of the coarsest size; s->refinement is there. */
+/* After the first particles of the coarsest size: makes those of the other sizes. s->refinement
+ * exists. */
 void mixed_start(struct sph *s);
-/* From a file, after the particles; false: it has no sizes. */
+/* Reads the sizes from a restart file, after the particles; false: it has none. */
 bool mixed_restart(struct sph *s, struct h5 *f);
 void mixed_free(struct sph *s);
-/* m: the smallest R; the step depends on it. */
+/* The smallest R, m, on which the step depends. Collective. */
 double mixed_least(const struct sph *s);
 
-/* Instead of neighbours_sort and neighbours_build; between them sizes of the periodic images. */
+/* The list of pairs, instead of neighbours_sort and neighbours_build; in between sizes of the
+ * periodic images. */
 void mixed_sort(struct sph *s);
 void mixed_images(struct sph *s);
 void mixed_list(struct sph *s);
-/* At the end of a step: births, removals, weights. */
+/* At the end of a step: creations, removals, weights. */
 void mixed_adapt(struct sph *s);
 
-/* mixed_pairs.c: both passes. */
+/* mixed_pairs.c: both passes for particles of different sizes. */
 void mixed_gradients(struct sph *s);
 void mixed_rates(struct sph *s);
 
-/* mixed_weights.c, mixed_merge.c: what mixed_adapt does. */
+/* mixed_weights.c, mixed_merge.c: the two methods, called by mixed_adapt. */
 void mixed_weights(struct sph *s);
 void mixed_split(struct sph *s);
 
-/* graded.c: the first particles, instead of a lattice. */
+/* graded.c: makes the first particles, instead of a lattice. */
 void graded_fill(struct sph *s);
-/* Largest change of the spacing from one layer to the next. */
+/* Largest ratio of the spacings of neighbouring layers. */
 double graded_growth(void);
 
 /* R of particle i, and its weight. */
 static inline double *mixed_R(const struct sph *s, int i) { return &s->p.size[i][0]; }
 static inline double *mixed_weight(const struct sph *s, int i) { return &s->p.size[i][1]; }
-/* One of the 2^D of half the size around particle i, its fields carried along the way d; returns
- * its index. */
+/* Adds one of the 2^D children of half the size of particle i, displaced by d, m, with its fields
+ * extrapolated there and the support R, m; returns its index. */
 int mixed_bear(struct sph *s, int i, const double *d, double R);
 
 #endif

@@ -13,61 +13,64 @@
 #include "apr_params.h"
 #include "regions.h"
 
+/* What is common to all levels; the coarsest level has it. */
 struct refinement {
     struct regions *regions;
-    bool met;                        /* a region has come to the zones: it was said */
+    bool met;                        /* a region has met the zones, which has been logged */
     bool local_steps;                /* each level has its own */
     int (*held)[APR_LEVELS_MAX + 1]; /* [BODIES_MAX]: cover.c; NULL before the first step */
     double added;       /* kg: to the mass of what flows, by changes of level; this rank */
     double mass0, gone; /* kg: of the fluid at the start, all ranks; removed since, this rank */
-    double debt;        /* -: of the fluid's mass, what flows too much, at the last step */
-    double grown;       /* m^dim: volume added by changes within this common step; this rank */
+    double debt;  /* -: by what fraction of the fluid's mass too much flows, at the last step */
+    double grown; /* m^dim: volume added by changes of level within this common step; this rank */
 };
 
-/* life.c: at the end of a step, with the slopes of its last stage: regions move to s->t, particles
- * are born and removed, all get their roles. At the start the finer levels have no particles: the
- * coarser ones give birth. s: the coarsest level. */
+/* life.c, at the end of a step with the slopes of its last stage: moves the regions to s->t,
+ * creates and removes particles, and sets the roles of all. s: the coarsest level. Collective. */
 void refinement_adapt(struct sph *s);
-/* The same at the start, one level after the other: settle may move the particles of a finer level
- * but those at its edge (ROLE_EDGE) before they give birth; NULL: all stay. */
+/* The same at the start, when the finer levels have no particles: one level after the other is
+ * created from the coarser one. settle may move the particles of a level but those at its edge
+ * (ROLE_EDGE) before the next is created from them; NULL: all stay. */
 void refinement_begin(struct sph *s, void (*settle)(struct sph *level));
 
-/* Generations agree in number on average only, so mass comes and goes as they change places. In a
- * closed room all that flows pays it back, slowly; volumes too, so that densities stay. Collective.
- */
+/* Generations agree in number on average only, so that mass is created and lost as they take over
+ * from each other. In a closed room all that flows compensates it, slowly; volumes as well, so that
+ * densities stay. Collective. */
 void refinement_repay(struct sph *s);
-/* The mass of the fluid as it is now is that of the start. Collective. */
+/* Takes the present mass of the fluid for that of the start. Collective. */
 void refinement_remember(struct sph *s);
-/* Local particle i of a level is about to be removed. */
+/* To be called before local particle i of a level is removed. */
 void refinement_removed(struct sph *s, int i);
 
-/* With local steps: the same for the levels finer than `outside', which stand at its time; regions
- * follow what these levels show. Particles of `outside' change roles as they enter or leave the
- * next region, and none of it is added or removed. s: the coarsest. Collective. */
+/* With local steps: refinement_adapt for the levels finer than `outside', which are at its time;
+ * regions follow what these levels show. Particles of `outside' change roles as they enter or leave
+ * the next region, but none of them is added or removed. s: the coarsest. Collective. */
 void refinement_adapt_finer(struct sph *s, struct sph *outside);
 
-/* A child of particle i of s in `to' (s, or its finer level), at its place + d: 1/2^D of its mass,
- * its fields with their slopes, rho by 5 % at most; the child's index. */
+/* Adds a child of particle i of s to `to' (s, or its finer level), displaced by d, m: 1/2^D of its
+ * mass, its fields extrapolated by their slopes, rho by 5 % at most. Returns the child's index. */
 int refinement_child(const struct sph *s, struct sph *to, int i, const double *d);
-/* For sph.flows_at: whether this level flows at x. */
+/* For sph.flows_at: whether it is this level that flows at x. */
 bool refinement_flows_at(const struct sph *s, const double *x);
 
-/* look.c: before the adaption: what regions follow, and at their times the criteria; of the lines
- * and slopes of the last stage. Collective. */
+/* look.c, before the adaption: computes what regions follow and, when they are due, the criteria,
+ * from the packed records and slopes of the last stage. Collective. */
 void refinement_look(struct sph *s);
-/* What regions follow alone, as `outside' and finer levels show it. */
+/* What regions follow alone, from `outside' and finer levels. */
 void refinement_follow(struct sph *s, struct sph *outside);
-/* cover.c: after the regions have moved: says which body has left a region that held it. */
+/* cover.c, after the regions have moved: warns of bodies that have left a region which held
+ * them. */
 void refinement_watch_bodies(struct sph *s);
-/* After the rates of a stage: of fluxes between what flows and guards nothing comes back, so that
- * mass would be lost; in a closed room it is shared out over what flows. Collective. */
+/* After the rates of a stage: guards give nothing back for fluxes between them and what flows, so
+ * that mass would be lost; in a closed room it is distributed over what flows. Collective. */
 void refinement_keep_mass(struct sph *s);
-/* With local steps at the end of the common step instead: gained kg so, this rank. Collective. */
+/* The same with local steps, at the end of the common step: `gained', kg, on this rank.
+ * Collective. */
 void refinement_spread_mass(struct sph *s, double gained);
 
 void refinement_free(struct sph *s);
 
-/* life.c: ", level n" of a scene that is refined, "" of others; valid until the next call. */
+/* life.c: ", level n" if the scene is refined, "" otherwise; valid until the next call. */
 const char *sph_level_name(const struct sph *s);
 
 #endif

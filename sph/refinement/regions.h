@@ -10,20 +10,22 @@
 struct regions;
 struct h5;
 
-/* NULL: the case refines nothing. r is borrowed. */
+/* The regions of group apr; NULL: the case refines nothing. r is borrowed. Owned by the caller
+ * (regions_free). Every rank holds all regions in the same state. */
 struct regions *regions_create(const struct run *r, const struct sph_params *prm);
 void regions_free(struct regions **g);
-/* Finest level, >= 1. */
+/* Number of the finest level, >= 1. */
 int regions_levels(const struct regions *g);
-/* m, positive inside B_level, 1 <= level, at the time of the last regions_move. Parts of the edge
- * on or beyond a wall, an end of the domain or the partner of a periodic side do not count. Never
- * more than the distance to the edge; INFINITY: there is no edge, -INFINITY: no region. */
+/* Signed distance of x to the edge of B_level, m, positive inside, 1 <= level, at the time of the
+ * last regions_move. Parts of the edge on or beyond a wall, an end of the domain or the partner of
+ * a periodic side do not count. It never exceeds the true distance; INFINITY: there is no edge,
+ * -INFINITY: no region. */
 double regions_distance(const struct regions *g, int level, const double *x);
-/* Once a step, to the time t, s, after the places of bodies and the peak were set: what follows
- * these goes at most half a spacing of its finest level a call. */
+/* Once a step, after the positions of bodies and the peak were set: moves the regions to time t, s.
+ * Those that follow something move by half a spacing of their finest level per call at most. */
 void regions_move(struct regions *g, double t);
-/* Largest step, s: no region may move by more than that in one. INFINITY: none moves as prescribed.
- */
+/* Largest step, s, in which no prescribed region moves by more than half a spacing of its finest
+ * level. INFINITY: none moves as prescribed. */
 double regions_dt(const struct regions *g);
 /* The same for the steps of one level, where regions of the next finer one are moved after each: by
  * half of its spacing. */
@@ -31,17 +33,21 @@ double regions_dt_outside(const struct regions *g, int level);
 /* Where a body of the scene is; at the start all are where the case has them. The same on all
  * ranks, as what follows. */
 struct body_motion;
+/* Sets where a body of the scene is, the same on all ranks; at the start all are where the case has
+ * them. */
 void regions_set_body(struct regions *g, int body, const struct body_motion *now);
-/* How far sph.box has moved: with it go regions that follow it, and the cells of criteria. */
+/* Sets how far sph.box has moved: regions that follow it, and the cells of criteria, move with
+ * it. */
 void regions_set_box(struct regions *g, const double way[3]);
-/* Whether level 1 comes into the zones at an open side, or R near; where, m. */
+/* Whether level 1 comes within R of the zones at an open side; x: where, m. */
 bool regions_meet_zones(const struct regions *g, int side, double x[3]);
-/* Whether some region follows the peak: the place of the largest pressure, m and Pa, is to be set
- * then. */
+/* Whether some region follows the peak, so that the position, m, and value, Pa, of the largest
+ * pressure must be set. */
 bool regions_want_peak(const struct regions *g);
 void regions_set_peak(struct regions *g, const double *x, double p);
 
-/* All that a restart needs; false: the file has none, or others. Collective. */
+/* All that a restart needs. regions_load returns false if the file has none, or others.
+ * Collective. */
 void regions_save(const struct regions *g, struct h5 *f);
 bool regions_load(struct regions *g, struct h5 *f);
 

@@ -1,4 +1,5 @@
-/* regions_parts.h - what the files of regions share. SPDX-License-Identifier: BSD-3-Clause */
+/* regions_parts.h - the parts that the files of regions share; private to them.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_REGIONS_PARTS_H
 #define SPH_REGIONS_PARTS_H
 
@@ -9,12 +10,13 @@
 #include "marks.h"
 #include "shell.h"
 
-/* A shell of the regions, as wide as this level has it. */
+/* A shell around a body or wall, as thick as this level has it. */
 struct layer {
     int shell;
     double width; /* m */
 };
 
+/* The region of one level: the union of boxes, balls, layers and marked cells. */
 struct level {
     struct box_union boxes;
     int nballs, nlayers;
@@ -23,7 +25,7 @@ struct level {
     struct marks *cells; /* what criteria mark; NULL: no criterion asks for this level */
 };
 
-/* Regions that move alike. */
+/* Regions of the case that move together. */
 struct region_set {
     const struct apr_region *is;
     struct scene_body told;   /* the motion as a body would have it */
@@ -37,6 +39,7 @@ struct region_set {
 };
 
 struct criteria;
+/* All regions of the case and the region of each level made from them. */
 struct regions {
     const struct run *run;
     const struct apr_params *prm;
@@ -45,8 +48,8 @@ struct regions {
     double zones;        /* m: depth of the zones at open sides */
     struct box domain;   /* region of the particles */
     struct box start[2]; /* both where the case has them */
-    bool goes;           /* they move: sph.box */
-    bool gone;           /* since the regions were made */
+    bool goes;           /* domain moves with sph.box */
+    bool gone;           /* it has moved since the regions were made */
     double way[3];       /* m: from where the case has them */
     double speed;        /* m/s: as fast as they will be */
     struct box room;     /* the same with faces where an edge ends: walls, free ends; infinite */
@@ -58,7 +61,7 @@ struct regions {
     int nshells, shell_of[REGIONS_MAX]; /* -1: none */
     struct shell shells[REGIONS_MAX];
     int body_of[REGIONS_MAX]; /* of shells; -1: a wall */
-    bool alone[REGIONS_MAX];  /* regions that have an outer one made for them */
+    bool alone[REGIONS_MAX];  /* regions around which the outer one is made automatically */
     struct body_motion bodies[BODIES_MAX];
     double peak[3], peak_pressure; /* m, Pa */
     bool peak_known;
@@ -74,26 +77,27 @@ static inline double regions_margin(const struct regions *g, int n)
     return g->prm->margin * regions_R(g, n - 1);
 }
 
-/* regions.c: makes boxes, balls and layers of all levels from the regions as they are moved now. */
+/* regions.c: makes boxes, balls and layers of all levels from the regions as they have moved. */
 void regions_make(struct regions *g);
-/* Distance of level n to the edge of its boxes, balls and layers alone. */
+/* Signed distance of x to the edge of a level's boxes, balls and layers alone, without marked
+ * cells, m. */
 double regions_fixed_distance(const struct regions *g, int level, const double *x);
 
-/* regions_check.c: whether the case has a region of the level below around region k, moving alike.
- */
+/* regions_check.c: whether the case has a region of the level below around region k that moves with
+ * it. */
 bool regions_outer_given(const struct regions *g, int k);
 
-/* m: the most that level may reach along an axis towards side 2a (low) or 2a + 1 (high): infinite
+/* Furthest coordinate, m, that a level may reach towards side 2a (low) or 2a + 1 (high): infinite
  * but at open sides. */
 double regions_allowed(const struct regions *g, int level, int side);
 
 /* region_motion.c */
 void region_sets_create(struct regions *g);
-/* Shifts at time t; whether any has changed. */
+/* Computes the displacements at time t, s; returns whether any has changed. */
 bool region_sets_move(struct regions *g, double t);
-/* BODIES_MAX: no such body. */
+/* Index of the body of this name; BODIES_MAX: there is none. */
 int region_body(const struct scene *c, const char *name);
-/* Bits of the axes named in `along', all if none are; -1: a word is no axis. */
+/* Bits of the axes named in `along', of all if it is empty; -1: a word is no axis. */
 int region_axes(const char *along, int dim);
 
 #endif
