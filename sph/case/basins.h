@@ -1,18 +1,21 @@
-/* basins.h - which waters of the first lattice belong together, and the level that each of its
- * columns stands under. SPDX-License-Identifier: BSD-3-Clause */
+/* basins.h - which waters of the first lattice are connected, and the level that each of its
+ * columns has.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BASINS_H
 #define SPH_BASINS_H
 
 #include "lattice.h"
 
 struct basins;
-/* Of the filled cells; the same on all ranks. l is borrowed. Needs s->walls. */
+/* From the filled cells; the same on all ranks. l is borrowed. Needs s->walls. Owned by the caller
+ * (basins_free). */
 struct basins *basins_create(const struct sph *s, const struct lattice *l);
 void basins_free(struct basins **b);
-/* Takes from the lattice the pockets that walls cut off, too small to flow. */
+/* Removes from the lattice enclosed pockets too small to flow, which walls cut off. */
 void basins_clear(const struct basins *b, struct lattice *l);
-/* Rooms that meshes part from each other, pockets left out: those with fluid and those without. */
+/* Counts the rooms that meshes separate, pockets left out: *wet with fluid, *dry without. */
 void basins_rooms(const struct basins *b, int *wet, int *dry);
+/* Number of pockets, with their *cells in all and the position of one, m. */
 int basins_pockets(const struct basins *b, int64_t *cells, double *where); /* one place, m */
 /* Height against gravity where p = 0 for the water of this cell, m; NAN: it falls freely. */
 double basins_level(const struct basins *b, int64_t cell);

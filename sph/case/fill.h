@@ -1,4 +1,4 @@
-/* fill.h - the first particles, on a lattice where the shapes have fluid.
+/* fill.h - creates the first particles, on a lattice where the shapes have fluid.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_FILL_H
 #define SPH_FILL_H
@@ -6,12 +6,15 @@
 struct fill; /* the lattice and its waters, for the finer levels; NULL: there is none */
 struct sph;
 
-/* Lattice at cell centres in [lo, hi], exact u and p at t = 0, w = dx^D, m = rho(p) w. */
+/* Creates the particles of the first level: lattice at cell centres in [lo, hi], u and p of the
+ * case at t = 0, w = dx^D, m = rho(p) w. Returns the lattice for the functions below (fill_free),
+ * or NULL. Collective. */
 struct fill *fill_lattice(struct sph *s);
-/* Says so where the particles hold another amount of water than the shapes. Collective. */
+/* Warns if the particles hold another amount of water than the shapes. Collective. */
 void fill_check(struct sph *s, const struct fill *f);
 void fill_free(struct fill **f);
-/* The first particles of the finer levels: born of the coarser ones, with the exact field. */
+/* Creates the first particles of the finer levels from the coarser ones, with the field of the
+ * case. Collective. */
 void fill_finer(struct sph *s, const struct fill *f);
 
 #endif

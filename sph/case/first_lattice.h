@@ -1,6 +1,6 @@
 /* first_lattice.h - the lattice of the first particles of a level: its cells, where walls and
- * bodies leave room for a particle, and the particle there. SPDX-License-Identifier: BSD-3-Clause
- */
+ * bodies leave room for a particle, and the particle there.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_FIRST_LATTICE_H
 #define SPH_FIRST_LATTICE_H
 
@@ -9,33 +9,33 @@
 
 struct exact;
 
-/* Cells along an axis of a region from lo to hi, m, and the lattice's lower end along axis a: the
- * lower corner, or the one that fits the upper corner where that alone has a wall of the domain.
- * The last cell may reach out of a domain that dx does not divide. */
+/* Number of cells along an axis of a region from lo to hi, m; and the lattice's lower end along
+ * axis a, m: the lower corner, or the one that fits the upper corner where only that has a wall of
+ * the domain. The last cell may reach out of a domain that dx does not divide. */
 double first_lattice_cells(double lo, double hi, double dx);
 double first_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
-/* Of s, with no cell marked; to be freed with lattice_free. */
+/* The lattice of level s, with no cell filled; freed by lattice_free. */
 struct lattice first_lattice_create(const struct sph *s);
-/* The range of cells that may have their centre in a rank's part, from lo to hi, m. */
+/* Range first <= i < last of cells whose centre may be in a rank's part, from lo to hi, m. */
 void first_lattice_own(const struct sph *s, const struct lattice *l, const double *lo,
                        const double *hi, int *first, int *last);
-/* Calls at for each cell whose centre is in this rank's part. */
+/* Calls `at' for each cell whose centre is in this rank's part. */
 void first_lattice_each_own(struct sph *s, const struct lattice *l,
                             void (*at)(struct sph *s, const struct lattice *l, int64_t cell,
                                        const double *centre, void *ctx),
                             void *ctx);
-/* Calls at for the cells in and around this rank's part of a domain: their centres, m. */
+/* Calls `at' for the centres, m, of the cells in and around a rank's part. */
 void first_lattice_each_near(const struct sph *s, const struct domain *part,
                              void (*at)(const double *centre, double dx, void *ctx), void *ctx);
-/* Whether x is within the domain and the closed lines of its walls, and in no body; what parts
- * rooms of meshes is not asked. */
+/* Whether x is within the domain and the closed lines of its walls, and in no body; meshes that
+ * separate rooms are not considered. */
 bool first_in_walls(const struct sph *s, const double *x);
 /* Whether walls and bodies leave room for a particle of this level at x. */
 bool first_has_room(const struct sph *s, const double *x);
-/* Adds the first particle at x with the velocity and pressure of the case there; volume: over
- * dx^dim. Returns its place. */
+/* Adds the first particle at x, m, with the velocity and pressure of the case there; volume in
+ * units of dx^dim. Returns its index. */
 int first_add(struct sph *s, const struct exact *e, int64_t id, const double *x, double volume);
-/* Takes out this rank's particles that packing has pressed into seams of walls narrower than dx. */
+/* Removes this rank's particles that packing has pressed into seams of walls narrower than dx. */
 void first_clear_seams(struct sph *s);
 
 #endif

@@ -1,11 +1,13 @@
-/* lattice.h - the cells of the first particles: which are filled, which neighbours a wall parts.
+/* lattice.h - the cells of the first particles: which are filled, and between which neighbours a
+ * wall stands.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_LATTICE_H
 #define SPH_LATTICE_H
 
 #include "../sph.h"
 
-/* Cells of side dx, filled or not; cell (i, j, k) has the number i + n[0] (j + n[1] k). */
+/* Cells of edge dx; cell (i, j, k) has the number i + n[0] (j + n[1] k). Bit arrays are owned and
+ * hold the cells of all ranks on every rank. */
 struct lattice {
     int n[3];
     double origin[3], dx; /* m: lower corner of the first cell */
@@ -14,18 +16,21 @@ struct lattice {
         *cut[3]; /* one a cell: a mesh parts it from the next along the axis; NULL: none */
 };
 
+/* Number of cells; indices of a cell, and the number of a cell with given indices. */
 int64_t lattice_cells(const struct lattice *l);
 void lattice_indices(const struct lattice *l, int64_t cell, int *ic);
 int64_t lattice_cell(const struct lattice *l, const int *ic);
-/* Centre of cell ic, which may lie beside the lattice, and of a cell by its number. */
+/* Centre, m, of cell ic, which may lie beside the lattice; lattice_place: of a cell by its
+ * number. */
 void lattice_centre(const struct lattice *l, const int *ic, int dim, double *x);
 void lattice_place(const struct lattice *l, int64_t cell, int dim, double *x);
-/* The cell that holds x, -1: none. */
+/* Number of the cell that holds x; -1: there is none. */
 int64_t lattice_find(const struct lattice *l, int dim, const double *x);
-/* The cell next to ic along an axis, around a period; false: the lattice ends here. */
+/* Indices jc of the cell next to ic along an axis, wrapped where it is periodic; false: the lattice
+ * ends here. */
 bool lattice_next(const struct lattice *l, const int *ic, int axis, const bool *periodic, int *jc);
 void lattice_free(struct lattice *l);
-/* Bits of all ranks together. Collective. */
+/* Combines the bits of all ranks (or). Collective over comm. */
 void lattice_share(const struct lattice *l, unsigned char *bits, MPI_Comm comm);
 
 static inline bool lattice_bit(const unsigned char *bits, int64_t cell)

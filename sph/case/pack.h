@@ -1,13 +1,14 @@
-/* pack.h - rearrangement of the first particles between walls.
+/* pack.h - rearranges the first particles between walls so that they fill the room uniformly.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_PACK_H
 #define SPH_PACK_H
 
 struct sph;
 
-/* Takes so many steps of it; 0: none. Collective. */
+/* Takes up to so many steps of rearrangement; 0: none. Nothing flows meanwhile. Collective. */
 void pack_start(struct sph *s, int steps);
-/* Of a finer level, but for those at its edge, after its birth of one that was packed. */
+/* The same for a finer level, without its edge, after it was created from a level that was
+ * rearranged. Collective. */
 void pack_finer(struct sph *level);
 
 #endif

@@ -5,9 +5,9 @@
 
 #include "lattice.h"
 
-/* Ends the run if a mesh that is open and not thin ends in the first fluid: water that comes round
- * the edge finds no wall on its back. Holes smaller than dx do not count, nor edges on sides of the
- * domain or on other meshes. */
+/* Ends the run, with the position, if a mesh that is open and not thin ends in the first fluid:
+ * water that comes round the edge finds no wall on its back. Holes smaller than dx do not count,
+ * nor edges on sides of the domain or on other meshes. */
 void rims_check(const struct sph *s, const struct lattice *l);
 
 #endif

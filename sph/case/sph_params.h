@@ -1,5 +1,6 @@
-/* sph_params.h - the parameters of groups sph and apr: tables, faults between keys, defaults
- * that follow from others. SPDX-License-Identifier: BSD-3-Clause */
+/* sph_params.h - the parameters of groups sph and apr: tables, faults between keys, defaults that
+ * follow from other keys.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SPH_PARAMS_H
 #define SPH_SPH_PARAMS_H
 
@@ -8,10 +9,11 @@
 enum { SPH_GROUPS = 2 };
 extern const struct param_group sph_groups[SPH_GROUPS];
 
-/* As the run uses them: c0, cfl_viscous, box and outer filled in where the case leaves them open.
- * Derived once a start. Borrowed until the end of the program. */
+/* The parameters as the run uses them: c0, cfl_viscous, box and outer filled in where the case
+ * leaves them open. Derived once at the start. Borrowed until the end of the program. */
 const struct sph_params *sph_params_of(const struct run *r);
+/* Adds the faults between keys. Call on all ranks alike. */
 void sph_params_check(const struct run *r, struct faults *f);
-/* Largest stable dt nu/R^2. */
+/* Largest stable dt nu/R^2 of the scheme. */
 double sph_params_viscous_bound(const struct run *r, const struct sph_params *prm);
 #endif

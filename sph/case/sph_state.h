@@ -1,12 +1,13 @@
-/* sph_state.h - the state of a run, made and freed.
+/* sph_state.h - makes and frees the state of a run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_STATE_H
 #define SPH_STATE_H
 
 #include "../sph.h"
 
-/* prm as sph_params_of gives it, copied; f: restart file, then r->t and r->step are set, or NULL.
- * NULL: f does not fit. Collective over r->comm. */
+/* The state at t = 0, or from the restart file f, when r->t and r->step are set. prm: the result of
+ * sph_params_of, copied. NULL: f does not fit, which has been logged. Owned by the caller
+ * (sph_free). Collective over r->comm. */
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
 void sph_free(struct sph **s);
 

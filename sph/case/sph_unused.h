@@ -1,11 +1,12 @@
-/* sph_unused.h - keys that a run of particles would pass over.
+/* sph_unused.h - finds keys that a run of particles would not use.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_SPH_UNUSED_H
 #define SPH_SPH_UNUSED_H
 
 #include "../particles/params_derived.h"
 
-/* given: as the case has it; used: sph_params_of. */
+/* Adds a fault for each of them. given: the parameters as the case has them; used: the result of
+ * sph_params_of. Call on all ranks alike. */
 void sph_unused_check(const struct run *r, const struct sph_params *given,
                       const struct sph_params *used, struct faults *f);
 

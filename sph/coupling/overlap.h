@@ -1,6 +1,7 @@
-/* overlap.h - what shows that the two programs of a coupled job no longer describe one flow: their
- * velocities and pressures differ where both are free, or a surface has come where the partner
- * knows of none. Once a window. SPDX-License-Identifier: BSD-3-Clause */
+/* overlap.h - tells when the two programs of a coupled job no longer describe one flow: their
+ * velocities and pressures differ where both are free, or a surface has come where the partner has
+ * none. Once a coupling step.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OVERLAP_H
 #define SPH_OVERLAP_H
 
@@ -9,22 +10,25 @@
 
 enum { OVERLAP_COLUMNS = 3 };
 
+/* The differences and the watches that judge them. */
 struct overlap {
     struct watch velocity, pressure; /* rms of the differences over the scales below */
-    struct watch dry;        /* share of the transition's faces above which lies a surface */
-    double U, p;             /* m/s, Pa: scales */
-    bool fresh;              /* looked at since it was judged last */
-    double du, dp, on;       /* of the last look */
-    double looks;            /* so far */
+    struct watch dry; /* share of the transition's faces above which lies a surface */
+    double U, p;      /* m/s, Pa: scales */
+    bool fresh;       /* compared since it was judged last */
+    double du, dp,
+        on; /* m/s, Pa: rms differences; fraction of faces with a surface, of the last comparison */
+    double looks;            /* number of comparisons so far */
     double du_mean, dp_mean; /* over some coupling steps: what is judged */
-    bool asks;               /* for the surface, once a coupling step */
+    bool asks;               /* the surface is looked for, once a coupling step */
     double found;            /* particles of this rank on a surface in transition and buffer */
     double where[3];         /* m: one of them */
 };
 
+/* Owned by the caller (overlap_free). */
 struct overlap *overlap_create(struct sph *s);
 void overlap_free(struct overlap **o);
-/* Compares SPH with the patch at s->t. Collective. */
+/* Compares SPH with the partner's patch at s->t. Collective. */
 void overlap_look(struct sph *s);
 /* Fills d where the run cannot be trusted. */
 void overlap_judge(struct sph *s, struct diagnosis *d);
@@ -32,9 +36,9 @@ void overlap_judge(struct sph *s, struct diagnosis *d);
 extern const char *const overlap_columns[OVERLAP_COLUMNS];
 void overlap_row(const struct overlap *o, double *values);
 void overlap_summary(const struct overlap *o, struct summary *to);
-/* For the progress line of the job, as soon as they have grown. */
+/* The differences for the progress line of the job, as soon as they are noticeable. */
 void overlap_tell(const struct overlap *o, struct summary *to);
-/* For a restart: the worst so far. */
+/* The worst so far, for a restart. */
 void overlap_save(const struct overlap *o, struct h5 *f);
 void overlap_load(struct overlap *o, struct h5 *f);
 

@@ -6,8 +6,9 @@
 
 #include "../sph.h"
 
+/* Appends the headings of its columns of series.csv to names; returns their number. */
 int opening_columns(const struct run *r, const struct sph_params *prm, const char **names);
-/* Collective, as the next; returns the place behind the last value. */
+/* Writes the values of these columns; returns the end of them. Collective, as opening_summary. */
 double *opening_row(const struct sph *s, double *values);
 void opening_summary(const struct sph *s, struct summary *to);
 

@@ -6,13 +6,14 @@
 #include "../sph.h"
 #include "../walls/walls.h"
 
-/* Names of the columns of this scene (static storage); returns their number. */
+/* Headings of the columns of this scene (static memory) into names; returns their number, at most
+ * PROBE_COLUMNS. */
 enum { PROBE_COLUMNS = 3 * PROBES_MAX + 6 * BODIES_MAX };
 int probes_columns(const struct run *r, const char **names);
-/* Their values; needs prim and slope of the present state. Collective. */
+/* Writes the values of these columns; needs prim and slope of the present state. Collective. */
 void probes_row(struct sph *s, double *values);
 /* Force of the fluid on body k and its moment about the centre: the momentum that went there in the
- * last step (forces.h); before the first one body_average. Collective. */
+ * last step (forces.h); before the first step by body_average. Collective. */
 struct force probes_force(struct sph *s, int k);
 
 #endif

@@ -1,4 +1,5 @@
-/* sph_output.h - snapshots, restart files, rows of the series, the summary.
+/* sph_output.h - snapshots, restart files, rows of the series, the summary; the functions of struct
+ * program that write. All are collective but sph_columns.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OUTPUT_H
 #define SPH_OUTPUT_H
@@ -8,15 +9,20 @@
 /* Names of the columns that sph_row fills for this scene; returns their number, at most
  * SPH_COLUMNS. */
 enum { SPH_COLUMNS = 56 + 3 * PROBES_MAX + 32 * BODIES_MAX };
+/* Headings of the columns that sph_row fills for this scene; returns their number, at most
+ * SPH_COLUMNS. */
 int sph_columns(const struct run *r, const struct sph_params *prm, const char **names);
+/* row, snapshot, checkpoint of struct program; s is a struct sph *. */
 void sph_row(void *s, double *values);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);
+/* Reads what sph_checkpoint wrote; false: it does not fit, and the reason has been logged. */
 bool sph_restore(struct sph *s, struct h5 *f);
+/* finish of struct program. */
 void sph_finish(void *s);
-/* Sums over the free zone for the coupler; see program.tell. */
+/* Sums over the free zone for the coupler: `tell' of struct program. */
 void sph_tell(void *s, struct summary *report);
-/* sph_lines.c: extrema on the centre lines into the summary; 2D. Collective. */
+/* sph_lines.c: extrema of velocity on the centre lines into the summary; 2D. */
 void sph_summarise_extrema(const struct sph *s);
 
 #endif

@@ -35,7 +35,8 @@ struct apr_region {
 struct apr_criterion {
     int level;              /* finest that it asks for; 0: the finest of all */
     int kind;               /* enum criterion_kind */
-    double above, distance; /* bound of the indicator, in its own unit; m, of the surface */
+    double above, distance; /* bound of the dimensionless indicator; distance from the surface in R
+                               of the coarser level */
 };
 
 /* Group apr. */

@@ -28,7 +28,7 @@ void mixed_start(struct sph *s);
 /* Reads the sizes from a restart file, after the particles; false: it has none. */
 bool mixed_restart(struct sph *s, struct h5 *f);
 void mixed_free(struct sph *s);
-/* The smallest R, m, on which the step depends. Collective. */
+/* The smallest R, m, on which the step depends. */
 double mixed_least(const struct sph *s);
 
 /* The list of pairs, instead of neighbours_sort and neighbours_build; in between sizes of the
@@ -49,7 +49,7 @@ void mixed_split(struct sph *s);
 
 /* graded.c: makes the first particles, instead of a lattice. */
 void graded_fill(struct sph *s);
-/* Largest ratio of the spacings of neighbouring layers. */
+/* Largest relative change of the spacing from one layer to the next. */
 double graded_growth(void);
 
 /* R of particle i, and its weight. */
