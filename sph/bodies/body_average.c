@@ -1,5 +1,8 @@
 /* body_average.c - the force on a body by kernel averages of pressure and friction over its
- * surface. SPDX-License-Identifier: BSD-3-Clause */
+ * surface. A particle contributes to a point of the surface its pressure carried there as in a
+ * fluid that moves with the wall, p + rho (g - a).(x - x_j), a the wall's acceleration; at a free
+ * surface no suction is carried beyond the particle's own.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bins.h"
 #include "bodies.h"
 #include "body_nodes.h"

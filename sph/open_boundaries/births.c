@@ -1,4 +1,9 @@
-/* births.c - see births.h. SPDX-License-Identifier: BSD-3-Clause */
+/* births.c - see births.h. The accumulated mass M_f of a face, of area dx^(D-1), follows
+ *   dM_f/dt = rho (u - u_box).n dx^(D-1),   n inwards   [6.13]
+ * (Chiron 2017) with the outer solution at the middle of the step, times the wet share of the face.
+ * A face with M_f >= rho dx^D that lets fluid in creates a particle dx/2 inside [6.14]; a particle
+ * that leaves adds its mass to its face.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "births.h"
 
 #include <math.h>

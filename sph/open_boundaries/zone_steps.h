@@ -20,7 +20,9 @@ double zones_mass(const struct sph *s);
 /* At an exchange with a partner: under a surface sets the reference pressure by the mass of the
  * region, otherwise lets out what it gained. Collective. */
 void zones_gauge(struct sph *s);
-/* After the stages: transition particles are blended with the outer solution [6.7-6.8]. */
+/* After the stages: in transition particles the velocity along the side and the characteristic p -
+ * rho c u.n that enters (n outwards) are relaxed towards the outer solution [6.8], fully at the
+ * buffer, not at all at the free zone. What leaves, p + rho c u.n, is SPH's own. */
 void zones_blend(struct sph *s);
 /* After positions, and the box with them, moved by a step of dt, s: removals, fluxes of the faces,
  * creations [6.13-6.14]. Lists and slopes do not hold any longer. Collective. */

@@ -1,8 +1,15 @@
-/* scheme_delta.c - pairs with the sum of both pressures, in one pass: `delta' (Antuono)
- * [2.60-2.63] with diffusion of density and linear viscosity, `standard' [2.47-2.50] with
- * artificial viscosity [2.58-2.59]. Masses stay as they are; volumes follow
- * dw = -w/rho drho. Where a transport law moves particles at u0 = u + shift, u and rho are taken
- * along: shift . grad u, shift . grad rho (Sun et al., Comput. Phys. Commun. 224, 2018).
+/* scheme_delta.c - pairs with the sum of both pressures, in one pass (Chiron 2017): `delta'
+ * (Antuono) [2.60-2.63] with diffusion of density and linear viscosity, `standard' [2.47-2.50] with
+ * artificial viscosity [2.58-2.59]. With grad W at x_i of W(x_i - x_j), volume w, mass m = rho w
+ * and momentum q = m u,
+ *   dx_i/dt = u0_i,   dm_i/dt = 0
+ *   dq_i/dt = m_i g - w_i sum_j w_j (p_i + p_j - Pi_ij) grad W
+ *   dw_i/dt = w_i sum_j w_j (u_j - u_i).grad W - (w_i/rho_i) delta c0 R sum_j w_j Psi_ij.grad W
+ *   Psi_ij = (2 (rho_j - rho_i) - (grad rho_i + grad rho_j).d) d/d^2,   d = x_j - x_i;
+ * of delta Pi_ij = alpha c0 R rho0 (u_j - u_i).d/d^2, of standard it acts on approaching pairs
+ * alone; Psi is 0 there. Densities follow volumes, drho = -rho/w dw. Where a transport law moves
+ * particles at u0 = u + shift, u and rho are convected along: shift . grad u, shift . grad rho (Sun
+ * et al., Comput. Phys. Commun. 224, 2018).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 

@@ -1,6 +1,14 @@
-/* scheme_gradients.c - first pass over the pairs: renormalised gradients [2.42-2.44] of rho and u,
- * and the velocity u0 at which particles are moved [2.106, 2.112-2.114]. One-sided: every particle
- * sums over its whole row of the list. SPDX-License-Identifier: BSD-3-Clause */
+/* scheme_gradients.c - first pass over the pairs (Chiron 2017). One-sided: every particle sums over
+ * its whole row of the list. Renormalised gradients [2.42-2.44], exact for linear fields,
+ *   M_i = sum_j w_j (x_j - x_i) (x) grad W,   grad f_i = sum_j w_j (f_j - f_i) grad W . M_i^-1,
+ * of rho and the components of u, and the velocity u0 at which particles are moved:
+ *   tvs:   u0 = u - 2 U R sum_j dx^D (1 + (W_ij/W(dx))^4/5) grad W,   |u0 - u| <= U/4
+ *   tvo:   u0 = u - U R_d sum_j dx^D grad W(R_d),   |u0 - u| <= |u|/4   (Oger) [2.112-2.114]
+ *   xsph:  u0 = u + sum_j w_j rho_j (u_j - u_i)/(rho_i + rho_j) W_ij   [2.106]
+ *   none:  u0 = u,   eulerian:  u0 = 0,
+ * U from scheme_shift_speed, R_d = 2 dx, at most R. With walls or a free surface
+ * surface/transport.c bounds the shift.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
 #include <math.h>

@@ -1,6 +1,22 @@
 /* scheme_rates.c - second pass of Riemann SPH: every pair is a 1D Riemann problem along its line of
- * centres, between states that the gradients of the first pass carry to its middle. Two schemes:
- * ALE with mass fluxes (Vila) [2.86-2.89], and without mass fluxes (Leduc) [2.96-2.99].
+ * centres, between states that the gradients of the first pass carry to its middle [2.78-2.83]
+ * (Chiron 2017). With the star state u_E, p_E, rho_E of the pair, grad W at x_i of W(x_i - x_j),
+ * volume w, mass m = rho w, momentum q = m u, and u0_ij the mean of u0_i and u0_j:
+ *
+ * ALE with mass fluxes (Vila) [2.86-2.89],
+ *   dx_i/dt = u0_i
+ *   dw_i/dt = w_i sum_j w_j (u0_j - u0_i).grad W
+ *   dm_i/dt = -w_i sum_j w_j 2 rho_E (u_E - u0_ij).grad W
+ *   dq_i/dt = m_i g - w_i sum_j w_j 2 (rho_E u_E (u_E - u0_ij).grad W + p_E grad W)
+ * and without mass fluxes (Leduc) [2.96-2.99],
+ *   dw_i/dt = w_i sum_j w_j 2 (u_E - u_i).grad W,   dm_i/dt = 0
+ *   dq_i/dt = m_i g - w_i sum_j w_j 2 p_E grad W.
+ * Viscous terms are Morris's [2.31] or Monaghan & Gingold's [2.32]. The linear problem [2.100] with
+ * Z = rho c has
+ *   u_E = (Z_i u_i + Z_j u_j + p_i - p_j)/(Z_i + Z_j)
+ *   p_E = (Z_j p_i + Z_i p_j + b Z_i Z_j (u_i - u_j))/(Z_i + Z_j),
+ * velocities along x_j - x_i, b <= 1 a bound of the dissipation (Zhang, Hu & Adams, J. Comput.
+ * Phys. 335, 2017).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 

@@ -1,8 +1,9 @@
 /* volume.c - the volume of a fluid that fills a closed room. Volumes follow div u0 of each
- * particle, which keeps kernel sums, not the volume of all: as the packing settles the sum changes
- * by parts in a thousand, and with it the level of pressure by c0^2 times that (a full tank of 20
- * dx: -24 % of rho g H/2 in 0.5 s). Here it is known, and every step brings the sum back to it: all
- * densities by one factor, which makes no force. SPDX-License-Identifier: BSD-3-Clause */
+ * particle, which conserves kernel sums, not the volume of all: as the packing settles the sum
+ * changes by parts in a thousand, and with it the level of pressure by c0^2 times that (a full tank
+ * of 20 dx: -24 % of rho g H/2 in 0.5 s). Here it is known, and every step brings the sum back to
+ * it: all densities change by one factor, which makes no force.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "volume.h"
 
 #include "../../common/scene/scene.h"

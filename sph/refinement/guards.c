@@ -1,4 +1,10 @@
-/* guards.c - see guards.h. SPDX-License-Identifier: BSD-3-Clause */
+/* guards.c - see guards.h. A guard at x takes rho and u as the mean over its sources j, of both
+ * levels, with the weights w_j W(x - x_j) (Shepard, Chiron 2017 [5.23-5.24]), of f_j extrapolated
+ * to x by the trapezoidal rule,
+ *   f_j + (grad f_j + grad f).(x - x_j)/2,
+ * grad f being the mean of the sources' gradients. With gradients of second order this is of third
+ * order on any set.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "guards.h"
 
 #include <math.h>

@@ -90,12 +90,12 @@ double body_speed(const struct body *b);
 void body_rates(struct body *b, const double F[3], const double T[3]);
 /* Applies an impulse, N s, and its moment about the centre, N m s, at once. */
 void body_hit(struct body *b, const double impulse[3], const double moment[3]);
-/* Normalises the quaternion after a step. */
+/* Normalises the quaternion of a free body after a step. */
 void body_finish(struct body *b);
-/* Kinetic and potential energy in gravity g, m/s^2; J. *kinetic is the former. */
+/* Kinetic and potential energy of a free body in gravity g, m/s^2; J. *kinetic is the former. */
 double body_energy(const struct body *b, const double g[3], double *kinetic);
 /* Effective mass of a body against a force along the unit vector n at the arm r, m, from its
- * centre: 1/(n.M^-1 n), kg. */
+ * centre: 1/(n.M^-1 n), kg; INFINITY: it is not free. */
 double body_effective_mass(const struct body *b, const double *r, const double *n);
 
 #endif

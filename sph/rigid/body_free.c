@@ -1,6 +1,11 @@
-/* body_free.c - a rigid body under forces. Its angular momentum is kept in space axes, where a body
- * without torque keeps it to the last digit; hinges, sliders and locked degrees are reduced
- * equations, so that nothing drifts from them. SPDX-License-Identifier: BSD-3-Clause */
+/* body_free.c - a rigid body under forces. With mass m, momentum P, angular momentum L about the
+ * centre, quaternion q and the inertia I in the body's axes,
+ *   dx/dt = P/m,   dP/dt = F,   dL/dt = T,   omega = Q I^-1 Q^T L,   dq/dt = (0, omega) q/2.
+ * L is kept in the axes of space, where a body without torque keeps it to the last digit. Hinges,
+ * sliders and locked degrees of freedom are reduced equations, so that nothing drifts from them.
+ * The angular acceleration of a body that rotates freely in 3D is not formed: domega is reported as
+ * 0.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
 #include "../../common/base/mem.h"

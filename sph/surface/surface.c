@@ -1,5 +1,9 @@
-/* surface.c - detection of the free surface; see surface.h. SPDX-License-Identifier: BSD-3-Clause
- */
+/* surface.c - detection of the free surface; see surface.h. With lambda the smallest eigenvalue of
+ * M, walls included: lambda <= 0.2 is spray, on the surface; lambda >= 0.75 is inside; in between a
+ * particle is on the surface if no neighbour lies in the cone of 45 degrees along its normal N =
+ * -M^-1 sum w grad W (or in the disc around its tip, h = R/3, at least 4/3 dx, away) (Marrone et
+ * al., J. Comput. Phys. 229, 2010; Chiron 2017, [3.12]).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "surface.h"
 
 #include <math.h>

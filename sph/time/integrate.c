@@ -1,6 +1,9 @@
-/* integrate.c - time step size [2.102-2.104], stages of a Runge-Kutta scheme, and the watch over
- * what comes out of it. The list of pairs and the ghosts are made once a step; the skin covers the
- * way that particles go within it. SPDX-License-Identifier: BSD-3-Clause */
+/* integrate.c - time step size [2.102-2.104] (Chiron 2017), stages of a Runge-Kutta scheme, and the
+ * watch over what comes out of it. dt is the least of cfl R/max(c + |u - u0|), cfl_viscous R^2/nu,
+ * the bodies' and the regions' bounds, and what the widest skin allows. The list of pairs and the
+ * ghosts are made once a step; the skin covers the distance that particles go within it. Order of
+ * the file: what a stage needs, planning of the next step, stages, end of a step, watch.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrate.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
-/* ghost_lines.c - see ghost_lines.h. SPDX-License-Identifier: BSD-3-Clause */
+/* ghost_lines.c - see ghost_lines.h. The hydrostatic equation (1/rho) dp/dn = K with Tait's law
+ * integrates to
+ *   (rho'/rho0)^6 = (rho/rho0)^6 + 6 K d/c0^2   (gamma 7),   rho' = rho exp(K d/c0^2)   (gamma 1).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "ghost_lines.h"
 
 #include <math.h>

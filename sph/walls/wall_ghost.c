@@ -1,6 +1,8 @@
-/* wall_ghost.c - mirrored ghosts behind plane sides of the domain, in 2D and 3D [3.1-3.10]: every
- * line within reach of a side, ghosts of other ranks and of sides before included, so that corners
- * fill themselves. Pair fluxes stay antisymmetric: no mass passes.
+/* wall_ghost.c - mirrored ghosts behind plane sides of the domain, in 2D and 3D [3.1-3.10] (Chiron
+ * 2017, chapter 3). Every particle within reach of a side is mirrored, ghosts of other ranks and of
+ * sides before included, so that corners fill themselves. A ghost has the velocity mirrored (slip
+ * form), and the density that the hydrostatic equation (1/rho) dp/dn = g.n gives over the distance
+ * from its original. Pair fluxes stay antisymmetric: no mass passes.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 

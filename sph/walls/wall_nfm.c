@@ -1,7 +1,14 @@
 /* wall_nfm.c - normal flux walls (Chiron 2017, chapter 4): the wall enters every sum of a particle
  * by an integral over the part of it within the support, and the Shepard factor gamma makes up for
- * what is missing. No wall particles; no particle passes. Each segment or triangle has one flux, at
- * the centre of its weight. SPDX-License-Identifier: BSD-3-Clause */
+ * what is missing. No wall particles; no particle passes. Each piece s of wall, a segment or a
+ * triangle, has one flux, at the centre of its weight W_s, the integral of W over it; with its
+ * normal n out of the fluid, its velocity u_s and `pairs' for the sums of the second pass,
+ *   dq_i/dt = (pairs - w_i sum_s W_s (m_s u_i + (p_i + p_s) n))/gamma_i + m_i g
+ *   dw_i/dt = (pairs + w_i sum_s W_s (u_s - u).n)/gamma_i      (u: u0 in ALE, else u)
+ *   dm_i/dt = (pairs - w_i sum_s W_s m_s)/gamma_i,   m_s = rho_i (u_i - u0_i).n in ALE, else 0
+ * [4.26-4.29] p_s is the pressure of the state carried to the wall [4.30-4.32] plus that of the
+ * wave that runs to it, rho c (u - u_s).n [4.14]. No-slip walls add -2 mu W_s (u_i - u_s)/height,
+ * the height being at least dx/2. SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
 #include <math.h>
