@@ -1,5 +1,6 @@
-/* hypre_call.h - calls of hypre, which or-s all errors into one flag; "not converged" is the
- * caller's to judge. SPDX-License-Identifier: BSD-3-Clause */
+/* hypre_call.h - calls of hypre. The library combines all errors in one flag; "not converged" is
+ * left for the caller to judge, any other error ends the run through fail().
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_HYPRE_CALL_H
 #define FV_HYPRE_CALL_H
 

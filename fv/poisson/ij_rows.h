@@ -1,4 +1,5 @@
-/* ij_rows.h - matrices and vectors of hypre's IJ interface over the rows of s->poisson.
+/* ij_rows.h - matrices and vectors of hypre's IJ interface over the rows of s->poisson. All calls
+ * that create or assemble are collective over s->comm.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_IJ_ROWS_H
 #define FV_IJ_ROWS_H
@@ -11,15 +12,17 @@
 #include "backend.h"
 #include "hypre_call.h"
 
+/* The most entries of a row; more end the run. */
 enum { ROW_MAX = 96 };
 
-/* A row under way. */
+/* A matrix row under construction. */
 struct row {
     int n;
     HYPRE_BigInt col[ROW_MAX];
     double v[ROW_MAX];
 };
 
+/* Adds v to the entry in column col of the row. */
 static inline void row_add(struct row *r, HYPRE_BigInt col, double v)
 {
     for (int k = 0; k < r->n; k++)
@@ -32,12 +35,13 @@ static inline void row_add(struct row *r, HYPRE_BigInt col, double v)
     r->v[r->n++] = v;
 }
 
+/* A matrix; A belongs to ij. matrix_free frees both. */
 struct matrix {
     HYPRE_IJMatrix ij;
     HYPRE_ParCSRMatrix A;
 };
 
-/* ncols entries of each row, one row behind the other. */
+/* Makes the matrix from ncols[n] entries of each row, one row behind the other in col and v. */
 static inline void matrix_create(struct matrix *A, const struct fv *s, HYPRE_Int *ncols,
                                  const HYPRE_BigInt *col, const double *v)
 {
@@ -63,6 +67,7 @@ static inline void matrix_free(struct matrix *A)
     A->ij = NULL;
 }
 
+/* A distributed vector of the n rows of this rank. */
 struct vector {
     HYPRE_IJVector ij;
     HYPRE_ParVector v;

@@ -1,11 +1,13 @@
-/* pfmg.h - one cycle of hypre's PFMG over boxes of cells that lie in one index space: 5 points (3D:
- * 7) on all levels. SPDX-License-Identifier: BSD-3-Clause */
+/* pfmg.h - one cycle of hypre's multigrid PFMG over boxes of cells in one index space: 5-point
+ * stencils (3D: 7) on all levels.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_PFMG_H
 #define FV_PFMG_H
 
 #include <mpi.h>
 #include <stdbool.h>
 
+/* The boxes of this rank in the index space. */
 struct pfmg_grid {
     MPI_Comm comm;
     int dim;
@@ -14,19 +16,21 @@ struct pfmg_grid {
     double h[3];      /* m: mean spacings */
     bool uneven;      /* spacings vary */
     int nboxes;       /* of this rank */
-    int (*lo)[3];     /* first cells; borrowed until pfmg_create returns, as hi */
-    int (*hi)[3];     /* last cells, hypre's way: inside */
+    int (*lo)[3];     /* [nboxes] first cells; borrowed until pfmg_create returns, as hi */
+    int (*hi)[3];     /* [nboxes] last cells, included, as hypre wants it */
 };
 
+/* Owned by the caller (pfmg_free). Collective over g->comm, as all here. */
 struct pfmg *pfmg_create(const struct pfmg_grid *g);
 void pfmg_free(struct pfmg **p);
-/* Rows of each box, x fastest: diagonal, then the lower and the upper neighbour along each axis. */
+/* Sets the matrix: rows[box] has for each cell, x fastest, the diagonal, then the lower and the
+ * upper neighbour along each axis. */
 void pfmg_set_matrix(struct pfmg *p, double *const *rows);
-/* Right side and result of the cycle in a box: r, x are fields over the indices outer[0] to
- * outer[1], both inside. */
+/* Copies the right-hand side of a box in, and the result out: r and x are fields over the indices
+ * outer[0] to outer[1], both included. */
 void pfmg_put(struct pfmg *p, int box, int outer[2][3], double *r);
 void pfmg_get(struct pfmg *p, int box, int outer[2][3], double *x);
-/* The result of one cycle from zero: a linear map of the right side. */
+/* Computes one cycle from a zero start: a linear map of the right-hand side. */
 void pfmg_cycle(struct pfmg *p);
 
 #endif

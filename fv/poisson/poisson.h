@@ -1,31 +1,33 @@
-/* poisson.h - the pressure of the projection, by the back end that suits the cells (backend.h).
- * Imposed cells take no part in it; closed and imposed sides have no flux of psi.
+/* poisson.h - the pressure equation of the projection, solved by the backend that suits the cells
+ * (backend.h). Imposed cells take no part in it; closed and imposed sides have no flux of psi.
+ * Collective over s->comm.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_POISSON_H
 #define FV_POISSON_H
 
 #include "../fv.h"
 
-/* Takes the first back end that can. Again when cells or metrics have changed. */
+/* Picks the first backend that takes the cells and makes s->poisson; again when cells or metrics
+ * have changed. poisson_free frees it. */
 void poisson_create(struct fv *s);
 void poisson_free(struct poisson **p);
+/* Name of the backend, for the log. Static memory. */
 const char *poisson_name(const struct poisson *p);
-/* A psi = -div/tau; even cells: Lap psi = div (1/s^2). div, of flow_ops, is changed; what it lacks
- * to be compatible, where no side gives the pressure, is removed uniformly. psi: start and result,
- * with its ghosts; of blocks without a surface the start is `start', kept for the next solve.
- * false: did not converge.
- */
+/* Solves A psi = -div/tau, on uniform cells Lap psi = div, 1/s^2, to the relative residual tol. div
+ * is that of flow_ops and is overwritten; where no side gives the pressure its compatibility defect
+ * is removed uniformly. psi: start and result, with its ghosts; on blocks without a surface the
+ * start is `start', which is kept for the next solve. false: not converged. */
 bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *start, double *psi);
-/* psi ~ the solution of (shift - Lap) psi = div (1/s) by one cycle, a linear map, with its ghosts;
- * without a shift and where no side gives the pressure, without its mean. div is changed. */
+/* psi ~ the solution of (shift - Lap) psi = div, 1/s, by one cycle, a linear map, with its ghosts;
+ * without a shift, and where no side gives the pressure, without its mean. div is overwritten. */
 void poisson_cycle(struct fv *s, double *div, double *psi);
-/* The matrix of the surface as it is now. */
+/* Makes the matrix of the present surface. */
 void poisson_rebuild(struct fv *s);
-/* After blocks have moved: the matrix of the cells and of m->fringes now (under a surface
- * poisson_rebuild makes it); without `hierarchy' the one of a matrix before goes on as
- * preconditioner. */
+/* After blocks have moved: makes the matrix of the present cells and m->fringes (under a surface
+ * poisson_rebuild does so); without `hierarchy' the multigrid hierarchy of an earlier matrix stays
+ * in use as preconditioner. */
 void poisson_renew(struct fv *s, bool hierarchy);
-/* Of the cycle, 1/m^2; 0 at the start. */
+/* Sets the shift of poisson_cycle, 1/m^2; 0 at the start. */
 void poisson_shift(struct fv *s, double shift);
 
 #endif

@@ -1,4 +1,4 @@
-/* wet_boxes.h - boxes of cells that hold all of this rank's water: the solver for the pressure has
+/* wet_boxes.h - boxes of cells that hold all of this rank's water, so that the pressure solver has
  * no more air than lies beside it in a tile.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_WET_BOXES_H
@@ -6,14 +6,15 @@
 
 #include "../fv.h"
 
+/* The boxes; owned. */
 struct wet_boxes {
     int n, room;
     int (*lo)[3], (*hi)[3]; /* first and last cells, of the whole grid */
     int64_t cells;
 };
 
-/* Of a surface; without one, without water, or with a period all cells of the rank. Whether they
- * are others than before, on some rank. Collective. */
+/* Finds the boxes; without a surface, without water, or with a periodic axis they are all cells of
+ * the rank. Returns whether they differ from before on some rank. Collective. */
 bool wet_boxes_find(const struct fv *s, struct wet_boxes *w);
 void wet_boxes_free(struct wet_boxes *w);
 

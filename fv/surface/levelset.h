@@ -1,6 +1,8 @@
 /* levelset.h - free surface of one phase: phi < 0 in water, the air is empty and at p = 0. Cells
- * whose centre is wet are computed; dry ones near the surface carry the velocity on, so that all
- * stencils go on across it. SPDX-License-Identifier: BSD-3-Clause */
+ * whose centre is wet are computed; dry ones near the surface carry an extrapolated velocity, so
+ * that all stencils continue across it. Fields have the size of s->u's, local indices c; the state
+ * of the surface is s->surface.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_LEVELSET_H
 #define FV_LEVELSET_H
 
@@ -15,12 +17,12 @@ enum {
     BAND_WIDTH = 8 /* cells on either side of the surface that are reinitialised */
 };
 
-/* A face between a wet and a dry cell. */
+/* A face between a wet and a dry cell, where the surface crosses the line of their centres. */
 struct cut {
     int64_t wet, dry, face; /* cells, index in U */
-    double theta;           /* -: distance of the surface from the wet centre, of step */
+    double theta;           /* -: distance of the surface from the wet centre, in units of step */
     double step, size;      /* m: between the two centres; the wet cell's along the axis */
-    double height;          /* m^2/s^2: -(pressure at rest)/rho there */
+    double height;          /* m^2/s^2: minus the hydrostatic pressure over rho there */
     double p;               /* m^2/s^2: p/rho on the surface */
     double up;              /* 1 if the dry cell is the upper one, else -1 */
 };
@@ -43,12 +45,15 @@ struct level_ops;      /* what the cells offer to it, level_ops.h */
 struct window_ops;     /* and to the velocity of dry cells, extension_window.h */
 struct reinit_ops;     /* the same to its reinitialisation, reinit_band.h */
 
+/* The free surface and all that follows from the present phi. Arrays are owned. */
 struct surface {
     const struct level_ops *ops;
     const struct reinit_ops *reinit;
     const struct window_ops *window;
     struct fraction *fraction;
     struct surface_forced *forced;
+    /* Uniform cells whose values belong to nobody: behind sides, in boxes, deep in a partner's
+     * part. */
     bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
                      part */
     const unsigned char
@@ -57,7 +62,8 @@ struct surface {
     struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
-    double *before[26];           /* state at the start of a step, see surface_keep_state */
+    double *before[26];           /* state at the start of a step: surface_keep_state */
+    /* Implicit steps: phi at half time, while phi is that at the end of the step. */
     double *half; /* implicit steps: phi at half time, while phi stands where the step ends */
     double travelled_before;
     double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
@@ -68,18 +74,20 @@ struct surface {
     int64_t ncarry[LAYERS + 1], carry_room[LAYERS + 1];
     struct carry *carry[LAYERS + 1];
     int64_t nstencil, stencil_room, ngrad, grad_room;
-    int *at; /* step from the cell to those of its stencil */
+    int *at; /* offsets from the cell to those of its stencil */
     double *weight, *grad;
-    int64_t ndeep, *deep;     /* local cells */
-    int64_t wet, cuts;        /* over all ranks */
+    int64_t ndeep, *deep; /* local cells */
+    int64_t wet, cuts;    /* over all ranks */
+    /* m^dim: volume to be conserved, including what has come in through openings; net volume that
+     * the shifts have restored. */
     double volume0, returned; /* m^dim: to be kept, with what has come in through openings; restored
                                  by the shifts, all in all */
-    double lost, gained;      /* m^dim: of returned: what had been lost, what there was too much */
+    double lost, gained;      /* m^dim: parts of returned: restored losses, removed surplus */
     double passed;            /* m^dim: through openings and a partner's interface, in and out */
     double entered;           /* m^dim: through openings, in less out */
     double carried_in;        /* m^dim: the same of the first half of a step, by the shares */
     double through[3];        /* m^dim/s: at the start of a step, see flows() */
-    double travelled;         /* -: cells since the last reinit */
+    double travelled;         /* -: cells that it has moved since the last reinitialisation */
     double least, largest;    /* m: sizes of cells */
     bool keeps;               /* slopes of phi behind inclined walls stay as they are */
     bool leans[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
@@ -89,137 +97,150 @@ struct surface {
     double rise;        /* s^2: implicit steps: see surface_pressure.c */
     double g;           /* m/s^2: size of gravity */
     struct fit swing;   /* of a standing wave: its momentum, sampled (surface_mode.c) */
-    int64_t setups, reinits, repeats;
+    int64_t setups;     /* pressure matrices made so far */
+    int64_t reinits;    /* reinitialisations so far */
+    int64_t repeats;    /* steps that were repeated so far */
 };
 
-/* levelset.c */
+/* The surface of the scene's water at the start; freed by levelset_free. */
 struct surface *levelset_create(const struct fv *s);
 void levelset_free(struct surface **w);
-/* Ghosts of a level set: halo, and mirrored beyond closed sides. */
+/* Ghosts of a level set: halo, and mirrored (zero gradient) beyond closed sides. Collective. */
 void surface_ghosts(const struct fv *s, double *phi);
-/* The same of any field that belongs to cells, mirrored beyond closed sides. */
+/* The same for any field that belongs to cells. */
 void surface_mirror(const struct fv *s, double *q);
-/* phi by dt with u as it is, in so many parts. */
+/* Advects phi by dt, s, with u as it is; returns the number of parts that the step was cut into. */
 int surface_advance(struct fv *s, double dt);
-/* The same of blocks that move, from where they stand to their places at time t. */
+/* The same for blocks that move, from where they are to their positions at time t. */
 void surface_advance_to(struct fv *s, double t, double dt);
-/* Shifts phi uniformly to the volume of the start. */
+/* Shifts phi uniformly to the volume volume0, by a tenth of a cell per iteration at most.
+ * Collective. */
 void surface_keep_volume(struct fv *s);
-/* Counts water (m^dim, over all ranks) that was put back, or, < 0, taken away. */
+/* Counts a volume of water, m^dim, over all ranks, that was put back or, < 0, removed. */
 void surface_note_returned(struct fv *s, double volume);
-/* m^dim of water, a partner's part apart. Over all ranks. */
+/* Volume of water without a partner's part, m^dim, over all ranks. Collective. */
 double surface_volume(const struct fv *s);
-/* The same below phi = 0; *area: its change with phi, < 0. */
+/* The same below phi = 0; *area: its derivative with respect to a shift of phi, < 0, m^(dim-1). */
 double surface_level_volume(const struct fv *s, double *area);
-/* m^dim: what lost volumes are judged by: what was there and has come in, at least a hundredth of
- * the domain, so that the first drops in an empty one are no fault. */
+/* The volume by which losses are judged, m^dim: what was there and has come in, at least a
+ * hundredth of the domain, so that the first drops in an empty one are no fault. */
 double surface_volume_scale(const struct fv *s);
-/* Slopes of phi at cell c, m a cell. */
+/* Gradient of phi at cell c as differences per cell, m. */
 void surface_slopes(const struct fv *s, const struct part *p, int64_t c, double *n);
-/* Share of a cell below phi = 0, by the plane through its centre. */
+/* Fraction of cell c below phi = 0, by the plane through its centre. */
 double surface_share(const struct fv *s, int64_t c);
-/* Share of a cell that is water: what the fluxes have carried there, or phi's. */
+/* Fraction of cell c that is water: C of fraction.h if there is one, else by phi. */
 double surface_water(const struct fv *s, int64_t c);
-/* The same of the face below cell c along axis a. */
+/* The same of the lower face of cell c along axis a. */
 double surface_face_share(const struct fv *s, int64_t c, int a);
 
-/* m^dim: volume of cell c, in local row j, that counts: of places where blocks overlap once. */
+/* Volume of cell c, in local layer j, that counts, m^dim: where blocks overlap every point counts
+ * once. */
 double surface_cell_volume(const struct fv *s, int64_t c, int j);
-/* -: the part of a share of cell c that counts, where blocks share the cell. */
+/* The part of a share of cell c that counts where blocks share the cell, -. */
 double surface_counted(const struct fv *s, int64_t c, double share);
-/* Further off (m) than any cell can be: phi within boxes that are cut out, which are no water. */
+/* A distance, m, larger than any in the domain: phi in boxes that are cut out, which are no
+ * water. */
 static inline double surface_far(const struct fv *s)
 {
     return s->b.length[0] + s->b.length[1] + s->b.length[2];
 }
 
-/* shape_distance.c: signed distance (m) of the scene's water at the start. */
+/* shape_distance.c: signed distance of the scene's water at the start, m. */
 double surface_distance(const struct fv *s, const double *x);
 /* The shape that the water at x belongs to; NULL: none. */
 const struct scene_shape *surface_shape(const struct fv *s, const double *x);
 
-/* closest.c: distance of cell c from phi = 0, with its sign; false: the cells around do not resolve
- * the surface, or it is more than two cells off. phi: with ghosts. */
+/* closest.c: signed distance of cell c from phi = 0, m; false: the cells around do not resolve the
+ * surface, or it is more than two cells away. phi: with ghosts. */
 bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *distance);
 
-/* reinit.c: phi a distance again, by so many pseudo steps. */
+/* reinit.c: makes phi a distance again within BAND_WIDTH cells, by so many pseudo-time steps.
+ * Collective. */
 void surface_reinit(struct fv *s, int steps);
-/* The same after a small change: exact beside the surface, a pseudo step elsewhere near it. */
+/* The same after a small change: exact beside the surface, one pseudo-time step elsewhere near
+ * it. */
 void surface_redistance(struct fv *s);
-/* Largest | |grad phi| - 1 | within two cells of the surface. */
+/* Largest | |grad phi| - 1 | within two cells of the surface, over all ranks. Collective. */
 double surface_distortion(const struct fv *s);
 
-/* extension.c: layers and stencils of the present phi; u of dry cells, layers 1 .. n. */
+/* extension.c: finds the layers and stencils of the present phi. */
 void extension_build(struct fv *s);
 /* Whether a cell holds nothing: behind sides, in boxes and holes. */
 static inline bool surface_holds_none(const struct fv *s, int64_t c) { return s->surface->none[c]; }
+/* How the velocity is extended into dry cells. */
 enum extend {
     EXTEND_FREE,  /* goes on as it comes */
     EXTEND_SHEAR, /* no shear stress at the surface; takes note of the normal one */
     EXTEND_CHANGE /* the same for an increment: takes no note */
 };
+/* Sets u of dry cells in the layers 1 to `layers'. */
 void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers);
-/* The same for one field, layers 1 and 2. */
+/* Extends one field to layers 1 and 2; extension_beyond to the layers further out, within the
+ * bounds of what is around. */
 void extension_scalar(const struct fv *s, double *q);
 /* The same for the layers further out, within what is around. */
 void extension_beyond(const struct fv *s, double *q);
 
-/* surface_smooth.c: u (with its ghosts) beside the surface without waves of a few cells, once in a
- * step dt. */
+/* surface_smooth.c: removes waves a few cells long from u (with its ghosts) beside the surface,
+ * once in a step of dt, s. */
 void surface_smooth(struct fv *s, double dt);
 
 /* surface_pressure.c */
-/* What the surface's rise within an implicit step adds to the distance from a wet centre to its
- * pressure, m; e: from wet to dry, of length 1. */
+/* surface_pressure.c: what the surface's rise within an implicit step adds to the distance from a
+ * wet centre to its pressure, m; e: unit vector from the wet to the dry cell. */
 double surface_rise(const struct fv *s, const double *e);
-/* Wet cells, cut faces and stencils of the present phi; poisson_rebuild then. */
+/* Finds wet cells, cut faces and stencils of the present phi; poisson_rebuild is due afterwards. */
 void surface_rebuild(struct fv *s);
-/* p/rho on the cut faces with the viscous stress of the last extension. */
+/* Sets p/rho on the cut faces, with the viscous stress of the last extension. */
 void surface_set_pressure(struct fv *s);
-void surface_zero(const struct fv *s, double *q); /* in dry cells of this rank */
-/* div -= what the surface's pressure adds to Lap psi. */
+/* Sets q to 0 in dry cells of this rank. */
+void surface_zero(const struct fv *s, double *q);
+/* Subtracts from div what the surface's pressure adds to the Laplacian of psi. */
 void surface_add_pressure(const struct fv *s, double *div);
-/* U of cut faces by the pressure there, of dry faces anew from u. */
+/* Corrects U of cut faces by the pressure there; sets U of dry faces from u. */
 void surface_fluxes(const struct fv *s, double tau, const double *psi);
 void surface_dry_fluxes(const struct fv *s);
-/* Slope of psi on a cut face; change: of a variation, which is 0 on the surface. */
+/* Slope of psi on a cut face, along its axis; change: of a variation, which is 0 on the surface. */
 double surface_cut_gradient(const struct cut *x, const double *psi, bool change);
-/* Gradient of psi along a in cells whose stencil leaves the water: mean of the faces', but in the
- * last two wet cells of a line. */
+/* Gradient of psi along a in cells whose stencil leaves the water: the mean of the faces', except
+ * in the last two wet cells of a line (surface_line.c). */
 void surface_gradient(const struct fv *s, int a, const double *psi, double *out);
 /* The same of a variation, which is 0 on the surface. */
 void surface_gradient_change(const struct fv *s, int a, const double *psi, double *out);
 
-/* surface_line.c: out of even cells, the slope of psi along a, anew in these two. */
+/* surface_line.c: recomputes in these two cells the slope of psi along a; uniform cells. */
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out);
 
 /* surface_steps.c */
-/* Velocities, fluxes and cuts of the start. */
+/* surface_steps.c: velocities, fluxes and cuts at the start. */
 void surface_start(struct fv *s);
-/* Other cells are imposed than before, when the free ones held `before' m^dim. Collective. */
+/* After other cells have become imposed: adjusts the volume, `before', m^dim, being that in the
+ * free ones before. Collective. */
 void surface_outline_moved(struct fv *s, double before);
-/* Velocity beyond the surface where it stands now, with ghosts, and the fluxes there. */
+/* Extends the velocity beyond the present surface, with ghosts, and sets the fluxes there. */
 void surface_extend(struct fv *s, int layers);
-/* Around a step of u: the surface stands at half time in it, so that both swing without loss
- * (leapfrog: phi and u take turns). */
+/* The parts of a step around that of u: phi moves by half a step before it and half after it, so
+ * that phi and u alternate (leapfrog) and oscillate without loss. */
 void surface_first_half(struct fv *s, double dt);
 void surface_second_half(struct fv *s, double dt);
-/* What a step starts from, kept to go back to it. */
+/* Keeps what a step starts from; surface_back returns to it. */
 void surface_keep_state(struct fv *s);
 void surface_back(struct fv *s);
-/* Why the run cannot go on; NULL if it can. */
+/* Why the run cannot go on; NULL if it can. Static memory. */
 const char *surface_trouble(const struct fv *s);
 
 /* surface_errors.c */
-/* Kinetic energy of the water, J/kg m^dim, over all ranks. */
+/* surface_errors.c: kinetic energy of the water over rho, m^(dim+2)/s^2, over all ranks.
+ * Collective. */
 double surface_energy(const struct fv *s);
-/* Farthest water along axis a, m, over all ranks. */
+/* Largest coordinate of water along axis a, m, over all ranks. Collective. */
 double surface_reach(const struct fv *s, int a);
-/* Height of the water at x: of that in the column of cells there, on top of the bottom. This
- * rank's part of it. */
+/* Height of the water at x, m: that of the water in the column of cells there, on top of its
+ * bottom. This rank's part of it. */
 double surface_level(const struct fv *s, const double *x);
-/* Takes a sample of what swings in a standing wave; period and damping, volume and counts into the
- * summary. */
+/* Takes a sample of the oscillation of a standing wave; surface_summarise writes period, damping,
+ * volume and counts to the summary. */
 void surface_sample(struct fv *s);
 void surface_summarise(struct fv *s);
 

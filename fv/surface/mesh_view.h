@@ -1,5 +1,5 @@
-/* mesh_view.h - blocks as the free surface sees them: places of centres, metrics of cells, what
- * counts where blocks overlap, and the faces whose flux of psi ends on the surface.
+/* mesh_view.h - blocks as the free surface sees them: centres, metrics of cells, what counts where
+ * blocks overlap, and the faces whose flux of psi ends on the surface.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_VIEW_H
 #define FV_MESH_VIEW_H
@@ -7,8 +7,8 @@
 #include "../fv.h"
 #include "../grid/mesh.h"
 
-/* Flux of psi (per unit of it) through a face that has dry cells around: sum of weight times psi
- * at the places `at' and of `given' times the pressure of the cut. */
+/* Flux of psi through a face that has dry cells around, per unit of psi: the sum of weight times
+ * psi at the places `at', plus `given' times the pressure of the cut. */
 struct wet_face {
     int64_t face; /* place of the upper cell */
     int first, n; /* in the lists below */
@@ -18,6 +18,7 @@ struct wet_face {
 
 enum { BEHIND_EVEN = 1, BEHIND_ODD = 2 };
 enum { POLYGON_MOST = 16 };
+/* A convex polygon in the plane. */
 struct polygon {
     int n;
     double x[POLYGON_MOST][2]; /* m */
@@ -29,6 +30,7 @@ struct shared_cell {
     struct polygon own;     /* all of it */
 };
 
+/* These quantities for all local cells; owned. */
 struct surface_mesh {
     double size[MESH_BLOCKS_MAX][3]; /* m: mean spacing of a part's cells along its indices */
     double *x[3];                    /* m: centres, with ghosts */
@@ -56,56 +58,59 @@ struct surface_mesh {
 
 struct surface;
 
-/* Whether a part's index lines, or any, are neither level nor upright. */
+/* Whether a part's index lines, or those of any part, are neither along gravity nor across it. */
 bool surface_leans(const struct fv *s, const struct part *p);
 bool surface_any_leans(const struct fv *s);
 
-/* surface_mesh.c: also sets the sizes of cells over all blocks. Collective. */
+/* surface_mesh.c: also sets the sizes of cells in f over all blocks. Collective. */
 struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f);
 void surface_mesh_free(struct surface_mesh **m);
-/* Rates at which the velocity crosses cells; the largest sum over the indices, 1/s, in the band
- * where |phi| is less than `band' sizes of cells, over all ranks. */
+/* Sets speed; returns the largest sum over the indices of the rates at which the velocity crosses
+ * cells, 1/s, in the band where
+ * phi| is less than `band' cells, over all ranks. Collective. */
 double surface_mesh_speeds(const struct fv *s, double band);
-/* surface_foot.c: velocity by which phi of a cell goes on; g: gradients of its indices, 1/m. */
+/* surface_foot.c: velocity that advects phi of cell c; g: gradients of its indices, 1/m. */
 void surface_foot_velocity(const struct fv *s, const struct part *p, int64_t c,
                            const double g[3][3], double u[3]);
 /* Largest spacing of a part's cells, m. */
 double surface_mesh_spacing(const struct fv *s, const struct part *p);
-/* Ghosts of phi between blocks. What is interpolated is phi less the height of the place, so that
- * level water is level for all blocks. */
+/* Ghosts of phi between blocks. What is interpolated is phi minus the height of the point, so that
+ * level water is level for all blocks. Collective. */
 void surface_mesh_fill(const struct fv *s, double *phi);
-/* phi less the height of places (sign -1), or plus it (1), with ghosts. */
+/* Adds sign times the height of the centres to phi, ghosts included: -1 before an interpolation, 1
+ * after it. */
 void surface_mesh_change_height(const struct fv *s, double sign, double *phi);
-/* Blocks that move: all of them at time t, with their donors; then, or if they are there already,
- * centres, heights and what can hold water. */
+/* For blocks that move: puts all of them where they are at time t, with their donors.
+ * surface_mesh_update then renews centres, heights and which cells can hold water. */
 void surface_mesh_place(struct fv *s, double t);
 void surface_mesh_update(struct fv *s);
-/* Gradient of phi (1) at a cell, by central differences: exact for planes. */
+/* Gradient of phi, -, at a cell, by central differences: exact for planes. */
 void surface_mesh_gradient(const struct fv *s, const struct part *p, int64_t c, const double *phi,
                            double g[3]);
-/* K of a cell, both halves. */
+/* The tensor K of a cell, both halves. */
 void surface_mesh_metric(const struct fv *s, int64_t c, double K[3][3]);
 
-/* surface_own.c: what counts of each cell where blocks overlap now. */
+/* surface_own.c: computes which part of each cell counts where blocks overlap now. */
 void surface_mesh_count(struct fv *s);
-/* m^dim of water that counts in a shared cell, phi + shift < 0. */
+/* Water that counts in a shared cell, phi + shift < 0, m^dim. */
 double surface_mesh_shared_water(const struct fv *s, const struct shared_cell *x, double shift);
 
-/* surface_faces.c: cuts and faces with dry cells around, of the present layers. */
+/* surface_faces.c: finds cuts and faces with dry cells around, of the present layers. */
 void surface_mesh_find_faces(struct fv *s);
-/* U of these faces less tau times the flux of psi. */
+/* Subtracts tau times the flux of psi from U of these faces. */
 void surface_mesh_fluxes(const struct fv *s, double tau, const double *psi);
-/* div (m^dim/s) less tau times what the surface's pressure adds to the fluxes of psi. */
+/* Subtracts from div, m^dim/s, tau times what the surface's pressure adds to the fluxes of psi. */
 void surface_mesh_add_pressure(const struct fv *s, double tau, double *div);
-/* U of these faces by momentum interpolation of p with its gradient G, d (s) of each cell. */
+/* Sets U of these faces by momentum interpolation of p with its gradient G; d, s: that of each
+ * cell. */
 void surface_mesh_interpolate(const struct fv *s, const double *d, double *const G[3]);
-/* out[3] = grad psi in wet cells whose stencils leave the water; of a stage of length tau; change:
- * of a variation, which is 0 on the surface. */
+/* Gradient of psi into out[3] in wet cells whose stencils leave the water; tau: length of the
+ * stage, s; change: of a variation, which is 0 on the surface. */
 void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
                                double *const out[3]);
 
-/* surface_line.c: whether a part's last two wet cells of a line have slopes of their own; out anew
- * in them. */
+/* surface_line.c: whether a part's last two wet cells of a line have slopes of their own;
+ * surface_mesh_line_slopes recomputes them. */
 bool surface_takes_lines(const struct fv *s, const struct part *p);
 void surface_mesh_line_slopes(const struct fv *s, const double *psi, bool change,
                               double *const out[3]);

@@ -1,10 +1,12 @@
-/* surface_forced.h - the level set in cells that a partner fills: from the share of a kernel that
- * its water takes there (colour.h). SPDX-License-Identifier: BSD-3-Clause */
+/* surface_forced.h - the level set in cells that a partner's particles fill: from the fraction of a
+ * kernel that its water takes there (common/waves/colour.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_SURFACE_FORCED_H
 #define FV_SURFACE_FORCED_H
 
 #include "../fv.h"
 
+/* The cells and the partner's phi there at both ends of a coupling step. */
 struct surface_forced {
     int64_t nforced, n, *cell; /* local: imposed ones, then free ones beside the interface */
     bool *holds;               /* [size] of blocks: the former; NULL: even cells */
@@ -14,17 +16,19 @@ struct surface_forced {
     double *profile;           /* of colour.h */
     double *phi[2];            /* [size] m: at the start and at the end of the coupling step */
     double t[2];               /* s */
-    double step;               /* m: phi of the free cells less the partner's, at the interface */
+    double
+        step; /* m: mean difference of phi of the free cells from the partner's, at the interface */
 };
 
-/* Of s->forcing; NULL without. */
+/* For the cells of s->forcing; NULL without. Freed by surface_forced_free. */
 struct surface_forced *surface_forced_create(const struct fv *s);
 void surface_forced_free(struct surface_forced **f);
-/* The next coupling step: phi[0] is phi[1] now, and its new values are extrapolated. */
+/* The next coupling step, t0 to t1, s, begins: phi[0] becomes phi[1], whose new values are
+ * extrapolated. */
 void surface_forced_shift(struct fv *s, double t0, double t1);
-/* phi[1] from the shares at the places. Collective. */
+/* Sets phi[1] from the kernel fractions at the positions x, share[nplaces]. Collective. */
 void surface_forced_take(struct fv *s, const double *share);
-/* phi of imposed cells at time t, and its ghosts. */
+/* Sets phi of imposed cells at time t, s, linearly in time, and its ghosts. */
 void surface_forced_impose(struct fv *s, double t);
 
 #endif
