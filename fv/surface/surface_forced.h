@@ -28,7 +28,9 @@ void surface_forced_free(struct surface_forced **f);
 void surface_forced_shift(struct fv *s, double t0, double t1);
 /* Sets phi[1] from the kernel fractions at the positions x, share[nplaces]. Collective. */
 void surface_forced_take(struct fv *s, const double *share);
-/* Sets phi of imposed cells at time t, s, linearly in time, and its ghosts. */
+/* Sets phi of imposed cells at time t, s, linearly in time, and its ghosts. Where the partner's
+ * water is further than 0.95 of what the kernel reaches only the sign counts, and phi stays if it
+ * agrees. */
 void surface_forced_impose(struct fv *s, double t);
 
 #endif
