@@ -9,24 +9,25 @@
 /* One bit (1 << kind) for each kind of the sides; behind those of uniform cells that are neither
  * periodic nor have an entry of `walls' stands the exact velocity. */
 unsigned sides_kinds(const struct fv *s);
-/* Whether one of them gives the pressure: the problem for it is regular then. */
+/* Whether one of them gives the pressure, so that the pressure equation is regular. */
 bool sides_give_pressure(const struct fv *s);
 /* Whether a wall of this rank moves along itself. */
 bool sides_slide(const struct fv *s);
-/* All ghosts of a velocity: from cells and by the sides. */
+/* Sets all ghosts of a velocity: from cells and by the sides. Collective. */
 void sides_velocity(const struct fv *s, enum bc_value what, double *const u[3]);
-/* U of the faces whose velocity is given. */
+/* Sets U of the faces whose velocity is given. */
 void sides_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
-/* Their values of time t, where they change with it; those before are kept. */
+/* Sets the sides' values to those of time t, s, where they change with it; those before are
+ * kept. */
 void sides_time(struct fv *s, double t);
-/* Visits the faces of this rank's physical sides, those of openings and walls alike. */
+/* Calls visit for each face of this rank's physical sides, openings and walls alike. */
 void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                  void *with);
-/* The same of the faces of free cells on boxes that are cut out. */
+/* The same for the faces of free cells on boxes that are cut out. */
 void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                        void *with);
-/* Through this rank's openings, m^dim/s: adds what comes in less what leaves, and the sum of both,
- * of each face the share of the cell inside that counts. */
+/* Flow through this rank's openings, m^dim/s: adds inflow minus outflow to sums[0] and inflow plus
+ * outflow to sums[1], of each face the share of the cell inside that counts. */
 void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
                    double sums[2]);
 

@@ -1,5 +1,6 @@
 /* grid.h - the cells of a run, whatever their kind: what stands above this folder asks here for
- * their places, sizes and neighbours, and need not tell uniform cells, layers and blocks apart.
+ * their positions, sizes and neighbours, and need not tell uniform cells, layers and blocks apart.
+ * A "place" c is the index of a cell in a field, ghosts included.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_GRID_H
 #define FV_GRID_H
@@ -7,7 +8,7 @@
 #include "block.h"
 #include "mesh.h"
 
-/* Views of one of the two, borrowed: a part is one of nparts, a place c one of a field's. */
+/* A view of the block or the mesh of a run, which is borrowed. */
 struct grid {
     int dim, nparts;
     const struct part *part;
@@ -16,49 +17,49 @@ struct grid {
 };
 
 /* grid.c: places of cell `at' of a part. */
-/* The one that stands for the cell: its centre, on blocks its centroid, behind their sides the
- * middle of its map. */
+/* grid.c: position of cell `at' of a part, m: its centre, on blocks its centroid, behind their
+ * sides the centre of its map. */
 void grid_centre(const struct grid *g, const struct part *p, const int *at, double x[3]);
 /* The same of the cell at place c. */
 void grid_place(const struct grid *g, int64_t c, double x[3]);
-/* At xi (0 to 1 along each index) within it. */
+/* The point at xi (0 to 1 along each index) within a cell. */
 void grid_point(const struct grid *g, const struct part *p, const int *at, const double *xi,
                 double x[3]);
-/* Mean over its volume. */
+/* Mean of x over the cell's volume. */
 void grid_mean_place(const struct grid *g, const struct part *p, const int *at, double x[3]);
-/* m: its lengths along the indices. */
+/* The cell's lengths along the indices, m. */
 void grid_lengths(const struct grid *g, const struct part *p, const int *at, double length[3]);
-/* m: sides of the box that stands for it: its own, on blocks those of a cube of its volume. */
+/* Edges of a box that stands for the cell, m: its own, on blocks those of a cube of its volume. */
 void grid_box(const struct grid *g, const struct part *p, const int *at, double h[3]);
 /* Number of the cell at place c in the whole grid, or among the cells of all blocks. */
 int64_t grid_number(const struct grid *g, int64_t c);
 
-/* The grids that make it up: one, or the blocks. Cells of one, its name in messages (NULL: there is
- * one only), place of its vertex i. */
+/* Number of index spaces: one, or the blocks; cells of one, its name in messages (NULL: there is
+ * one only), and position of its vertex i. */
 int grid_blocks(const struct grid *g);
 const int *grid_cells(const struct grid *g, int k);
 const char *grid_name(const struct grid *g, int k);
 void grid_vertex(const struct grid *g, int k, const int *i, double x[3]);
-/* Cells of all ranks that are computed. */
+/* Number of cells of all ranks that are computed. */
 double grid_computed(const struct grid *g);
-/* Along axes on which ghosts are those of the other end; blocks join instead. */
+/* Along which axes ghosts are copies of the other end; blocks join instead. */
 const bool *grid_periodic(const struct grid *g);
-/* The most cells along an index, of a part or of the whole. */
+/* Largest number of cells along an index, of a part or of the whole. */
 int grid_longest(const struct grid *g);
-/* Why cells that move have no donors; "": they have. */
+/* Why cells that move have no donors; "": all have. */
 const char *grid_trouble(const struct grid *g);
 
-/* s: the longest step from time t that motions bear, and the next time at which one starts or ends;
- * INFINITY: none moves. */
+/* The longest step from time t that motions allow, s, and the next time at which one starts or
+ * ends, s; INFINITY: none moves. */
 double grid_motion_step(const struct grid *g, double t);
 double grid_motion_event(const struct grid *g, double t);
 
-/* m^(dim-1): size of the lower face of place c along a; its vector along the axes. */
+/* Size of the lower face of place c along a, m^(dim-1), and its area vector. */
 double grid_face_area(const struct grid *g, int64_t c, int a);
 void grid_face_vector(const struct grid *g, int64_t c, int a, double S[3]);
 
-/* Ghosts of nf fields from the cells that they stand for; grid_fill: the fringe of overlaps, too.
- */
+/* Fills the ghosts of nf fields from the cells that they are copies of; grid_fill also the fringe
+ * of overlaps. Collective. */
 void grid_halo(const struct grid *g, int nf, double *const *f);
 void grid_fill(const struct grid *g, int nf, double *const *f);
 
@@ -78,17 +79,17 @@ static inline double grid_volume(const struct grid *g, int64_t c)
     return g->mesh ? g->mesh->V[c]
                    : block_volume(g->even, g->even->rows ? block_row(g->even, c) : 0);
 }
-/* Whether the cell at place c lies wholly in a box of imposed cells, so deep that it is none. */
+/* Whether the cell at place c lies so deep in a box of imposed cells that it holds no values. */
 bool grid_is_given(const struct grid *g, int64_t c);
-/* m: its height over its lower face along a. */
+/* Height of the cell over its lower face along a, m. */
 static inline double grid_height(const struct grid *g, int64_t c, int a)
 {
     if (g->mesh)
         return g->mesh->V[c] / g->mesh->S[a][a][c];
     return block_size(g->even, a, a == 1 && g->even->rows ? block_row(g->even, c) : 0);
 }
-/* m^(dim-1), -: what makes a flow in m^dim/s of U of the lower face along a: even cells hold
- * velocities. */
+/* Factor that makes a flow in m^dim/s of U of the lower face along a: U of uniform cells is a
+ * velocity, of blocks the flow itself. */
 static inline double grid_flow_area(const struct grid *g, int64_t c, int a)
 {
     return g->mesh ? 1.0 : grid_face_area(g, c, a);

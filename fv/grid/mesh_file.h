@@ -5,8 +5,8 @@
 
 #include "mesh.h"
 
-/* x[k][j][i][dim] and the numbers of cells; NULL: a fault was added. Owned by the caller. Rank 0
- * reads; collective. */
+/* Returns x[k][j][i][dim], m, and sets the numbers of cells; NULL: a fault was added. Owned by the
+ * caller (mem_free). Rank 0 reads; collective over r->comm. */
 double *mesh_file_read(const struct run *r, struct faults *f, const struct mesh_block_params *p,
                        int *cells);
 

@@ -1,4 +1,4 @@
-/* part.h - what a rank has of a block of cells: their places in the fields.
+/* part.h - a rank's part of a block of cells, and where its cells lie in the fields.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_PART_H
 #define FV_PART_H
@@ -6,24 +6,32 @@
 #include <stdint.h>
 
 /* A rank's part of a block. Cell (i, j, k), counted from 0 at lo: see part_at. */
-/* EVEN: all cells are the same box, upright along the axes; UPRIGHT: boxes of any size. */
+/* EVEN: all cells are equal boxes along the axes; UPRIGHT: boxes along the axes of any size;
+ * CURVED: any shape. */
 enum part_kind { PART_CURVED, PART_UPRIGHT, PART_EVEN };
 
+/* A rank's part of a block. Cell (i, j, k), counted from 0 at lo, lies at part_at in every
+ * field. */
 struct part {
     enum part_kind kind;
     int block;
     int lo[3], n[3];
-    int g[3]; /* layers of ghosts; 0 beyond dim */
-    int64_t base, stride[3], size;
+    int g[3]; /* layers of ghosts at each end; 0 beyond dim */
+    int64_t base, stride[3],
+        size; /* index of the first ghost; offsets to neighbours; entries in a field */
+    /* First cell and number of the cells near water, of each line of cells along x, those of ghosts
+     * included (surface/near_water.c); NULL: all are near. */
     int (*near)[2]; /* first cell and number of those near water, of each row and of those of ghosts
                        (surface/near_water.c); NULL: all */
 };
 
+/* Number of the line of cells (j, k), ghosts included, in near. */
 static inline int part_row(const struct part *p, int j, int k)
 {
     return j + p->g[1] + (k + p->g[2]) * (p->n[1] + 2 * p->g[1]);
 }
-/* First cell and number of those near water in a row, `down' and `up' more beside them. */
+/* First cell of those near water in a line, and their number, with `down' and `up' cells more at
+ * its ends. */
 static inline int part_near(const struct part *p, int down, int j, int k)
 {
     return (p->near ? p->near[part_row(p, j, k)][0] : 0) - down;
@@ -34,11 +42,12 @@ static inline int part_nears(const struct part *p, int down, int up, int j, int 
     return n > 0 ? n + down + up : 0;
 }
 
+/* Index in a field of cell (i, j, k), which may be a ghost. */
 static inline int64_t part_at(const struct part *p, int i, int j, int k)
 {
     return p->base + (i + p->g[0]) + p->stride[1] * (j + p->g[1]) + p->stride[2] * (k + p->g[2]);
 }
-/* The cell at a place of the part. */
+/* The cell at index c, the inverse of part_at. */
 static inline void part_index(const struct part *p, int64_t c, int *at)
 {
     c -= p->base;

@@ -18,6 +18,9 @@ enum mesh_side {
     MESH_CARRIED /* convective outflow; from `walls' alone */
 };
 
+/* The kind of side that a wall of the scene makes: convective outflow and given discharge have
+ * velocities that change in time; an inflow with a given level has its pressure given, as an
+ * outflow has. */
 static inline enum mesh_side side_of_wall(const struct scene_wall *w)
 {
     static const enum mesh_side kinds[] = {MESH_SLIP, MESH_WALL, MESH_INFLOW, MESH_OUTFLOW};

@@ -1,5 +1,7 @@
-/* blocked_cells.h - what operators do beside boxes that are cut out (blocked.h): corrections of the
- * few cells and faces whose stencils end there. SPDX-License-Identifier: BSD-3-Clause */
+/* blocked_cells.h - what the operators on uniform cells do beside boxes that are cut out
+ * (boundary/blocked.h): corrections of the few cells and faces whose stencils end there. Local to
+ * the rank.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_BLOCKED_CELLS_H
 #define FV_BLOCKED_CELLS_H
 
@@ -9,19 +11,21 @@
  * none. */
 void blocked_faces(const struct fv *s, int q, int a, const double *u, const double *U, double C,
                    double *face);
-/* Fluxes F of component q along a: products beside boxes, none through them. */
+/* Convective fluxes F of component q along a: products beside boxes, zero through their faces. */
 void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const double *face,
                     double *F);
-/* U = I(u).n on faces near boxes; only between dry cells: those of the air beyond a surface. */
+/* U = I(u).n on faces near boxes; only_dry: only between dry cells, those of the air beyond a
+ * surface. */
 void blocked_face_velocities(const struct fv *s, double *const u[3], double *const U[3],
                              bool only_dry);
-/* Takes note of tau grad psi along no-slip faces; out += nu Lap of what that makes of component q
- * in an increment. */
+/* blocked_set_slip keeps tau grad psi along no-slip faces, which the projection will take off the
+ * velocity there; blocked_add_slip adds nu times the Laplacian of what that makes of component q in
+ * an increment to out. */
 void blocked_set_slip(const struct fv *s, double tau, const double *psi);
 void blocked_add_slip(const struct fv *s, int q, double *out);
-/* nu Lap of component q. */
+/* out = nu Lap of component q, in the cells near boxes. */
 void blocked_viscous(const struct fv *s, int q, const double *u, double *out);
-/* Zero within boxes. */
+/* Sets q to zero in boxes. */
 void blocked_zero(const struct fv *s, double *q);
 
 #endif
