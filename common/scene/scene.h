@@ -38,9 +38,9 @@ enum scene_side {
     SIDE_Z_MAX
 };
 /* Kinds of sides and walls. Wave and beach are slip walls with a zone before them
- * (scene_waves_mark, scene_waves_resolve). Falls is no word of a case: openings_resolve gives it to
- * an outflow with nothing outside, where the region simply ends and water that leaves is meant to
- * fall out. */
+ * (scene_waves_mark, scene_waves_resolve). Falls is no word of a case: sph gives it to an outflow
+ * that openings_resolve found to have nothing outside (falls), where the region simply ends and
+ * water that leaves is meant to fall out. */
 enum wall_kind {
     WALL_SLIP,
     WALL_NO_SLIP,

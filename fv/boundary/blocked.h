@@ -1,18 +1,19 @@
-/* blocked.h - boxes of cells that are cut out of an even grid: solid bodies at rest, whose faces
- * are no-slip or slip walls. Their cells take no part (forcing.h); beside them stencils go on by
+/* blocked.h - boxes of cells that are cut out of a uniform grid: solid bodies at rest, whose faces
+ * are no-slip or slip walls. Their cells take no part (forcing.h); beside them stencils continue by
  * the ghosts of bc.c, which belong to a cell and an axis: behind an edge, or in a thin box, one
- * cell stands for several ghosts. SPDX-License-Identifier: BSD-3-Clause */
+ * cell stands for several ghosts.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_BLOCKED_H
 #define FV_BLOCKED_H
 
 #include "../fv.h"
 
-/* Boxes of a case; cells that a ghost is made of; cells between no-slip faces: of three the middle
- * one is made of both walls' ghosts, and the flow grows from U h/nu = 3 on; of four it does not at
- * 3e4. */
+/* Most boxes of a case; cells that a ghost is made of; cells needed between no-slip faces. Of three
+ * the middle one is made of both walls' ghosts, and the flow grows without bound from U h/nu = 3
+ * on; of four it does not at 3e4. */
 enum { BLOCKED_MAX = 16, BLOCKED_GAP = 3, BLOCKED_GAP_NO_SLIP = 4 };
 
-/* Of the case. */
+/* A box of the case. */
 struct blocked_params {
     char name[PARAM_TEXT_SIZE];
     double min[3], max[3]; /* m */
@@ -20,6 +21,8 @@ struct blocked_params {
     int body;              /* 1 + number of the body that it is; 0: of the list blocked */
 };
 
+/* How a ghost behind a box's face follows from the cells before it: zero gradient, antisymmetric,
+ * no-slip, linear. */
 enum blocked_ghost { GHOST_EVEN, GHOST_ODD, GHOST_NO_SLIP, GHOST_LINEAR };
 
 /* A free cell near a box along an axis. */
@@ -37,6 +40,7 @@ struct beside_box {
     bool both; /* on both sides */
 };
 
+/* The boxes as this rank has them; s->blocked. Arrays are owned. */
 struct blocked {
     unsigned char *box; /* [size] 0: free, else 1 + the box's number; ghosts as the cells before */
     int64_t nnear[3];
@@ -47,35 +51,37 @@ struct blocked {
     struct beside_box *beside[3][3]; /* faces along a, boxes along t */
 };
 
-/* Cells lo <= i < hi of the whole grid that the k-th box of the case takes, to the nearest faces.
- */
+/* Cells lo <= i < hi of the whole grid that the k-th box of the case takes, its faces moved to the
+ * nearest faces of cells. */
 void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int k, int lo[3],
                    int hi[3]);
-/* NULL if the case has none. */
+/* NULL if the case has no boxes. Freed by blocked_free. */
 struct blocked *blocked_create(const struct fv *s);
 void blocked_free(struct blocked **w);
 
-/* What stands behind a box's face for component q along axis a (q < 0: of a scalar). */
+/* The rule behind a box's face for component q along axis a (q < 0: for a scalar). */
 enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a);
-/* v[-reach .. reach] around the cell along the step d, with ghosts behind boxes. */
+/* Sets v[-reach .. reach] to q around the cell along the offset d, with ghosts behind boxes. */
 void blocked_line(const struct near_box *x, const double *q, int64_t d, int reach,
                   const enum blocked_ghost rule[2], double *v);
-/* The ghost behind a box of which q is the first free cell and `in' the step away from it. */
+/* The ghost number `depth' behind a box; q is its first free cell and `in' the offset away from
+ * it. */
 double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule);
 
-/* How many cells in line are cut out from the one next to a local cell on, along a. */
+/* How many cells in line are cut out, from the one next to a local cell on, along a in direction
+ * `way'. */
 int blocked_stack(const struct fv *s, const int *at, int a, int way);
 
 static inline bool is_blocked(const struct fv *s, int64_t c)
 {
     return s->blocked && s->blocked->box[c];
 }
-/* q of the neighbour of c, or its own where a box is. */
+/* q of the neighbour c + d, or that of c where a box is there. */
 static inline double blocked_beside(const struct fv *s, const double *q, int64_t c, int64_t d)
 {
     return is_blocked(s, c + d) ? q[c] : q[c + d];
 }
-/* v[-2 .. 2] of a scalar that is even behind boxes. */
+/* v[-2 .. 2] of a scalar with zero gradient at boxes. */
 static inline void blocked_even_line(const struct fv *s, const double *q, int64_t c, int64_t d,
                                      double *v)
 {

@@ -25,8 +25,8 @@ struct fix {
     double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
 };
 
-/* Who takes the net flux of the interface. A partner knows of no constant density: what it has too
- * much must not drive what lies between it and an outflow. */
+/* Who takes the net flux of the interface with imposed cells. A partner's density is not constant,
+ * and its surplus must not drive the flow between it and an outflow. */
 enum net_flux {
     NET_OUTLINE, /* its faces, uniformly: it has a whole inside */
     NET_SIDES,   /* they do, with that of walls and inflows: nothing leaves elsewhere */
@@ -36,6 +36,7 @@ enum net_flux {
 struct one_sided; /* given_cells.c */
 struct parted;    /* parted.h */
 
+/* The imposed cells of this rank and their values; s->forcing. Arrays are owned. */
 struct forcing {
     int dim;
     unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side, 3: in a
@@ -75,64 +76,67 @@ struct forcing {
     int levels;           /* of them known, the newest first: v_next, v, v_old */
 };
 
-/* NULL if nothing is imposed. partner: the n boxes (lower, upper corner) are filled by partners,
- * else by the exact solution; cells all of whose corners lie inside one are imposed. lo >= hi: no
- * box. */
+/* partner: the n boxes (lower, upper corner, m) are filled by partners, else by the exact solution;
+ * cells all of whose corners lie inside one are imposed; lo >= hi: no box. NULL if nothing is
+ * imposed. Freed by forcing_free. Collective. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
 void forcing_free(struct forcing **f);
-/* Whether a cell of this rank is solved for: on blocks no dry one is. */
+/* Whether a cell of this rank is solved for; on blocks dry cells are not. */
 static inline bool forcing_is_free(const struct fv *s, int64_t c)
 {
     return s->free ? s->free[c] > 0.0 : !(s->forcing && s->forcing->forced[c]);
 }
-/* Zero in the imposed cells of this rank. */
+/* Sets q to zero in the imposed cells of this rank. */
 void forcing_zero(const struct forcing *f, double *q);
-/* The next coupling step, t0 to t1, begins: v_next is v now, and its new values are those of the
- * last coupling steps extrapolated, by a parabola as soon as there are three. A cubic would feed
- * noise back where the loop's gain is half of what parabolas bear. */
+/* The next coupling step, t0 to t1, s, begins: v becomes v_next, whose new values are extrapolated
+ * from the last coupling steps, by a parabola as soon as there are three. A cubic would amplify
+ * noise where the loop's gain is half of what parabolas bear. */
 void forcing_shift(struct forcing *f, double t0, double t1);
 /* Sets u in the imposed cells to their values at time t. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3]);
-/* delta -= u in these cells. */
+/* delta -= u in the imposed cells. */
 void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3]);
-/* Fluxes of the interface at time t: exact ones where the exact solution is imposed, a partner's
- * where its values reach two cells to both sides, else as they are interpolated; then corrected
- * uniformly to no net flux, which a free surface takes. The free cells' own velocities hold the
- * pressure of the step before: fluxes made of them would let the pressure lag. */
+/* Sets the fluxes of the interface at time t: exact ones where the exact solution is imposed, a
+ * partner's where its values reach two cells to both sides, else as they are interpolated; then
+ * they are corrected uniformly to no net flux, which a free surface takes instead. The free cells'
+ * own velocities contain the pressure of the step before: fluxes made of them would let the
+ * pressure lag. Collective. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3]);
-/* The partner's newest values where it gave none (mask 0): means of those beside them, layer by
- * layer. For cells in the air above its water. Collective. */
+/* Sets the partner's newest values where it gave none (mask 0) to means of those beside them, layer
+ * by layer, for cells in the air above its water. Collective. */
 void forcing_fill(const struct fv *s, const unsigned char *mask);
-/* How they vary with the velocity that U was interpolated from. */
+/* How these fluxes vary with the velocity that U was interpolated from. */
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
-/* Adds to the gradient `out' of q along axis a what extrapolates q into the imposed cells: zero
- * gradient, or by a cubic (of lower degree where fewer than four free cells stand in line). */
+/* Adds to the gradient `out' of q along axis a the effect of extrapolating q into the imposed
+ * cells: with zero gradient, or by a cubic (of lower degree where fewer than four free cells stand
+ * in line). */
 void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
                       double *out);
-/* forcing_fixes.c: their weights, along axis a. */
+/* forcing_fixes.c: computes the weights for this along axis a. */
 void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
-/* Extends p into the near imposed cells from the free side, `layers' of them, one by one. */
+/* Extends p into the near imposed cells from the free side, `layers' layers, one by one. */
 void forcing_extend(const struct fv *s, int layers, double *p);
 
-/* mesh_exact.c: averages of the exact solution at t over cell `at' of a part; pressure (Pa), w
- * (1/s): NULL if not wanted. Of the cell at place c; its centre. */
+/* mesh_exact.c: averages of the exact solution at t over cell `at' of a part: u, m/s, pressure, Pa,
+ * vorticity w, 1/s (NULL: not wanted). forcing_average: of the cell at place c. */
 void cell_exact(const struct fv *s, const struct part *p, const int *at, double t, double *u,
                 double *pressure, double *w);
 void forcing_average(const struct fv *s, int64_t c, double t, double *v, double *pressure);
 
-/* given_cells.c: of blocks. */
+/* given_cells.c, for blocks: finds the gradients that need one-sided stencils. */
 void given_rows_create(const struct fv *s, struct forcing *f);
 void given_rows_free(struct one_sided **g);
-/* Gradients of computed cells near imposed ones are those of q continued along the indices. */
+/* Replaces the gradients of computed cells near imposed ones by those of q extrapolated along the
+ * indices. */
 void given_gradient(const struct fv *s, enum continuation how, const double *q, double *const g[3]);
-/* The i-th cell with such a gradient, and the n places of its stencil; false: there is none. */
+/* The i-th cell with such a gradient, and the n places of its stencil; false: there are fewer. */
 bool given_stencil(const struct forcing *f, int64_t i, int64_t *cell, int64_t *n,
                    const int64_t **place);
-/* psi of imposed cells beside free ones: the mean of those, as the rows of the matrix have it; sets
- * ghosts. */
+/* Sets psi of imposed cells beside free ones to the mean of those, as the rows of the matrix have
+ * it, with ghosts. */
 void given_mirror(const struct fv *s, double *psi);
-/* m^dim/s: flux of volume through the lower face of c along a: the exact solution's; that of
- * averages v, with ghosts. */
+/* Flow through the lower face of c along a, m^dim/s: of the exact solution at t; given_flux_of: of
+ * the averages v, with ghosts. */
 double given_exact_flux(const struct fv *s, int64_t c, int a, double t);
 double given_flux_of(const struct fv *s, double *const v[3], int64_t c, int a);
 

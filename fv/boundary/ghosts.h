@@ -11,7 +11,7 @@
 
 enum { GHOST_LAYERS = 3 };
 
-/* q: the cell inside; in: step inwards. */
+/* q: the cell inside; in: offset one cell inwards; w: average on the side's face. */
 static inline void ghosts_given(double *q, int64_t in, double w)
 {
     q[-in] = 4.0 * w - (13.0 * q[0] - 5.0 * q[in] + q[2 * in]) / 3.0;
@@ -19,6 +19,7 @@ static inline void ghosts_given(double *q, int64_t in, double w)
     q[-3 * in] = q[-2 * in]; /* no stencil reads it */
 }
 
+/* sign 1, w 0: zero gradient; sign -1: antisymmetric about w. */
 static inline void ghosts_mirrored(double *q, int64_t in, double sign, double w)
 {
     for (int m = 0; m < GHOST_LAYERS; m++)

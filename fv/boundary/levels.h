@@ -1,9 +1,9 @@
 /* levels.h - openings under a free surface whose pressure is given: hydrostatic from a level, less
- * the dynamic pressure of what comes in there. Outside stands water at rest, out of which nothing
- * comes faster than its head allows (Bernoulli; the directional do-nothing condition of Braack &
- * Mucha 2014), so water that runs back brings no more energy than it had. Waves that reach an
+ * the dynamic pressure of what comes in there. Outside the water is at rest, and nothing comes in
+ * faster than its head allows (Bernoulli; the directional do-nothing condition of Braack & Mucha
+ * 2014), so that water that runs back brings no more energy than it had. Waves that reach an
  * opening leave: g (eta - L) = c (u - U), c = sqrt(g H), U the mean velocity of the last two
- * transits of the domain. Where nothing stands outside water falls, p = 0 on the faces.
+ * transits of the domain. Where no water stands outside, water falls out with p = 0 on the faces.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_LEVELS_H
 #define FV_LEVELS_H
@@ -14,6 +14,8 @@
 enum { LEVEL_GROUPS = MESH_OUTSIDES };
 
 struct outflow; /* carried.h */
+/* The openings of this rank, and the figures of each group of them (MESH_OUTSIDES), which are equal
+ * on all ranks. */
 struct levels {
     int n;
     struct outflow *of;
@@ -28,24 +30,25 @@ struct levels {
     double kept[LEVEL_GROUPS];  /* m/s: U when a step began that may be taken back */
 };
 
-/* Before the sides are made, which list their places. */
+/* Makes s->levels; before the sides are made, which list their cells. Freed by levels_free. */
 void levels_create(struct fv *s);
 void levels_free(struct levels **l);
-/* Whether pressures are set. */
+/* Whether any pressure is set. */
 bool levels_set_any(const struct fv *s);
-/* At the start of a run under a surface. Collective, as the next. */
+/* At the start of a run under a surface. Collective, as levels_begin. */
 void levels_start(struct fv *s);
-/* Before a step of dt: velocities and waves. */
+/* Before a step of dt, s: measures velocities and the speed of waves. */
 void levels_begin(struct fv *s, double dt);
-/* Keeps U, and puts it back. */
+/* Keeps U for a step that may be taken back; levels_back restores it. */
 void levels_keep(struct fv *s);
 void levels_back(struct fv *s);
-/* Before a stage that ends at t: pressures on the faces, by the projected fluxes. */
+/* Before a stage that ends at t, s: sets the pressures on the faces, from the projected fluxes. */
 void levels_set(struct fv *s, double t);
-/* Before a projection of length tau: what they do to the fluxes, so that psi is 0 on the faces in
- * the solve. */
+/* Before a projection of length tau, s: applies these pressures to the fluxes, so that psi is 0 on
+ * the faces in the solve. */
 void levels_fluxes(struct fv *s, double tau);
-/* After it: psi's ghosts on blocks; what the gradient along axis a of even cells has more. */
+/* After it: psi's ghosts on blocks; levels_gradient: what the gradient along axis a of uniform
+ * cells has in addition. */
 void levels_ghosts(const struct fv *s, double *psi);
 void levels_gradient(const struct fv *s, int a, double *out);
 /* The same on the faces. */

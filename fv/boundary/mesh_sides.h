@@ -1,4 +1,5 @@
-/* mesh_sides.h - what the files of mesh_bc.h know of the physical sides of blocks.
+/* mesh_sides.h - what the files of mesh_bc.h share of the physical sides of blocks; private to
+ * them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_SIDES_H
 #define FV_MESH_SIDES_H
@@ -7,6 +8,7 @@
 #include "../grid/mesh.h"
 #include "mesh_bc.h"
 
+/* A side of one part of this rank; arrays are owned. */
 struct side {
     const struct part *p;
     int a, k; /* axis, side of the block */
@@ -14,14 +16,14 @@ struct side {
     bool slides;          /* a wall that moves along itself */
     int t[2], g[2], n[2]; /* tangents, their ghosts and cells */
     int first;            /* cell along a that touches the side */
-    int64_t in;           /* step inwards */
-    int64_t face;         /* step from that cell to the face's place */
+    int64_t in;           /* offset one cell inwards */
+    int64_t face;         /* offset from that cell to the face's index in U */
     int64_t width;
     bool moves;              /* with its block */
     bool body;               /* forces on it count */
     double pressure;         /* m^2/s^2: p/rho of an outflow */
     double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
-    double *slip[3];         /* m/s: what the next projection takes off */
+    double *slip[3];         /* m/s: what the next projection will take off the side's velocity */
     double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
     double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
 };
@@ -32,6 +34,7 @@ struct beyond {
     int64_t at, ghost; /* in the side's values; in fields, the first ghost behind the wall */
 };
 
+/* All sides of this rank. */
 struct mesh_bc {
     int n;
     struct side *side;
@@ -42,6 +45,8 @@ struct mesh_bc {
     bool set; /* values have been */
 };
 
+/* Index in the side's values of the place (i, j) along its tangents; side_cell: index in a field of
+ * the cell inside. */
 static inline int64_t side_place(const struct side *s, int i, int j)
 {
     return (i + s->g[0]) + s->width * (j + s->g[1]);
