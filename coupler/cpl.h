@@ -34,21 +34,23 @@ enum cpl_error {
     CPL_EPARTNER = -4, /* a partner failed or the job ends */
     CPL_EORDER = -5    /* a call out of order */
 };
-/* What a window asks for, bits. */
+/* What a coupling step asks for, bits: CPL_RUN, with CPL_OUTPUT or CPL_SAVE if an output or a
+ * restart file is due at its end; CPL_STOP alone: the job ends. */
 enum { CPL_RUN = 1, CPL_OUTPUT = 2, CPL_SAVE = 4, CPL_STOP = 8 };
-/* A field that is put must have a taker, unless CPL_OPTIONAL is added. */
+/* A field that is put must have a target that gets it, unless CPL_OPTIONAL is added. */
 enum cpl_direction { CPL_PUT = 1, CPL_GET = 2, CPL_OPTIONAL = 4 };
-/* Points to points, within the support radius of the taker's set. Consistent: what the taker gets
- * is a mean of what is around it (constants are kept, by CPL_MLS linear functions, too).
- * With CPL_CONSERVATIVE added, its transpose: each giver's value (a force, a mass: something that
- * adds up) is dealt out to the taker's points around it by weights whose sum is 1, so the sum over
- * all points is kept to rounding; a giver without a taker in reach gives all to the nearest one.
- * CPL_SUM is neither: the sum of volume times value times kernel, not divided by the sum of the
- * weights, everywhere (mask 1); of ones it is the share of the kernel that the givers fill. */
+/* From points to points, within the support radius of the target's set. Consistent: the target gets
+ * a mean of what is around it (constants are reproduced, by CPL_MLS linear functions, too). With
+ * CPL_CONSERVATIVE added, the transpose of that: the value of each source (a force, a mass:
+ * something that adds up) is distributed over the target's points around it by weights whose sum is
+ * 1, so that the sum over all points is conserved to rounding; a source without a target in reach
+ * gives all to the nearest one. CPL_SUM is neither: the sum of volume times value times kernel, not
+ * divided by the sum of the weights, everywhere (mask 1); of ones it is the fraction of the kernel
+ * that the sources fill. */
 enum cpl_mapping { CPL_SHEPARD, CPL_MLS, CPL_NEAREST, CPL_SUM, CPL_CONSERVATIVE = 16 };
 enum cpl_interpolation { CPL_LINEAR, CPL_CUBIC }; /* grid to anywhere */
-/* Which values a read is made of. A put holds them at one time, the start or the end of a window,
- * with a polynomial in time around it where the giver has one. */
+/* Which values a read is made of. A put holds them at one time, the start or the end of a coupling
+ * step, with a polynomial in time around it where the source has one. */
 enum cpl_when {
     CPL_START,  /* those of the window's start, followed in time: waits for nobody's window */
     CPL_END,    /* those of its end: waits until the giver has done the window */
@@ -71,9 +73,9 @@ static inline int cpl_open(MPI_Comm world, const char *name, double deadline_s, 
     return cpl_open_as(CPL_VERSION, world, name, deadline_s, c, mine);
 }
 
-/* s without a sign of life after which a partner counts as hung and ends the job (120; the same in
- * all programs of a job); before cpl_meet. Signs come from a thread of the library, also while the
- * solver computes. */
+/* Sets the time, s, without a sign of life after which a partner counts as hung and ends the job
+ * (120; the same in all programs of a job); before cpl_meet. Signs come from a thread of the
+ * library, also while the solver computes. */
 void cpl_patience(struct cpl *c, double s);
 
 /* A box that partners may ask for by name ("sph.box", "sph.free"). Before cpl_meet. */
@@ -84,7 +86,7 @@ int cpl_zone(struct cpl *c, const char *zone, const double lo[3], const double h
  * dir: the job's output folder (error report, manifest). */
 int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faults,
              const char *dir);
-/* CPL_EINPUT if nobody published it. */
+/* Corners of the box that a partner named so; after cpl_meet. CPL_EINPUT if nobody published it. */
 int cpl_find_zone(struct cpl *c, const char *zone, double lo[3], double hi[3]);
 
 /* A uniform grid of cells; value sit at cell centres origin + (i + 1/2) spacing and are cell
@@ -100,8 +102,8 @@ int cpl_grid(struct cpl *c, const char *set, const struct cpl_grid *g, int *id);
 /* A cloud of points. support: radius in m of the kernel in which points of another cloud are
  * gathered for this one (0 if this set only gives). */
 int cpl_points(struct cpl *c, const char *set, int dim, double support, int *id);
-/* Points and their distances repeat themselves by period[a] m in direction a (0: not). Of the
- * taker's set, or the giver's, or of the coupler's case (coupler.period, domain.periodic). */
+/* Points and their distances repeat themselves by period[a] m in direction a (0: not). The target's
+ * set decides, or the source's, or the coupler's case (coupler.period, domain.periodic). */
 int cpl_period(struct cpl *c, int set, const double period[3]);
 /* A field of a set: 1 to 64 components. One set of one program gives it, any number of sets of
  * others take it: matched by the field's name; unit and ncomp must agree. From a grid it arrives as
@@ -155,11 +157,11 @@ int cpl_patch_get(struct cpl *c, int field, const double lo[3], const double hi[
  * or NULL. Points outside the patch get the value of its nearest place. */
 void cpl_patch_eval(const struct cpl *c, int field, double t, long n, const double *x, double *v,
                     double *grad);
-/* Number for the coupler's progress line and summary, sent with the next advance or close. Sums of
- * norms "norm.velocity.e2" add up over programs; errors are told in "norm.velocity.unit". Rank 0's
- * value counts; a key has at most 95 bytes, a program 192 keys. */
+/* Reports a number for the coupler's progress line and summary; it is sent with the next advance or
+ * close. Sums of norms "norm.velocity.e2" add up over programs; errors are given in the unit
+ * "norm.velocity.unit". Rank 0's value counts; a key has at most 95 bytes, a program 192 keys. */
 int cpl_tell(struct cpl *c, const char *key, double value);
-/* The window is done. stop: asks for an orderly end of the job. */
+/* Reports that the coupling step up to t1 is done. stop: asks for an orderly end of the job. */
 int cpl_advance(struct cpl *c, double t1, int stop);
 /* A restart file (a name of at most 255 bytes, without spaces) of the current window is complete.
  * The manifest DIR/checkpoint.txt is written when all have said so: lines "window N", "t T",
@@ -167,6 +169,7 @@ int cpl_advance(struct cpl *c, double t1, int stop);
  * with T. */
 int cpl_saved(struct cpl *c, const char *file);
 
+/* Number of the coupling step under way or last done; before the first one, of the first. */
 int64_t cpl_window_number(const struct cpl *c);
 double cpl_waited(const struct cpl *c); /* s spent waiting for partners */
 double cpl_heard(const struct cpl *c);  /* s since the coupler's last message */
@@ -175,8 +178,8 @@ double cpl_heard(const struct cpl *c);  /* s since the coupler's last message */
  * of SIGTERM, which survivors of a failure get. */
 void cpl_obituary(int fd);
 const char *cpl_strerror(const struct cpl *c);
-/* Leaves a note with the reason and ends the whole job with this exit code; any rank may call. Does
- * not return. */
+/* Leaves a failure report with the reason and ends the whole job with this exit code; any rank may
+ * call it. Does not return. */
 void cpl_fail(struct cpl *c, int code, const char *reason);
 /* Leaves the job and waits for the others to do so; sets *c to NULL. Returns the exit code of the
  * job, which is 1 on all programs when the job's results are not accepted; `code' when c is NULL or

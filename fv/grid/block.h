@@ -1,5 +1,6 @@
-/* block.h - a rank's part of a Cartesian grid, even or with layers of unequal height: places,
- * storage with ghost layers, halo. SPDX-License-Identifier: BSD-3-Clause */
+/* block.h - a rank's part of a Cartesian grid, uniform or with layers of unequal height along y:
+ * positions, storage with ghost layers, halo.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_BLOCK_H
 #define FV_BLOCK_H
 
@@ -10,13 +11,14 @@
 #include "part.h"
 #include "rows.h"
 
+/* The part; owned arrays are freed by block_free. */
 struct block {
     MPI_Comm cart;
     int dim;
     int cells[3];                /* of the whole grid */
     double origin[3], length[3]; /* m */
     double h[3];                 /* m: size of a cell; along y with rows of the even ones */
-    struct rows *rows;           /* NULL: all rows are even */
+    struct rows *rows;           /* layers of unequal height; NULL: all are equal */
     bool periodic[3];
     int lo[3], hi[3];        /* this rank: lo <= i < hi */
     int n[3];                /* hi - lo */
@@ -30,11 +32,14 @@ struct block {
  * least LEAST cells along each axis that is cut, as its ghosts want (then some split).
  */
 enum { LEAST = 3 };
+/* Divides `size' ranks along the axes; false: not possible so that each has at least LEAST cells
+ * along each axis that is cut, as its ghosts need. */
 bool block_split(int size, int dim, const int *cells, int dims[3]);
+/* Sets *b for this rank of comm; origin, length: of the whole grid, m. Collective. */
 void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
                   const double *length, const bool *periodic);
-/* Gives it rows of these heights, b->cells[1] of them, the upper `even' ones alike; b->h[1] is
- * their height then. */
+/* Gives it layers of the heights h, b->cells[1] of them, the upper `even' ones equal; b->h[1]
+ * becomes their height. */
 void block_set_rows(struct block *b, int even, const double *h);
 void block_free(struct block *b);
 double *block_field(const struct block *b);
@@ -44,43 +49,44 @@ static inline int64_t block_at(const struct block *b, int i, int j, int k)
 {
     return (i + b->g[0]) + b->stride[1] * (j + b->g[1]) + b->stride[2] * (k + b->g[2]);
 }
-/* Local cell of an index. */
+/* Local cell (i, j, k) of an index in a field. */
 static inline void block_place(const struct block *b, int64_t c, int at[3])
 {
     at[0] = (int)(c % b->stride[1]) - b->g[0];
     at[1] = (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
     at[2] = (int)(c / b->stride[2]) - b->g[2];
 }
-/* Size along axis a of local cells whose place along it is i. */
+/* Size along axis a, m, of the local cells whose index along it is i. */
 static inline double block_size(const struct block *b, int a, int i)
 {
     return a == 1 && b->rows ? b->rows->h[i] : b->h[a];
 }
-/* Distance of their centres from those below along axis a. */
+/* Distance of their centres from those below along axis a, m. */
 static inline double block_step(const struct block *b, int a, int i)
 {
     return a == 1 && b->rows ? b->rows->step[i] : b->h[a];
 }
-/* m: derivative of the centres' place along axis a with respect to the index. */
+/* Derivative of the centres' coordinate along axis a with respect to the index, m. */
 static inline double block_scale(const struct block *b, int a, int i)
 {
     return a == 1 && b->rows ? b->rows->scale[i] : b->h[a];
 }
-/* Local row of a cell. */
+/* Local index along y of a cell. */
 static inline int block_row(const struct block *b, int64_t c)
 {
     return (int)(c % b->stride[2] / b->stride[1]) - b->g[1];
 }
-/* m^dim, of the cells of local row j. */
+/* Volume of the cells of local layer j, m^dim. */
 static inline double block_volume(const struct block *b, int j)
 {
     return b->h[0] * block_size(b, 1, j) * b->h[2];
 }
-/* Centre of local cell (i, j, k). */
+/* Centre of local cell (i, j, k), m; block_cell: also its size along each axis. */
 void block_centre(const struct block *b, int i, int j, int k, double *x);
 /* The same and its size along each axis. */
 void block_cell(const struct block *b, int i, int j, int k, double *x, double *h);
-/* Average over the cell at q, in local row j, of the derivative along axis a, from averages. */
+/* Average over the cell at q, in local layer j, of the derivative along axis a, from averages,
+ * fourth order. */
 static inline double block_derivative(const struct block *b, const double *q, int a, int j)
 {
     const int64_t d = b->stride[a];
@@ -90,10 +96,10 @@ static inline double block_derivative(const struct block *b, const double *q, in
     }
     return (8.0 * (q[d] - q[-d]) - (q[2 * d] - q[-2 * d])) / (12.0 * b->h[a]);
 }
-/* Ghosts of nf fields, corners included, by one direction after the other; closed sides keep
- * theirs. */
+/* Fills the ghosts of nf fields, corners included, one direction after the other; ghosts at closed
+ * sides stay as they are. Collective. */
 void block_halo(const struct block *b, int nf, double *const *f);
-/* Fields without ghosts, x fastest, from those with. */
+/* Copies a field without its ghosts, x fastest; block_pack_from: from local layer `first' on. */
 void block_pack(const struct block *b, const double *f, double *packed);
 /* The same from the local row `first' on. */
 void block_pack_from(const struct block *b, int first, const double *f, double *packed);

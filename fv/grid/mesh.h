@@ -23,7 +23,8 @@ enum {
 };
 enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE, CELL_GIVEN };
 
-/* Cells of all blocks that lie wholly in one of n boxes (lower, upper corner) are given. */
+/* The boxes (lower, upper corner, m) of imposed cells: cells of all blocks that lie wholly in one
+ * of them are imposed ("given"). */
 struct mesh_boxes {
     int n;
     double box[MESH_BOXES_MAX][2][3];
@@ -31,8 +32,9 @@ struct mesh_boxes {
     int layers;       /* of imposed cells that get values */
 };
 
-/* Doubled indices X (vertex i: 2 i, cell i: 2 i + 1) behind a joined side are the neighbour's
- * X'[axis[a]] = sign[a] X[a] + shift[a]; its places come here by adding `move'. */
+/* What lies behind a joined side. Doubled indices X (vertex i: 2 i, cell i: 2 i + 1) behind it are
+ * the neighbour's X'[axis[a]] = sign[a] X[a] + shift[a]; the neighbour's coordinates become this
+ * block's by adding `move', m. */
 struct mesh_join {
     int block; /* -1: none */
     int axis[3], sign[3], shift[3];
@@ -40,6 +42,7 @@ struct mesh_join {
 };
 
 struct mesh_motion;
+/* A block as every rank knows it; arrays are owned. */
 struct mesh_block {
     const struct mesh_block_params *prm;
     struct mesh_motion *motion;    /* NULL: at rest; of joined blocks the same */
@@ -54,23 +57,24 @@ struct mesh_block {
     double opening[6][2][3]; /* m: box of the opening on that side of the domain that a side is part
                                 of: sides of blocks that touch are one */
     struct mesh_join join[6];
-    double (*centre)[3];   /* m: of the real cells */
-    double *volume;        /* m^dim: of the real cells */
-    double *faces;         /* of a moving block's part here: S and int r cross dS as made */
+    double (*centre)[3]; /* m: of the real cells */
+    double *volume;      /* m^dim: of the real cells */
+    double *faces;       /* of a moving block's part here: S and integrals of r cross dS as made */
     unsigned char *status; /* of the real cells */
     int cut;               /* axis along which ranks share it */
-    int *first;            /* of each rank, and one more: rows along `cut' */
+    int *first;            /* [size + 1] first layer along `cut' of each rank, and the end */
 };
 
-/* Values that go from places of one rank to places of another; weights NULL: copies. */
+/* A list of values that go from cells of one rank to cells of another: copies, or with weights sums
+ * over a stencil. */
 struct mesh_exchange {
     int npeers, *peer;
     int64_t *first_in, *first_out; /* of each peer, and one more */
     int64_t *in;                   /* places that receive */
-    int64_t *out;                  /* places that give: with weights the first of a stencil */
-    int width;                     /* of a stencil: width^dim values; 1: copies */
-    double *weight;                /* width^dim a value */
-    int *part;                     /* of the giving stencils */
+    int64_t *out;              /* places that are sent; with weights the first of each stencil */
+    int width;                 /* of a stencil: width^dim values; 1: copies */
+    double *weight;            /* width^dim a value */
+    int *part;                 /* of the giving stencils */
     const unsigned char *keep; /* of all places, 1: vectors there stay as they are; NULL: none */
     double *send, *recv;       /* room for `room' fields */
     int room;
@@ -84,6 +88,8 @@ struct mesh_fringe {
     double weight[8];
 };
 
+/* All blocks, and this rank's parts of them with their metrics; arrays are owned. Fields have
+ * size_local entries. */
 struct mesh {
     MPI_Comm comm;
     const struct params *prm_of; /* the case it was made of; borrowed, for comparison alone */
@@ -103,7 +109,7 @@ struct mesh {
     bool uneven; /* volumes differ: volume averages are not averages in index space */
     int64_t nfringe;
     struct mesh_fringe *fringes;
-    double *S[3][3];       /* m^(dim-1): of the lower face along a, component */
+    double *S[3][3];       /* m^(dim-1): area vector of the lower face along a, component */
     double *G[3][3];       /* S_a.S_b/J, averages over the lower face along a */
     double *V;             /* m^dim */
     double *open[3];       /* 1: psi passes the lower face; 0: it does not */
@@ -114,6 +120,7 @@ struct mesh {
     char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };
 
+/* Number of a real cell of a block, the indices of a cell, the number of cells. */
 static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
 {
     return i[0] + (int64_t)b->n[0] * (i[1] + (int64_t)b->n[1] * i[2]);
@@ -134,48 +141,52 @@ static inline int64_t mesh_count(const struct mesh_block *b)
 /* Velocity that a wall or an inflow of a block has at x, m/s. */
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w);
-/* mesh_given.c: status of the cells in m->given; what lies deep in it becomes a hole; no psi passes
- * the faces of imposed cells. */
+/* mesh_given.c: sets the status of the cells in m->given; what lies deep in it becomes a hole; psi
+ * does not pass the faces of imposed cells. */
 void mesh_given_mark(struct mesh *m);
 /* Whether all corners of a cell lie in one of the boxes, some periods away. */
 bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c);
 void mesh_given_trim(struct mesh *m);
 void mesh_given_close(struct mesh *m);
-/* mesh_metrics.c: open, as sides have it. */
+/* mesh_metrics.c: sets open as the sides have it. */
 void mesh_open_faces(struct mesh *m);
-/* mesh_recut.c: whether other cells lie in these boxes, as many as before, than in m->given; blocks
- * cut around them. Where blocks overlap m->search is there; m->trouble, see overset.h. Collective.
- */
+/* mesh_recut.c: whether the cells in these boxes, as many boxes as before, are others than those in
+ * m->given; mesh_recut cuts the blocks anew around them. Where blocks overlap m->search must exist;
+ * m->trouble as in overset.h. Collective. */
 bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3]);
 void mesh_recut(struct mesh *m, const double (*box)[2][3]);
 /* The computed neighbours of an imposed cell c of this rank whose mean its psi is, as steps along
  * the indices; their number, 0: none is near. */
 enum { MESH_SOURCES = 12 };
+/* The computed neighbours whose mean is psi of the imposed cell c of this rank, as offsets along
+ * the indices; returns their number, 0: none is near. */
 int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3]);
 
-/* mesh_create.c: the mesh of these blocks (borrowed, they must outlive it); NULL if there are
- * faults. Cells within the n boxes (lo, hi) are given.
- * Collective. */
+/* mesh_create.c: the mesh of these blocks, which must outlive it; cells in the n boxes (lo, hi) are
+ * imposed. NULL if there are faults. Owned by the caller (mesh_free). Collective over r->comm. */
 struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int n,
                          const double (*box)[2][3], struct faults *f);
 void mesh_free(struct mesh **m);
-/* That which was left for the same case and boxes, else a new one; leaves one to who takes it next.
- */
+/* The mesh that mesh_leave left, if it is of the same case and boxes and its blocks do not move,
+ * else a new one: so that checks and the run make it once. */
 struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
                        const double (*box)[2][3], struct faults *f);
 void mesh_leave(struct mesh **m);
 double *mesh_field(const struct mesh *m);
-/* What the local cells are, from what the blocks' are. */
+/* Sets the status of local cells, ghosts included, from that of the blocks. */
 void mesh_set_status(struct mesh *m);
-/* Rank and place there of a real cell, or of a ghost behind one side of the block. */
+/* Rank and index there of a real cell, or of a ghost behind one side of the block. */
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place);
-/* Number of a real cell's row among all rows, ordered by ranks; first and number of a rank's. */
+/* Number of a real cell's matrix row, ordered by ranks; mesh_rows: the first and the number of
+ * those of a rank. */
 int64_t mesh_row(const struct mesh *m, int block, const int *cell);
 void mesh_rows(const struct mesh *m, int rank, int64_t *first, int64_t *n);
 
-/* mesh_map.c: vertices of a block with all layers behind sides; false: a fault was added. */
+/* mesh_map.c: makes the vertices of a block with all layers behind its sides; false: a fault was
+ * added. */
 bool mesh_map_vertices(const struct run *r, struct faults *f, struct mesh_block *b);
-/* Place and derivatives dx[a][c] = d x_c / d xi_a at xi (0 to 1) of a cell, also behind sides. */
+/* Position x and derivatives dx[a][c] = d x_c / d xi_a at xi (0 to 1) of a cell, also behind sides.
+ * The map is smooth across cells. */
 void mesh_map_point(const struct mesh_block *b, int dim, const int *cell, const double *xi,
                     double *x, double dx[3][3]);
 double mesh_determinant(double dx[3][3]);
@@ -185,20 +196,21 @@ static inline int64_t mesh_vertex(const struct mesh_block *b, int i, int j, int 
            (int64_t)b->nv[0] * ((j - b->v0[1]) + (int64_t)b->nv[1] * (k - b->v0[2]));
 }
 
-/* mesh_walls.c: sides that have no kind of their own and lie on a side of the domain take its wall.
- */
+/* mesh_walls.c: gives sides that have no kind of their own and lie on a side of the domain the kind
+ * of its wall. */
 void mesh_take_walls(const struct run *r, struct mesh *m);
 
-/* mesh_join.c: finds the faces that meet, sets the vertices behind them. */
+/* mesh_join.c: finds the faces of blocks that meet, and sets the vertices behind them; false:
+ * faults were added. */
 bool mesh_join_blocks(const struct run *r, struct faults *f, struct mesh *m);
-/* The real cell at indices that may lie behind joined sides; move: to be added to its places.
- * false: behind another kind of side. */
+/* Replaces block and cell, whose indices may lie behind joined sides, by the real cell; move is
+ * added to its coordinates. false: it lies behind another kind of side. */
 bool mesh_resolve(const struct mesh *m, int *block, int *cell, double *move);
 
-/* mesh_metrics.c: of the local parts, as the blocks are made. */
+/* mesh_metrics.c: computes S, G and V of the local parts, of the blocks as they are made. */
 void mesh_metrics(struct mesh *m);
-/* int (x - o) cross dS over the lower face along a of cell i: as the vectors of faces, these of a
- * cell's six faces sum to zero. */
+/* Integral of (x - o) cross dS over the lower face along a of cell i: as for the area vectors, the
+ * sum over a cell's six faces is zero. */
 void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, const double *o,
                       double *R);
 
@@ -209,15 +221,18 @@ struct mesh_request { /* a place wants a value */
     int64_t in, out;
     const double *weight;
 };
+/* mesh_halo.c: makes an exchange for n values that this rank wants. Collective. */
 void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
                           const struct mesh_request *request);
 void mesh_exchange_free(struct mesh_exchange *x);
+/* Exchanges nf fields. Collective. */
 void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f);
-/* The same into other arrays than those that give. */
+/* The same, writing into other arrays than those that are sent. */
 void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f,
                       double *const *to);
 void mesh_halo_create(struct mesh *m);
-/* Ghosts behind joined sides and between ranks, and the fringe. */
+/* mesh_halo fills the ghosts behind joined sides and between ranks, mesh_fill also the fringe of
+ * overlaps. Collective. */
 void mesh_fill(struct mesh *m, int nf, double *const *f);
 void mesh_halo(struct mesh *m, int nf, double *const *f);
 

@@ -18,6 +18,7 @@ enum mesh_mapping {
     MAPPING_FILE
 };
 
+/* The keys of one block. */
 struct mesh_block_params {
     char name[PARAM_TEXT_SIZE];
     int mapping;
@@ -25,12 +26,12 @@ struct mesh_block_params {
     double min[3], max[3]; /* m: of a box before its rotation; z of an annulus */
     double centre[3];      /* m: of rotation, of an annulus, of the walls' spin */
     double angle;          /* degrees about z */
-    double focus[3];       /* m: where stretched cells are finest */
+    double focus[3];       /* m: where the cells of a stretched block are finest */
     double stretch[3];     /* strength; 0: uniform; < 0: finer towards both ends */
     double radius[3];      /* m: inner, outer */
     double arc[3];         /* degrees: first, last */
     double shear;          /* dx/dy */
-    double wave;           /* displacement over the sides' lengths */
+    double wave;           /* amplitude of a wavy displacement over the sides' lengths */
     char file[PARAM_TEXT_SIZE];
     int zone;                                     /* block of a file, from 1 */
     int i_min, i_max, j_min, j_max, k_min, k_max; /* enum mesh_side */
@@ -47,15 +48,16 @@ struct mesh_blocks {
     const struct mesh_block_params *of; /* borrowed from case/ for the whole run */
 };
 
-/* Whether one of the block's own sides is of this kind. */
+/* Whether one of the block's own sides is of this kind, walls of the domain's sides left out. */
 bool mesh_block_has(const struct mesh_block_params *b, enum mesh_side kind);
 /* Whether the forces on a side of the block count as those on its body: on a no-slip wall, and on a
- * slip side that does not lie on a side of the domain. */
+ * slip side that does not lie on a side of the domain. mesh_block_is_body: whether any side
+ * does. */
 bool mesh_side_is_body(const struct run *r, const struct mesh_block_params *b, int side);
 bool mesh_block_is_body(const struct run *r, const struct mesh_block_params *b);
 /* Whether one of the blocks has a motion of its own. */
 bool mesh_blocks_move(const struct mesh_blocks *all);
-/* Adds a fault of the block's key. */
+/* Adds a fault at the block's key. */
 void mesh_fault(const struct run *r, struct faults *f, const struct mesh_block_params *b,
                 const char *key, const char *fmt, ...) __attribute__((format(printf, 5, 6)));
 

@@ -1,7 +1,8 @@
-/* mesh_motion.h - blocks that move as prescribed, rigidly: their places at a time, the velocity of
- * their cells. Volumes and the tensor G do not change; face vectors turn with the block. The flux
- * of the cells' own velocity through a face, w.S + omega.int r cross dS, is exact for its edges, so
- * that those of a cell sum to zero: a uniform flow stays uniform whatever the motion.
+/* mesh_motion.h - blocks that move rigidly as prescribed: their position at a time, the velocity of
+ * their cells. Volumes and the tensor G do not change; area vectors rotate with the block. The flux
+ * of the cells' own velocity through a face, w.S + omega.(integral of r cross dS), is exact for its
+ * edges, so that those of a cell sum to zero: a uniform flow stays uniform whatever the motion
+ * (geometric conservation).
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_MOTION_H
 #define FV_MESH_MOTION_H
@@ -9,8 +10,9 @@
 #include "../../common/scene/body_drive.h"
 #include "mesh.h"
 
+/* The motion of a block and of the blocks joined to it. */
 struct mesh_motion {
-    int block; /* whose key tells it; blocks joined to it move with it */
+    int block; /* the one whose key gives the motion */
     struct body_drive drive;
     struct body_motion now;
     double t;         /* s: of now */
@@ -20,18 +22,17 @@ struct mesh_motion {
     bool turns;       /* ever */
 };
 
-/* Motions of the blocks that have one and of those joined to them; false: faults were added. The
- * blocks are placed at time t. */
+/* Makes the motions and places the blocks at time t, s; false: faults were added. */
 bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, double t);
 void mesh_motion_free(struct mesh *m);
 /* After the metrics: what turns with the blocks. */
 void mesh_motion_metrics(struct mesh *m);
-/* Places vertices, centres, face vectors and the flux of the grid at time t. Donors and what cells
- * are stay as they were. */
+/* Sets vertices, centres, area vectors and the flux of the grid for time t, s. Donors, and what
+ * each cell is, stay as they were. */
 void mesh_motion_place(struct mesh *m, double t);
-/* Velocity of a block's point at x, m/s. */
+/* Velocity of the block's material point that is at x now, m/s. */
 void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w);
-/* Where a point at x was when the block was made, and back. */
+/* Where the point that is at x now was when the block was made, m; mesh_motion_now: the inverse. */
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to);
 void mesh_motion_now(const struct mesh_block *b, const double *made, double *to);
 

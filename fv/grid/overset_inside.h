@@ -1,10 +1,11 @@
-/* overset_inside.h - what the files of overset.h share.
+/* overset_inside.h - what the files of overset.h share; private to them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_OVERSET_INSIDE_H
 #define FV_OVERSET_INSIDE_H
 
 #include "overset.h"
 
+/* The cells of one block sorted into boxes, to find the one at a position. */
 struct bins {
     double lo[3], hi[3], size[3]; /* m */
     int n[3];
@@ -13,6 +14,7 @@ struct bins {
     double *line[3]; /* rectilinear blocks: vertices along the axes before the rotation */
 };
 
+/* A fringe cell of this rank with its donors and the weights of both interpolations. */
 struct donor {
     int block, cell[3]; /* that receives */
     int from_block, from[3], linear_from[3];
@@ -21,6 +23,7 @@ struct donor {
     double weight[64], linear[8];
 };
 
+/* Bins of all blocks and the donors of this rank's fringe. */
 struct overset {
     struct bins bins[MESH_BLOCKS_MAX];
     int64_t n, room;
@@ -40,29 +43,32 @@ enum {
     OF_ANY = OF_KNOWN | 1 << CELL_FRINGE      /* all that have values */
 };
 
-/* overset_search.c: Newton's iteration for the place in the smooth map of a cell. */
+/* overset_search.c: Newton's iteration for the position xi of x in the smooth map of a cell; false:
+ * it does not converge. */
 bool overset_invert(const struct mesh_block *b, int dim, const int *cell, const double *x,
                     double *xi);
 
-/* overset_stencil.c: whether cells lo to hi - 1, which may lie behind joined sides, are all of this
- * set; the first cell of the stencil around a place, which stays among the cells, false: not all of
- * it are of this set; that and weights, see overset_weights. */
+/* overset_stencil.c. overset_all: whether cells lo to hi - 1, which may lie behind joined sides,
+ * are all of this set. overset_stencil: the first cell of the stencil around a position, kept among
+ * the cells; false: not all of it are of this set. overset_weigh: that and the weights, see
+ * overset_weights. */
 bool overset_all(const struct mesh *m, int block, const int *lo, const int *hi, int set);
 bool overset_stencil(const struct mesh *m, int block, const int *cell, const double *xi, int width,
                      int set, int *from);
 bool overset_weigh(const struct mesh *m, int block, const int *cell, const double *xi, int npoints,
                    int width, int set, int *from, double *weight);
-/* A linear stencil in the store of a cubic one: the same window, zeros around. */
+/* Puts a linear stencil into the store of a cubic one: the same window, zeros around. */
 void overset_widen(const struct mesh *m, struct donor *d);
-/* Place, on its owner, of a stencil's first cell: seen from the donor cell. */
+/* Index, on its owner, of the first cell of a donor's stencil. */
 int64_t overset_place(const struct mesh *m, const struct donor *d, int *rank);
 
+/* Whether cells continue behind a side of the block. */
 static inline bool overset_leads_on(const struct mesh_block *b, int side)
 {
     return b->side[side] == MESH_JOINED || b->side[side] == MESH_PERIODIC;
 }
 
-/* overset_cut.c: computed and interpolated cells of all blocks, anew. */
+/* overset_cut.c: counts computed and interpolated cells of all blocks again. */
 void overset_count(struct mesh *m);
 
 #endif

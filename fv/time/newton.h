@@ -102,6 +102,7 @@ int newton_columns(const struct fv_params *prm, const char **columns);
 int newton_values(const struct newton *w, double *values);
 void newton_summarise(const struct newton *w, double steps, struct summary *to);
 
+/* newton_residual.c. */
 double newton_dissipation(const struct fv *s);
 
 /* newton_vector.c: gives q, and what is cloned from it, faster sums. */

@@ -1,5 +1,7 @@
 /* riemann.h - states at the middle of a pair and the Riemann problem between them, for LANES pairs
- * at once. SPDX-License-Identifier: BSD-3-Clause */
+ * at once. Inline parts of the second pass (riemann_loops.h); velocities are along the line of
+ * centres.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_RIEMANN_H
 #define SPH_RIEMANN_H
 
@@ -108,7 +110,8 @@ INLINE struct weights weigh(vec r, vec Zi, vec Zj)
 }
 
 /* Star state [2.100] between p[0], v[0] at i and p[1], v[1] at j. v: velocities along x_j - x_i
- * times r, as the sums have them; r u_E and p_E come back. The bounds are in p_E only. */
+ * times r, as the sums have them; sets vE = r u_E and pE. The bound of the dissipation acts on p_E
+ * only. */
 INLINE void star(const struct dissipation *d, const struct weights *z, const vec p[2],
                  const vec v[2], vec *vE, vec *pE)
 {

@@ -1,6 +1,8 @@
-/* riemann_loops.h - the parts of the second pass of Riemann SPH that do not ask how far a kernel
- * reaches: riemann_rows.h puts them together for particles of one size, refinement/mixed_pairs.c
- * for sets of several. SPDX-License-Identifier: BSD-3-Clause */
+/* riemann_loops.h - the parts of the second pass of Riemann SPH that do not depend on how far a
+ * kernel reaches: riemann_rows.h combines them for particles of one size, refinement/mixed_pairs.c
+ * for sets of several sizes. Four loops over batches of neighbours: geometry, densities and
+ * pressures at the middle, velocities there, star states and fluxes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_RIEMANN_LOOPS_H
 #define SPH_RIEMANN_LOOPS_H
 
@@ -14,14 +16,14 @@
 
 enum { VISCOSITY_OFF = 2, BATCH = 8 };
 
-/* What an instance of the pass has fixed. Limiter and gamma are asked for as it runs: that cost
- * nothing measurable, and leaves 12 instances. */
+/* What is fixed at compile time for an instance of the pass. Limiter and gamma are tested at run
+ * time: that cost nothing measurable, and leaves 12 instances. */
 struct riemann_variant {
     int dim, scheme, viscosity;
     bool exact; /* Riemann problems */
 };
 
-/* Numbers of the whole pass. */
+/* Constants of the whole pass, from the parameters and the stage. */
 struct riemann_constants {
     struct tait eos;
     struct dissipation dissipation;
@@ -36,7 +38,7 @@ struct riemann_constants {
     double moment;             /* 1/4: of the moment of shift fluxes, see solve */
 };
 
-/* The particle of a row, the same in all lanes. */
+/* The particle whose row is treated, the same in all lanes. */
 struct riemann_own {
     vec x[3], u[3], rho, grho[3], gu[3][3], u0[3];
     vec w;      /* with the kernel's constant */
@@ -59,7 +61,7 @@ struct riemann_batch {
     vec x[2][BATCH]; /* rho/rho0 of both states, for exact problems */
 };
 
-/* What the pairs give to their first particle. */
+/* What the pairs contribute to the rates of their first particle: momentum, volume, mass. */
 struct riemann_sums {
     vec q[3], w, m;
 };

@@ -1,5 +1,5 @@
-/* riemann_rows.h - second pass of Riemann SPH over particles of one size, and its instances: of
- * linear Riemann problems in scheme_rates.c, of exact ones in scheme_exact.c.
+/* riemann_rows.h - second pass of Riemann SPH over particles of one size, and its instances: with
+ * linear Riemann problems in scheme_rates.c, with exact ones in scheme_exact.c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_RIEMANN_ROWS_H
 #define SPH_RIEMANN_ROWS_H
