@@ -63,7 +63,6 @@ struct fv_params {
 
 struct mesh_bc;        /* their sides; boundary/mesh_sides.h */
 struct poisson;        /* poisson/poisson.h */
-struct overset;        /* search in blocks; grid/overset.h */
 struct flow_ops;       /* operators/flow_ops.h */
 struct viscous_solver; /* operators/viscous_solver.h; NULL: no viscosity */
 struct moving;         /* blocks that move; time/moving.h; NULL: none do */
@@ -76,6 +75,7 @@ struct surface;        /* free surface; levelset.h; NULL: none */
 struct newton;         /* the implicit integrator; newton.h; NULL: another one */
 struct link;           /* place in a coupled job; fv_coupling.c; NULL alone */
 struct watches;        /* figures that a sound run keeps small; watches.h */
+struct fv_output;      /* what outputs keep from row to row; output/output.h */
 
 /* Gravity as the equations hold it; boundary/still.h. */
 struct gravity {
@@ -145,7 +145,7 @@ struct fv_partners {
     bool moves[3];                  /* one of these moves along the axis */
     double pressure;                /* Pa: theirs over ours, to be added in output */
     double *past[2][3];  /* m/s: u where the last coupling step began and the one before; NULL: no
-                          * box  moves */
+                          * box moves */
     unsigned char *born; /* of blocks with bdf2: 1: computed since born_at, when the box moved */
     double born_at;      /* s */
 };
@@ -162,7 +162,8 @@ struct fv {
     struct part whole; /* that of the uniform grid */
     const struct flow_ops *ops;
     struct exact exact;
-    double nu;
+    double nu; /* m^2/s */
+    struct gravity gravity;
     double t; /* s */
     struct fv_step step;
     struct flow_maxima max;
@@ -175,8 +176,7 @@ struct fv {
     struct stage_fields stages;
     struct viscous_solver *viscous;
     double *rhs[3], *delta[3]; /* scratch: right side, increment */
-    struct gravity gravity;
-    double *faces[3], *flux; /* scratch of what stands on faces; uniform cells: the first alone */
+    double *faces[3], *flux;   /* scratch of what stands on faces; uniform cells: the first alone */
     struct moving *moving;
     struct fringe_jumps fringe;
     double *free; /* blocks: 1: computed, 0: not */
