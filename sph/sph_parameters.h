@@ -34,6 +34,7 @@ enum sph_integrals {
     INTEGRALS_CENTROIDS, /* gamma closed */
     INTEGRALS_NUMERICAL  /* 2D: gamma by points, too */
 };
+enum sph_births { BIRTHS_FACES, BIRTHS_VERTICES };
 enum sph_integrator { INTEGRATOR_RK4, INTEGRATOR_J3, INTEGRATOR_AUTO }; /* time/runge_kutta.h */
 enum sph_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 
@@ -57,8 +58,7 @@ struct sph_params {
     double cfl;           /* CFL_a of [2.102] */
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
-    /* The free zone, given instead of box; box is then larger by the widths of the zones. */
-    double free[2][3]; /* instead of box: the free zone; box is the widths of the zones larger */
+    double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
     double box_velocity[3]; /* m/s */
     char box_follows[128];  /* name of a body, "": none */
     int walls;              /* enum sph_walls */
@@ -66,6 +66,7 @@ struct sph_params {
     int wall_squares;       /* along each side, of clipped ones */
     int surface;            /* enum sph_surface: the fluid has a free surface */
     int outer;              /* enum sph_outer: what the zones impose */
+    int births;             /* enum sph_births: where particles enter */
     double density_limit;   /* |rho/rho0 - 1| that ends the run; 0: as the flow has it */
     int packing;     /* steps of rearrangement of the first lattice; -1: as the walls need it */
     double noise;    /* random displacement of the first lattice, in dx */

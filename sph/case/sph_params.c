@@ -51,6 +51,7 @@ static const struct param rows[] = {
     PARAM(P, box_velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "velocity of the box: it moves through the fluid, particles are created ahead of it and removed behind it"),
     PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box moves, along the axes whose both sides are open; \"breaker\": it moves with the crest in it, above initial.level"),
     CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
+    CHOICE(P, births, "faces|vertices", "faces", "where particles enter at open sides: at the faces of a lattice, half a spacing inside; for comparison at their vertices, on the side (Kassiotis)"),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
     CHOICE(P, walls, "nfm|ghosts|fixed|auto", "auto", "normal flux (any polyline or mesh; scheme standard in viscous channels alone), mirrored ghosts (plane sides), for comparison fixed ghosts (Marrone; any polyline, 2D); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
     CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)"),
@@ -474,6 +475,22 @@ static void check_zones(const struct run *r, struct faults *f)
         }
 }
 
+/* At the end of a side a vertex collects the flow of a whole face instead of half [6.11]: five feed
+ * as five faces where there are four. */
+static void check_vertices(const struct run *r, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct sph_params *prm = sph_params_of(r);
+    int ends = 0;
+    for (int a = 0; a < d->dim; a++)
+        ends += !d->periodic[a] || prm->box[0][a] > d->min[a] || prm->box[1][a] < d->max[a];
+    if (given.births == BIRTHS_VERTICES && sph_params_zones(r, prm) &&
+        (ends > 1 || prm->surface == SURFACE_YES))
+        params_fault(r->params, f, "sph.births",
+                     "vertices need open sides without ends (all other axes periodic) and no free "
+                     "surface: take faces");
+}
+
 /* Whether a box that moves has a way that is foretold, and room for it. */
 static void check_way(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
@@ -710,6 +727,7 @@ void sph_params_check(const struct run *r, struct faults *f)
     check_steps(r, f);
     check_wall_model(r, f);
     check_fixed_ghosts(r, f);
+    check_vertices(r, f);
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     check_spacing(r, f);

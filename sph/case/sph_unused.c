@@ -115,6 +115,7 @@ static const struct {
     {"sph.wall_squares", CLIPPED, "sph.wall_integrals is not clipped"},
     {"sph.packing", PACKED, "without walls, bodies and noise the lattice is uniform already"},
     {"sph.extrema", PLANE, "centre lines are read in two dimensions only"},
+    {"sph.births", ZONES, "no side of the particles' region is open"},
     {"sph.outer", OUTER,
      "no side of the particles' region is open, or inlets and boxes say what is outside; sides "
      "needs an inlet or an outlet among the walls"},

@@ -40,7 +40,9 @@ static void remove_leavers(struct sph *s)
             }
         const double m = y[at_mass(o->dim)];
         const int to = wet_faces_for(s, side, y);
-        if (to >= 0)
+        if (o->law->shares)
+            openings_share(o, side, y, m);
+        else if (to >= 0)
             o->change[to] += m;
         else
             wet_faces_rain(s, y);
@@ -220,7 +222,7 @@ static void give_birth(struct sph *s)
         const int f = z->who[k];
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma), whole = rho * s->dxD;
         double held = o->mass[f] + o->change[f], *u = z->u + dim * k;
-        if (held < whole || o->share[f] == 0.0 ||
+        if (held < o->law->threshold * whole || o->share[f] == 0.0 ||
             (o->flux[f] <= 0.0 && held < openings_most_debt * whole))
             continue;
         if (o->room[f] < 0.5) { /* its middle lies behind a wall */
@@ -230,11 +232,10 @@ static void give_birth(struct sph *s)
         double x[3];
         const double *const of_box = z->speed;
         const int side = openings_place(o, f, x), a = side / 2;
-        const double over = fmin(held / whole - 1.0, most_over) * s->dx;
-        const double un = fabs(u[a] - of_box[a]);
+        const double over = fmin(held / whole - o->law->threshold, most_over) * s->dx;
+        const double un = fabs(u[a] - of_box[a]), deep = o->law->depth * s->dx + over;
         for (int b = 0; b < dim; b++)
-            x[b] += b == a ? openings_inward(side) * (0.5 * s->dx + over)
-                           : along(u[b] - of_box[b], un) * (0.5 * s->dx + over);
+            x[b] += b == a ? openings_inward(side) * deep : along(u[b] - of_box[b], un) * deep;
         keep_within(o, x);
         if (s->zones->surface)
             wet_faces_lower(s, 0.25 * s->dx, 1, x);

@@ -16,10 +16,16 @@
  * some 0.02 m/s at most. */
 static const double drain_time = 50.0;
 
+/* Faces; for comparison their vertices (Kassiotis) [6.11-6.12], on the side itself and with half of
+ * the mass. On a straight side without ends the mean over the faces at a vertex is one face. */
+static const struct birth_law at_faces = {0.5, 1.0, 0.5, false},
+                              at_vertices = {0.0, 0.5, 0.0, true};
+
 struct openings *openings_create(struct sph *s)
 {
     struct openings *o = NEW(struct openings, 1);
     o->dim = s->dim;
+    o->law = s->prm.births == BIRTHS_VERTICES ? &at_vertices : &at_faces;
     o->dx = s->dx;
     for (int a = 0; a < 3; a++) {
         o->lo[a] = s->lo[a];
@@ -104,6 +110,12 @@ void openings_find_room(const struct sph *s, struct openings *o)
 
 int openings_faces(const struct openings *o) { return o->first[2 * o->dim]; }
 
+/* Of the points that give birth, the row nearest to x along an axis. */
+static int row_of(const struct openings *o, int a, double x)
+{
+    return (int)floor((x - o->lo[a]) / o->dx + (0.5 - o->law->along));
+}
+
 int openings_beside(const struct openings *o, int f, double sense)
 {
     double x[3], most = -INFINITY;
@@ -115,7 +127,7 @@ int openings_beside(const struct openings *o, int f, double sense)
         if (b == side / 2)
             continue;
         for (int a = 0; a < o->dim; a++)
-            I[a] = (int)floor((x[a] - o->lo[a]) / o->dx) + (a == b ? way : 0);
+            I[a] = row_of(o, a, x[a]) + (a == b ? way : 0);
         if (o->bounded[b] && (I[b] < 0 || I[b] >= o->cells[b]) && o->open[2 * b + (way > 0)])
             beside = 2 * b + (way > 0);
         const int g = openings_face(o, beside, I);
@@ -181,7 +193,7 @@ int openings_place(const struct openings *o, int f, double *x)
             x[b] = side % 2 ? o->hi[b] : o->lo[b];
             continue;
         }
-        x[b] = o->lo[b] + (k % o->cells[b] + 0.5) * o->dx;
+        x[b] = o->lo[b] + (k % o->cells[b] + o->law->along) * o->dx;
         k /= o->cells[b];
     }
     return side;
@@ -191,8 +203,25 @@ int openings_face_at(const struct openings *o, int side, const double *x)
 {
     int I[3] = {0, 0, 0};
     for (int a = 0; a < o->dim; a++)
-        I[a] = (int)floor((x[a] - o->lo[a]) / o->dx);
+        I[a] = row_of(o, a, x[a]);
     return openings_face(o, side, I);
+}
+
+void openings_share(struct openings *o, int side, const double *x, double m)
+{
+    for (int corner = 0; corner < 1 << o->dim; corner++) {
+        double part = m;
+        int I[3] = {0, 0, 0};
+        if (corner >> (side / 2) & 1)
+            continue;
+        for (int b = 0; b < o->dim; b++) {
+            const double at = (x[b] - o->lo[b]) / o->dx - o->law->along, low = floor(at);
+            const bool high = corner >> b & 1;
+            I[b] = (int)low + high;
+            part *= b == side / 2 ? 1.0 : high ? at - low : 1.0 - (at - low);
+        }
+        o->change[openings_face(o, side, I)] += part;
+    }
 }
 
 /* A void that reaches an open side goes out as water: the outside knows no voids, and lets as much

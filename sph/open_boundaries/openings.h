@@ -16,10 +16,19 @@ static const double openings_most_debt = 1.5;
 /* Sign of the inward direction along the side's axis. */
 static inline double openings_inward(int side) { return side % 2 ? -1.0 : 1.0; }
 
+/* Where the points that give birth lie between two rows of the lattice, in dx, what mass they then
+ * hold, in particles, how deep the newborn stands, in dx, and whether a particle that leaves gives
+ * its mass to the points on either side of it. */
+struct birth_law {
+    double along, threshold, depth;
+    bool shares;
+};
+
 /* The faces of all open sides and their accumulators. All arrays are owned, one entry per face
  * where no other is said. */
 struct openings {
     int dim;
+    const struct birth_law *law; /* borrowed for ever; "face" below is such a point */
     double dx, lo[3], hi[3];
     bool open[6], bounded[3]; /* sides that are open; axes that do not repeat */
     int cells[3];             /* faces along each axis */
@@ -64,6 +73,8 @@ int openings_face_at(const struct openings *o, int side, const double *x);
 /* Face of a side at lattice indices `at' (that along the side's axis does not matter); indices of
  * bounded axes are clamped, of periodic ones wrapped. */
 int openings_face(const struct openings *o, int side, const int *at);
+/* Gives mass m of a particle that leaves at x to the points around it on that side, by distance. */
+void openings_share(struct openings *o, int side, const double *x, double m);
 /* Of the faces beside face f, around the ends of its side too, the one that holds most (sense 1) or
  * least (-1) after this step's changes, of those wet by more than a quarter; f itself if there is
  * none. */

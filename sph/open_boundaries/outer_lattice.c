@@ -52,7 +52,7 @@ static void list_side(struct sph *s, int side, const double *lo, const double *h
                 if (o->room[openings_face(o, side, I)] < 0.5)
                     continue;
                 for (int b = 0; b < o->dim; b++) {
-                    y[b] = o->lo[b] + (I[b] + 0.5) * o->dx;
+                    y[b] = o->lo[b] + (I[b] + (b == axis ? 0.5 : o->law->along)) * o->dx;
                     const int beyond = I[b] < 0 ? 2 * b : I[b] >= o->cells[b] ? 2 * b + 1 : -1;
                     if (beyond >= 0 && o->open[beyond])
                         y[b] += o->shift[openings_face(o, beyond, I)];

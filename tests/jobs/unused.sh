@@ -70,6 +70,7 @@ sph.outer exact
 sph.density_limit 1e-6
 sph.walls ghosts
 sph.wall_integrals clipped
+sph.births vertices
 sph.wall_squares 3
 sph.surface yes
 sph.packing 7

@@ -191,6 +191,53 @@ static void one_birth_a_face_and_spacing(void **state)
     sph_free(&c.s);
 }
 
+/* Columns created by a flow along x through a box that is periodic along y, and how far their rows
+ * lie from those of the lattice, in dx. */
+static double columns(int births, double way, double *off)
+{
+    struct sph_case c;
+    struct diagnosis d = {0};
+    sph_case_set(&c, 2, 50);
+    c.run.scene.initial.field = FIELD_UNIFORM;
+    c.run.scene.initial.velocity[0] = 1.0;
+    c.prm.transport = TRANSPORT_NONE;
+    c.prm.outer = OUTER_EXACT;
+    c.prm.births = births;
+    c.prm.box[0][0] = 0.1;
+    c.prm.box[1][0] = 0.9;
+    c.prm.box[1][1] = 1.0;
+    struct sph *s = c.s = sph_create(&c.run, &c.prm, NULL);
+    const double mass = total_mass(s);
+    while (s->t < way * s->dx)
+        integrate_step(s, way * s->dx, &d);
+    double born = (double)s->zones->openings->born;
+    MPI_Allreduce(MPI_IN_PLACE, &born, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    for (int i = 0; i < s->p.n; i++)
+        if (s->p.id[i] >= s->zones->openings->first_id)
+            off[0] =
+                fmax(off[0], fabs(fmod(s->p.y[i * s->p.nstate + 1] / s->dx + 0.25, 1.0) - 0.25));
+    *off = max_anywhere(*off);
+    assert_close(total_mass(s) / mass, 1.0, 1e-11);
+    assert_close(error_of_velocity(s, 1.0, 0.0), 0.0, 1e-12);
+    /* on a side particles stand 0.01 dx inside, lest rounding loses them */
+    assert_true(spacing(s) > (births == BIRTHS_FACES ? 1.0 : 0.99) - 1e-9);
+    sph_free(&c.s);
+    return born / 50.0;
+}
+
+/* At vertices, on the side, with half of the mass [6.12]: columns come half a spacing earlier and
+ * stand, a whole one from the last, in rows between those of the lattice. */
+static void vertices_shift_the_lattice(void **state)
+{
+    (void)state;
+    double off[2] = {0.0, 0.0};
+    assert_close(columns(BIRTHS_FACES, 10.75, off), 10.0, 0.0);
+    assert_close(off[0], 0.5, 1e-9);
+    assert_close(columns(BIRTHS_VERTICES, 10.75, off + 1), 11.0, 0.0);
+    assert_close(off[1], 0.0, 1e-9);
+    assert_close(columns(BIRTHS_VERTICES, 10.25, off + 1), 10.0, 0.0);
+}
+
 /* [6.8]: what is blended in is the depth into the transition over its width; across a side half of
  * it, for one of two characteristics leaves as it was. */
 static void blending_follows_the_depth(void **state)
@@ -509,6 +556,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(oblique_flow_leaves_no_clusters),
         cmocka_unit_test(a_box_moves_through_the_fluid),
         cmocka_unit_test(vortices_come_in_undisturbed),
+        cmocka_unit_test(vertices_shift_the_lattice),
         cmocka_unit_test(one_birth_a_face_and_spacing),
         cmocka_unit_test(blending_follows_the_depth),
         cmocka_unit_test(sides_of_the_domain_stay_closed),
