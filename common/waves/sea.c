@@ -62,21 +62,28 @@ double sea_spectrum(const struct wave_spec *of, double f)
 struct wave_component *sea_components(const struct wave_spec *of, double period, int *n)
 {
     const double df = 1.0 / of->repeat, peak = 1.0 / period;
-    const int first = (int)ceil(lowest * peak / df), last = (int)floor(highest * peak / df);
+    const int first = (int)ceil(lowest * peak / df);
+    int last = (int)floor(highest * peak / df);
+    while (last > first && /* what a current against the sea holds is not there */
+           isnan(waves_number_on(2.0 * M_PI * last * df, of->current, of->g, of->depth)))
+        last--;
     struct wave_component *c = NEW(struct wave_component, last - first + 1);
     uint64_t state = (uint64_t)of->seed;
     double sum = 0.0, squares = 0.0;
     *n = last - first + 1;
+    const double focus = of->at[0] - of->current * of->at[1]; /* in the water's frame */
     for (int i = 0; i < *n; i++) {
         const double f = (first + i) * df, S = sea_jonswap(f / peak, of->peak);
-        const double w = 2.0 * M_PI * f, k = waves_number(w, of->g, of->depth);
+        const double rest = 2.0 * M_PI * f,
+                     k = waves_number_on(rest, of->current, of->g, of->depth),
+                     w = rest - k * of->current;
         const double phase = 2.0 * M_PI * sea_uniform(&state);
         const bool random = of->kind == WAVE_SEA;
         c[i] = (struct wave_component){.a = random ? sqrt(2.0 * S) : S,
                                        .w = w,
                                        .k = k,
                                        .way = {1.0, 0.0},
-                                       .phase = random ? phase : w * of->at[1] - k * of->at[0]};
+                                       .phase = random ? phase : w * of->at[1] - k * focus};
         sum += c[i].a;
         squares += 0.5 * c[i].a * c[i].a;
     }

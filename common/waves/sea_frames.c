@@ -24,8 +24,9 @@ static void apply_gains(struct waves *w)
         sea_gains_create(&w->of, w->components[0].w, w->components[w->ncomponents - 1].w);
     for (int c = 0; c < w->ncomponents; c++) {
         struct wave_component *q = w->components + c;
-        const double complex G =
+        const double complex closed =
             sea_gains_at(is, q->w, q->way[0] * w->of.normal[0] + q->way[1] * w->of.normal[1]);
+        const double complex G = sea_gain_open(&w->of, q->k, closed);
         q->a *= cabs(G);
         q->phase -= carg(G);
     }
@@ -93,19 +94,20 @@ static void make_column(const struct waves *w, const double complex *e, struct w
 /* Phases turn from column to column of a row. */
 static void make_row(struct waves *w, double t, struct wave_table *to, int row)
 {
-    const double y = to->first_row + row * to->gap;
+    const double y = to->first_row + row * to->gap,
+                 first = to->first - w->of.current * t; /* in the water's frame */
     double complex *e = w->turning, *step = e + w->ncomponents;
     for (int c = 0; c < w->ncomponents; c++) {
         const struct wave_component *q = w->components + c;
         const double along = q->k * q->way[0];
-        e[c] = q->a * cexp(I * (along * to->first + q->k * q->way[1] * y - q->w * t + q->phase));
+        e[c] = q->a * cexp(I * (along * first + q->k * q->way[1] * y - q->w * t + q->phase));
         step[c] = cexp(I * (along * to->gap));
     }
     for (int i = 0; i < to->n; i++) {
         const size_t at = (size_t)row * (size_t)to->n + (size_t)i;
         make_column(w, e, to, at);
         if (w->second)
-            second_order_add(w->second, to->first + i * to->gap, t, to->eta + at,
+            second_order_add(w->second, first + i * to->gap, t, to->eta + at,
                              to->u + at * WAVE_NODES * 2);
         for (int c = 0; c < w->ncomponents; c++)
             e[c] *= step[c];
@@ -127,15 +129,15 @@ static void make_frame(struct waves *w, long frame, struct wave_table *to)
         make_row(w, t, to, row);
 }
 
-/* m/s: takes out what the sea carries along. */
-static double without_transport(const struct waves *w)
+/* m^2/s: what the sea carries along. */
+static double transport_of(const struct waves *w)
 {
     double flux = 0.0;
     for (int c = 0; c < w->ncomponents; c++) {
         const struct wave_component *q = w->components + c;
         flux += 0.5 * w->of.g * q->a * q->a * q->k / q->w * q->way[0];
     }
-    return -flux / w->of.depth;
+    return flux;
 }
 
 static void make_tables(struct waves *w)
@@ -144,7 +146,7 @@ static void make_tables(struct waves *w)
     const struct wave_component *low = w->components, *high = low + w->ncomponents - 1;
     w->longest = 2.0 * M_PI / low->k;
     w->shortest = 2.0 * M_PI / high->k;
-    w->dt = 2.0 * M_PI / high->w / 20.0;
+    w->dt = 2.0 * M_PI / fmax(high->w, high->w + high->k * of->current) / 20.0;
     const double gap = w->shortest / (of->spread > 0.0 ? 4.0 : 8.0);
     const int n = (int)ceil((of->window[0][1] - of->window[0][0]) / gap) + 5,
               rows =
@@ -171,8 +173,8 @@ static void make_second(struct waves *w)
         nodes[j] = wave_table_height(&w->table, 0, j);
     w->second = second_order_create(w->ncomponents, w->components, w->of.g, w->of.depth, nodes,
                                     w->of.kind == WAVE_FOCUSED);
-    if (w->of.kind == WAVE_SEA && w->of.closed)
-        w->current = without_transport(w);
+    w->transport = w->of.kind == WAVE_SEA ? transport_of(w) : 0.0;
+    w->current = w->of.closed ? -w->transport / w->of.depth : 0.0;
 }
 
 /* Frames of what evolves are its steps. */
@@ -193,8 +195,8 @@ static void make_field(struct waves *w)
         w->frames[f] = wave_field_table(w->field, of, w->longest);
         w->frame[f] = -1000000 - f;
     }
-    if (of->kind != WAVE_FOCUSED && of->closed)
-        w->current = without_transport(w);
+    w->transport = of->kind != WAVE_FOCUSED ? transport_of(w) : 0.0;
+    w->current = of->closed ? -w->transport / of->depth : 0.0;
 }
 
 /* Level of a group at its focus after t s. */
@@ -202,9 +204,11 @@ static double level_at_focus(struct waves *w, double t)
 {
     double eta = 0.0, u[WAVE_NODES * 2] = {0.0};
     for (int c = 0; c < w->ncomponents; c++)
-        eta += w->components[c].a * cos(w->components[c].w * t);
+        eta +=
+            w->components[c].a * cos((w->components[c].w + w->components[c].k * w->of.current) * t);
     if (w->second)
-        second_order_add(w->second, w->of.at[0], w->of.at[1] + t, &eta, u);
+        second_order_add(w->second, w->of.at[0] - w->of.current * (w->of.at[1] + t),
+                         w->of.at[1] + t, &eta, u);
     return eta;
 }
 

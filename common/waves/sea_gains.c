@@ -8,13 +8,20 @@
 
 enum { GAINS = 16, COSINES = 5 };
 
+double complex sea_gain_open(const struct wave_spec *of, double k, double complex gain)
+{
+    const double kh = fmin(k * of->depth, 300.0), s = sinh(kh),
+                 p = 4.0 * s * s / (kh * (sinh(2.0 * kh) + 2.0 * kh));
+    return of->open ? p + (1.0 - p) * gain : gain;
+}
+
 double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine)
 {
     if (!(of->zone > 0.0))
         return 1.0;
     const struct zone_response is =
         zone_response(omega, k, fabs(cosine), of->g, of->depth, of->zone, of->rate);
-    return cosine > 0.0 ? is.make : is.pass;
+    return sea_gain_open(of, k, cosine > 0.0 ? is.make : is.pass);
 }
 
 /* Gains of some frequencies and directions; of a long-crested sea the direction is one. */

@@ -12,6 +12,11 @@
  * has that cosine with the side's normal, that corrects for the zone; 1 without a zone. */
 double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine);
 
+/* The factor of a closed side made that of one through which the waves' flux goes (wave_spec.open):
+ * as a piston it makes the share p = 4 sinh^2 kh/(kh (sinh 2kh + 2kh)) of them by itself, and all
+ * else is in proportion to what is left. */
+double complex sea_gain_open(const struct wave_spec *of, double k, double complex gain);
+
 struct sea_gains;
 
 /* A table for angular frequencies from low to high, rad/s; owned by the caller (sea_gains_free). */

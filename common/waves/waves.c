@@ -46,6 +46,33 @@ double waves_number(double w, double g, double h)
     return k;
 }
 
+double waves_group_velocity(double k, double g, double h)
+{
+    const double kh = fmin(k * h, 300.0);
+    return 0.5 * waves_frequency(k, g, h) / k * (1.0 + 2.0 * kh / sinh(2.0 * kh));
+}
+
+/* The frequency at rest over k is concave, so Newton's steps from a smaller k never go too far. */
+double waves_number_on(double w, double U, double g, double h)
+{
+    if (U == 0.0)
+        return waves_number(w, g, h);
+    const double longest = sqrt(g * h) + U;
+    if (!(longest > 0.0))
+        return NAN;
+    double k = w / longest;
+    for (int n = 0; n < 200; n++) {
+        const double slope = waves_group_velocity(k, g, h) + U,
+                     step = (w - k * U - waves_frequency(k, g, h)) / slope;
+        if (!(slope > 0.0))
+            return NAN;
+        k += step;
+        if (fabs(step) < 1e-14 * k)
+            break;
+    }
+    return k;
+}
+
 /* Eulerian current with which a steady wave has no net transport, c = flux/depth: the flux in its
  * frame is its mean speed times the strip's height. */
 static double without_transport(const struct steady *w, double depth)
@@ -58,7 +85,7 @@ static double try_length(const struct wave_spec *of, double length, struct stead
 {
     if (!steady_create(w, false, of->depth, length, of->height, of->at[0], of->g, of->rho))
         return 0.0;
-    return w->c + (of->closed ? without_transport(w, of->depth) : 0.0);
+    return w->c + of->current + (of->closed ? without_transport(w, of->depth) : 0.0);
 }
 
 /* A given period: the length by secants, from that of linear theory. */
@@ -66,7 +93,7 @@ static bool find_steady(const struct wave_spec *of, struct steady *w)
 {
     if (of->length > 0.0)
         return try_length(of, of->length, w) > 0.0;
-    double length = 2.0 * M_PI / waves_number(2.0 * M_PI / of->period, of->g, of->depth);
+    double length = waves_length(of);
     double before = 1.02 * length, off = NAN;
     for (int it = 0; it < 30; it++) {
         const double c = try_length(of, length, w), now = c * of->period - length;
@@ -86,14 +113,46 @@ static bool find_steady(const struct wave_spec *of, struct steady *w)
 
 double waves_length(const struct wave_spec *of)
 {
-    return of->length > 0.0 ? of->length
-                            : 2.0 * M_PI / waves_number(2.0 * M_PI / of->period, of->g, of->depth);
+    return of->length > 0.0
+               ? of->length
+               : 2.0 * M_PI /
+                     waves_number_on(2.0 * M_PI / of->period, of->current, of->g, of->depth);
 }
 
 double waves_period(const struct wave_spec *of)
 {
     const double k = 2.0 * M_PI / waves_length(of);
-    return of->period > 0.0 ? of->period : 2.0 * M_PI / waves_frequency(k, of->g, of->depth);
+    return of->period > 0.0 ? of->period
+                            : 2.0 * M_PI / (waves_frequency(k, of->g, of->depth) + k * of->current);
+}
+
+/* Whether the energy of waves of that length, NAN: none of that period, comes forward. */
+static bool blocked(const struct wave_spec *of, double length, char *text, size_t size)
+{
+    const double U = of->current,
+                 along = waves_group_velocity(2.0 * M_PI / length, of->g, of->depth);
+    if (along + U > 0.0)
+        return false;
+    if (isnan(length))
+        snprintf(text, size,
+                 "%g m/s: no waves of %g s come forward against it: give a slower current, or a "
+                 "longer period",
+                 U, of->period);
+    else
+        snprintf(text, size,
+                 "%g m/s: the energy of waves of %.4g m moves at %.3g m/s over the water, so the "
+                 "current holds them: give a slower current, or longer waves",
+                 U, length, along);
+    return true;
+}
+
+/* Of a sea: what comes forward up to 1.5 times the peak's frequency is nearly all of it. */
+static bool sea_blocked(const struct wave_spec *of, char *text, size_t size)
+{
+    struct wave_spec high = *of;
+    high.length = 0.0;
+    high.period = waves_period(of) / 1.5;
+    return of->kind != WAVE_REGULAR && blocked(&high, waves_length(&high), text, size);
 }
 
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size)
@@ -112,6 +171,10 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
         return true;
     }
     const double length = waves_length(of), limit = waves_limit(of->depth, length);
+    *key = "waves.current";
+    if (of->current != 0.0 && (blocked(of, length, text, size) || sea_blocked(of, text, size)))
+        return true;
+    *key = "waves.height";
     /* a sea's highest waves are about twice its significant height */
     const double share = of->kind == WAVE_SEA ? 0.5 : steepest;
     if (of->height > share * limit) {
@@ -165,9 +228,11 @@ static void make_regular(struct waves *w)
     const struct wave_spec *of = &w->of;
     find_steady(of, &w->steady);
     const struct steady *s = &w->steady;
-    w->current = of->closed ? without_transport(s, of->depth) : 0.0;
+    const double back = without_transport(s, of->depth);
+    w->current = of->closed ? back : 0.0;
+    w->transport = -back * of->depth;
     w->length = w->shortest = w->longest = 2.0 * M_PI / s->k;
-    w->celerity = s->c + w->current;
+    w->celerity = s->c + w->current + of->current;
     w->period = w->length / w->celerity;
     w->crest = s->crest;
     w->trough = s->trough;
@@ -197,6 +262,7 @@ struct waves *waves_create(const struct wave_spec *of)
         make_regular(w);
     else
         sea_make(w);
+    w->speed += fabs(of->current);
     w->limit = waves_limit(of->depth, w->length);
     w->now = NAN;
     return w;
@@ -265,7 +331,20 @@ void waves_velocity(const struct waves *w, double x, double y, double z, double 
 {
     const double r = grown(w) * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
     wave_table_velocity(&w->table, place(w, x), y, z, u);
-    u[0] = r * (u[0] + w->current);
+    u[0] = r * (u[0] + w->current) + w->of.current;
     u[1] *= r;
     u[2] *= r;
+}
+
+/* By Simpson's rule over heights. */
+double waves_flux(const struct waves *w, double x)
+{
+    enum { PARTS = 32 };
+    const double eta = waves_eta(w, x, 0.0), dz = (w->of.depth + eta) / PARTS;
+    double sum = 0.0, u[3];
+    for (int j = 0; j <= PARTS; j++) {
+        waves_velocity(w, x, 0.0, j * dz - w->of.depth, u);
+        sum += u[0] * (j == 0 || j == PARTS ? 1.0 : j % 2 ? 4.0 : 2.0);
+    }
+    return sum * dz / 3.0;
 }

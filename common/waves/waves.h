@@ -3,8 +3,9 @@
  * transport (closed tank) or with water that is on average at rest below the troughs. Sea and
  * focused group: sums of linear waves; with order 2 also the waves bound to their pairs
  * (second_order.h). Above the still level velocities are those at it to first order, and are
- * continued by their slope there to second order. Or both evolve nonlinearly (wave_field.h). x is
- * along the direction of travel, y across it, z up from the still level.
+ * continued by their slope there to second order. Or both evolve nonlinearly (wave_field.h). On a
+ * uniform current they are those of still water in its frame: at rest omega = sqrt(g k tanh kh)
+ * + k current. x is along the direction of travel, y across it, z up from the still level.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVES_H
 #define COMMON_WAVES_H
@@ -30,7 +31,8 @@ struct wave_spec {
     double at[2];          /* m, s: of a crest (regular), of the focus, of a file's beginning */
     char file[512];        /* path of a file of waves */
     double start;          /* periods over which the waves grow from nothing; 0: none */
-    bool closed;           /* no net transport */
+    double current;        /* m/s: of the water under them, along their direction */
+    bool closed;           /* they add no net transport to it; else it is the mean below troughs */
     double peak;           /* -: JONSWAP's gamma */
     int seed;              /* of the phases of a sea */
     double repeat;         /* s: after which a sea repeats itself */
@@ -42,6 +44,7 @@ struct wave_spec {
      * length, m, the rate at its side, 1/s, and the side's inner normal along and across the
      * direction of travel. Length 0: no zone, velocities are those of the waves. */
     double zone, rate, normal[2];
+    bool open; /* the flux of the waves goes through that side, uniform over the water */
 };
 
 /* A linear wave: eta = a cos(k (x cos b + y sin b) - w t + phase). */
@@ -59,8 +62,8 @@ struct waves {
     double limit;                    /* m: height of the highest wave of that length and depth */
     double shortest, longest;        /* m: lengths of what carries energy */
     struct steady steady;
-    double
-        current; /* m/s: uniform current so that there is no net transport; regular: of the frame */
+    double current;     /* m/s: uniform, so that there is no net transport; regular: of the frame */
+    double transport;   /* m^2/s: that of the waves on water that is still in the mean */
     double gain, ahead; /* factor of a regular wave's velocities, m by which they are ahead */
     struct wave_component *components;
     int ncomponents;
@@ -79,7 +82,8 @@ struct waves {
 /* true if there is no such wave: *key (static) is the key at fault and text[size] the rest of the
  * message "waves.KEY: TEXT". */
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size);
-/* Period of the peak, s; from the length by linear theory where that is given. */
+/* Period of the peak for who is at rest, s; from the length by linear theory where that is given.
+ */
 double waves_period(const struct wave_spec *of);
 /* Length of the peak, m, or of a regular wave, by linear theory. */
 double waves_length(const struct wave_spec *of);
@@ -93,6 +97,8 @@ void waves_share(struct waves *w, const struct waves *owner);
 void waves_at(struct waves *w, double t);
 /* Level over the still one at x, y, m. */
 double waves_eta(const struct waves *w, double x, double y);
+/* Flux of volume along the waves through the water at x, m^2/s, as a sum over heights. */
+double waves_flux(const struct waves *w, double x);
 /* Velocity at (x, y), z: along, up, across, m/s. */
 void waves_velocity(const struct waves *w, double x, double y, double z, double u[3]);
 /* Height from trough to crest of the highest wave of that length over that depth, m (Fenton
@@ -100,7 +106,13 @@ void waves_velocity(const struct waves *w, double x, double y, double z, double 
 double waves_limit(double depth, double length);
 /* Wave number, 1/m, of linear waves of the angular frequency omega, rad/s. */
 double waves_number(double omega, double g, double depth);
-/* Angular frequency, rad/s, of linear waves of the wave number k, 1/m. */
+/* Wave number, 1/m, of linear waves whose angular frequency at rest is omega, rad/s, on water that
+ * moves along with them at `current' m/s (against them: < 0). NAN: the current holds them, since
+ * their energy moves slower over the water than the water comes. */
+double waves_number_on(double omega, double current, double g, double depth);
+/* Velocity of the energy of linear waves over the water, m/s. */
+double waves_group_velocity(double k, double g, double depth);
+/* Angular frequency, rad/s, of linear waves of the wave number k, 1/m, in the water's frame. */
 double waves_frequency(double k, double g, double depth);
 /* Amplitude of a regular wave or of a group's focus, m; of a sea that of its highest waves. */
 double waves_amplitude(const struct wave_spec *of);

@@ -64,6 +64,120 @@ static void tables_give_the_wave(void **state)
     }
 }
 
+/* Numbers of waves on a current satisfy omega = sqrt(g k tanh kh) + k U; deep water against them is
+ * held from g/(4 |U|) on; the group velocity is the slope of the frequency. */
+static void currents_change_lengths(void **state)
+{
+    (void)state;
+    static const double U[] = {0.3, -0.2, -0.6, 2.0};
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 3; j++) {
+            const double h = 0.16 * pow(10.0, j), omega = 2.0 + 0.5 * i,
+                         k = waves_number_on(omega, U[i], 9.81, h), e = 1e-4 * k;
+            near(waves_frequency(k, 9.81, h) + k * U[i], omega, 1e-12 * omega);
+            near(waves_group_velocity(k, 9.81, h),
+                 (waves_frequency(k + e, 9.81, h) - waves_frequency(k - e, 9.81, h)) / (2.0 * e),
+                 1e-7);
+            assert_true(waves_group_velocity(k, 9.81, h) + U[i] > 0.0);
+        }
+    const double held = 9.81 / (4.0 * 0.5);
+    assert_false(isnan(waves_number_on(0.999 * held, -0.5, 9.81, 100.0)));
+    assert_true(isnan(waves_number_on(1.001 * held, -0.5, 9.81, 100.0)));
+    assert_true(isnan(waves_number_on(1.0, -1.3, 9.81, 0.16))); /* faster than long waves */
+}
+
+/* Of one period at rest: that of still water of the length found, seen from the water. */
+static void currents_carry_the_wave(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const double U = i & 1 ? -0.2 : 0.3;
+        struct wave_spec of = spec(WAVE_REGULAR, 0.03, 0.0, 0.16), still = of;
+        of.period = 1.0;
+        of.current = U;
+        of.closed = still.closed = i < 2;
+        struct waves *w = waves_create(&of);
+        near(w->period, 1.0, 1e-9);
+        still.length = w->length;
+        struct waves *s = waves_create(&still);
+        near(w->celerity, s->celerity + U, 1e-9);
+        near(w->transport, s->transport, 1e-12);
+        for (int n = 0; n < 20; n++) {
+            const double t = 0.3 * n, x = 0.17 * n, z = -0.007 * n;
+            double u[3], v[3];
+            waves_at(w, t);
+            waves_at(s, t);
+            near(waves_eta(w, x, 0.0), waves_eta(s, x - U * t, 0.0), 1e-9);
+            waves_velocity(w, x, 0.0, z, u);
+            waves_velocity(s, x - U * t, 0.0, z, v);
+            near(u[0], v[0] + U, 1e-8);
+            near(u[1], v[1], 1e-8);
+        }
+        waves_free(&s);
+        waves_free(&w);
+    }
+}
+
+/* A group meets at its place and time over the ground, with its bound waves; each component runs
+ * at its frequency at rest. */
+static void groups_focus_on_currents(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        struct wave_spec of = spec(WAVE_FOCUSED, 0.03, 0.0, 0.5);
+        of.period = 1.2;
+        of.order = 1 + i / 2;
+        of.current = i & 1 ? -0.15 : 0.3;
+        of.at[0] = 1.5;
+        of.at[1] = 7.0;
+        struct waves *w = waves_create(&of);
+        double best = 0.0, at[2] = {0.0, 0.0};
+        for (int n = -40; n <= 40; n++)
+            for (int m = 0; m <= 60; m++) {
+                waves_at(w, 7.0 + 0.02 * n);
+                if (waves_eta(w, 0.05 * m, 0.0) > best) {
+                    best = waves_eta(w, 0.05 * m, 0.0);
+                    at[0] = 0.05 * m;
+                    at[1] = 7.0 + 0.02 * n;
+                }
+            }
+        near(at[0], 1.5, 0.051);
+        near(at[1], 7.0, 0.021);
+        near(best, w->crest, 0.01 * w->crest);
+        for (int c = 0; c < w->ncomponents; c++) {
+            const struct wave_component *q = w->components + c;
+            const double rest = (q->w + q->k * of.current) * of.repeat / (2.0 * M_PI);
+            near(rest, round(rest), 1e-6);
+        }
+        waves_free(&w);
+    }
+}
+
+static void currents_that_hold_waves_are_refused(void **state)
+{
+    (void)state;
+    char text[256];
+    const char *key = "";
+    struct wave_spec of = spec(WAVE_REGULAR, 0.01, 0.0, 0.5);
+    of.period = 1.0;
+    of.current = -0.5;
+    assert_true(waves_refuse(&of, &key, text, sizeof text));
+    assert_string_equal(key, "waves.current");
+    of.period = 2.0;
+    assert_false(waves_refuse(&of, &key, text, sizeof text));
+    of.kind = WAVE_SEA; /* half as long again in frequency is held */
+    of.current = -0.6;
+    of.length = 2.0;
+    of.period = 0.0;
+    assert_true(waves_refuse(&of, &key, text, sizeof text));
+    of.current = -0.2;
+    assert_false(waves_refuse(&of, &key, text, sizeof text));
+    of = spec(WAVE_REGULAR, 0.01, 0.3, 0.5);
+    of.current = -0.5;
+    assert_true(waves_refuse(&of, &key, text, sizeof text));
+    assert_string_equal(key, "waves.current");
+}
+
 /* Depth and phase averages of a closed tank's wave: int u dz over a period is 0. */
 static void closed_tanks_transport_nothing(void **state)
 {
@@ -289,6 +403,10 @@ static void paddles_have_biesels_ratios(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(tables_give_the_wave),
+                                       cmocka_unit_test(currents_change_lengths),
+                                       cmocka_unit_test(currents_carry_the_wave),
+                                       cmocka_unit_test(groups_focus_on_currents),
+                                       cmocka_unit_test(currents_that_hold_waves_are_refused),
                                        cmocka_unit_test(closed_tanks_transport_nothing),
                                        cmocka_unit_test(periods_are_met),
                                        cmocka_unit_test(waves_that_break_are_refused),
