@@ -15,6 +15,7 @@
 #include "../files/h5.h"
 #include "../files/xdmf.h"
 #include "../scene/picture.h"
+#include "../scene/scene_currents.h"
 #include "../scene/scene_fluid.h"
 #include "../scene/scene_mesh.h"
 #include "../scene/scene_openings.h"
@@ -157,6 +158,8 @@ static int read_case(struct life *l)
         read_meshes(l);
     if (l->faults.n == 0)
         wave_makers_resolve(&r->scene, r->motions);
+    if (l->faults.n == 0)
+        scene_currents_resolve(&r->scene, r->motions);
     if (l->faults.n == 0)
         wave_gauges_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)

@@ -103,6 +103,8 @@ static const struct param waves_rows[] = {
     PARAM(P, direction, "-", "0.0", -360, 360, "degrees about the vertical in which they run; 0: along the first horizontal axis, +x; 90: along the second; 180: -x"),
     PARAM(P, at,        "-", "(0.0, 0.0)", -1e9, 1e9, "(m, s): place along the direction and time of a crest of a regular wave, of the focus of a group, of the beginning of a file"),
     PARAM(P, start,     "-", "2.0", 0, 100, "periods over which the waves grow from water at rest; 0: at once"),
+    PARAM(P, current,   "m/s", "0.0", -1e3, 1e3, "uniform current along the direction on which waves run (against them: negative): periods are those at rest; the sides behind the zones are open then, and initial.velocity is the current"),
+    PARAM(P, closed,    "-", "true", 0, 0, "they carry no water of their own, as between closed walls: the mean velocity below the troughs is less than the current by that; false: it is the current"),
     PARAM(P, zone,      "m", "0.0", 0, 1e9, "length of the zone before each side of kind wave or beach; 0: one wave length, 1.5 where the water is deep (kh > 2), for a sea 1.5 times its peak's"),
     PARAM(P, peak,      "-", "3.3", 1, 10, "JONSWAP's gamma: how sharp the peak of the spectrum is"),
     PARAM(P, repeat,    "s", "0.0", 0, 1e9, "after which a sea repeats itself; 0: 25, 50, 100, .. periods, what the run and 10 periods need: give it if the run may go on to a later end"),

@@ -175,6 +175,8 @@ struct scene {
         double direction;      /* degrees about the vertical */
         double at[3];          /* m, s: of a crest; the third is not used */
         double start;          /* periods of the soft start */
+        double current;        /* m/s: of the water under the waves, along them */
+        bool closed;           /* the waves add no net transport to it */
         double zone;           /* m: length of the zone; 0: follows from the waves */
         double peak, repeat; /* - peak factor of the spectrum; s after which a sea repeats itself */
         double spread;       /* -: s of cos^2s(b/2); 0: long crests */

@@ -11,6 +11,7 @@
 #include "../waves/second_order.h"
 #include "../waves/wave_field.h"
 #include "../waves/zone_gain.h"
+#include "scene_currents.h"
 #include "scene_fluid.h"
 #include "wave_maker.h"
 
@@ -136,7 +137,8 @@ struct wave_spec scene_waves_spec(const struct scene *s)
                            .rho = s->fluid.rho,
                            .at = {w->at[0], w->at[1]},
                            .start = w->start,
-                           .closed = true,
+                           .current = w->current,
+                           .closed = w->closed,
                            .peak = w->peak,
                            .seed = w->seed,
                            .spread = w->spread,
@@ -259,6 +261,7 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
         if (s->walls[k].zone != ZONE_NONE)
             check_zone(s, p, k, f);
     wave_makers_check(s, p, f);
+    scene_currents_check(s, p, f);
     if (!s->has_waves || f->n > before)
         return;
     if (!scene_makes_waves(s) && !scene_has_wave_maker(s)) {
@@ -342,6 +345,13 @@ static void describe_made(const struct scene *s, const struct waves *w)
         log_say("a zone's waves take %.1g s a period to compute on each rank", sea_seconds(w));
 }
 
+/* 1/s: of the zone on still water that a current makes of it. */
+static double still_rate(const struct scene *s, double rate)
+{
+    const struct wave_spec of = scene_waves_spec(s);
+    return scene_currents_rate(&of, rate);
+}
+
 void scene_waves_describe(const struct scene *s)
 {
     const double g = vec3_length(s->fluid.gravity), h = scene_waves_depth(s);
@@ -349,6 +359,7 @@ void scene_waves_describe(const struct scene *s)
         const struct wave_spec of = scene_waves_spec(s);
         struct waves *made = waves_create(&of);
         describe_made(s, made);
+        scene_currents_describe(s, made);
         waves_free(&made);
         wave_makers_describe(s);
     }
@@ -362,9 +373,11 @@ void scene_waves_describe(const struct scene *s)
             log_say("%s: %s over %g m, for waves of %g s", side, what, w->beach, w->beach_period);
             continue;
         }
-        const double number = waves_number(2.0 * M_PI / w->beach_period, g, h),
+        const double number = waves_number_on(2.0 * M_PI / w->beach_period, s->waves.current, g, h),
                      length = 2.0 * M_PI / number, rate = 4.0 * M_PI / w->beach_period,
-                     R = zone_response(0.5 * rate, number, 1.0, g, h, w->beach, rate).reflected;
+                     R = zone_response(waves_frequency(number, g, h), number, 1.0, g, h, w->beach,
+                                       s->has_waves ? still_rate(s, rate) : rate)
+                             .reflected;
         log_say("%s: %s over %.4g m, %.2g lengths of waves of %.4g s (%.3g m): %.2g %% of their "
                 "height comes back",
                 side, what, w->beach, w->beach / length, w->beach_period, length, 100.0 * R);

@@ -6,6 +6,7 @@
 #include "../base/mem.h"
 #include "../base/vec3.h"
 #include "../waves/wave_field_save.h"
+#include "scene_currents.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"
 
@@ -18,6 +19,7 @@ struct wave_zones {
         double rate;         /* 1/s: at the side */
         struct waves *waves; /* NULL: a beach; owned */
     } zone[6];
+    double current;                          /* m/s: along */
     double along[3], across[3], level, sign; /* of waves; height is sign times x[up] */
 };
 
@@ -25,7 +27,8 @@ static struct waves *waves_of(const struct scene *s, const struct wave_zones *z,
 {
     struct wave_spec of = scene_waves_spec(s);
     of.zone = fabs(z->zone[k].length);
-    of.rate = z->zone[k].rate;
+    of.rate = scene_currents_rate(&of, z->zone[k].rate);
+    of.open = scene_currents_flow(s);
     const double inward = z->zone[k].length > 0.0 ? 1.0 : -1.0;
     of.normal[0] = inward * z->along[z->zone[k].axis];
     of.normal[1] = inward * z->across[z->zone[k].axis];
@@ -44,6 +47,7 @@ struct wave_zones *wave_zones_create(const struct scene *s)
         z->sign = s->fluid.gravity[z->up] < 0.0 ? 1.0 : -1.0;
         z->level = scene_waves_level(s);
         scene_waves_direction(s, z->along, z->across);
+        z->current = s->waves.current;
     }
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
@@ -125,6 +129,13 @@ static void add_velocity(const struct wave_zones *z, int k, double rate, const d
     u[z->up] += rate * z->sign * v[1];
 }
 
+/* A beach brings the water to the current. */
+static void add_current(const struct wave_zones *z, double rate, double *u)
+{
+    for (int a = 0; a < 3; a++)
+        u[a] += rate * z->current * z->along[a];
+}
+
 double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
 {
     double rate = 0.0;
@@ -135,6 +146,8 @@ double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
         rate += r;
         if (r > 0.0 && z->zone[k].waves)
             add_velocity(z, k, r, x, u_w);
+        else if (r > 0.0 && z->current != 0.0)
+            add_current(z, r, u_w);
     }
     if (rate == 0.0)
         return 0.0;

@@ -96,6 +96,8 @@ waves.depth 0.9
 waves.direction 10.0
 waves.at (0.2,0.1)
 waves.start 1.0
+waves.current 0.1
+waves.closed false
 waves.zone 0.4
 waves.peak 2.0
 waves.repeat 50.0
