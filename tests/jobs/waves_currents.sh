@@ -73,5 +73,8 @@ refused 's/side = "x_max"; kind = "wave"/side = "x_max"/' 'waves.current: the wa
 refused 's/side = "x_max"; kind = "wave"/side = "x_max"; kind = "outflow"/' 'waves.current: the water comes in at one end'
 refused 's/height = 0.03;/& kind = "sea"; evolve = "full";/' 'waves.current: it is for regular waves and for sums of one direction'
 refused 's/^fv:/gauges: ( { name = "tank"; probes = "g0 g1"; } );\n&/' 'gauges: on a current waves that come back have another length'
+sed 's/^fv:.*/sph: { dx = 0.02; };/; s/, { side = "y_max"; }//' against.cfg >grains.cfg
+"$b/sph" grains.cfg --check >grains.log 2>&1 && bad "accepted by sph"
+grep -q 'waves.current: fv makes waves on a current' grains.log || bad "sph: a current is not refused" grains.log
 echo "waves_currents: $failed faults"
 [ $failed = 0 ]
