@@ -58,7 +58,7 @@ back=$(last off/fv-series.csv 'volume put back')
 if "$b/sph" "$root/cases/sphere_3d/case.cfg" --check 2>&1 | grep -q 'built without a reader'; then
     echo "note: this build has no reader of meshes: no body of triangles is looked at"
 else
-    awk -v lo="1.0 0.24 0.3" -v hi="1.4 0.56 0.7" -f "$root/tests/jobs/stl.awk" >cube.stl
+    stl "1.0 0.24 0.3" "1.4 0.56 0.7" >cube.stl
     cat >cube.cfg <<'CASE'
 format = 1;
 time:    { end = 0.4; };

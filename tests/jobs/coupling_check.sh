@@ -98,7 +98,7 @@ refuses "boxes whose zones overlap" 'overlaps the box of group sph_right' "$two"
 refuses "one of two boxes that moves" 'one that moves could meet another' "$two" -p 'sph.box_velocity=(0.1,0)'
 
 # surfaces of triangles: where the particles are
-awk -v lo="0.4 0.4 0.4" -v hi="0.6 0.6 0.6" -f "$root/tests/jobs/stl.awk" >cube.stl
+stl "0.4 0.4 0.4" "0.6 0.6 0.6" >cube.stl
 solid() { # LISTS of a confined tank, a cube in it
     cat >solid.cfg <<CASE
 format = 1;

@@ -117,8 +117,8 @@ family sea_fv 'kinetic energy' 1e-6 1 "1 2" 1.0 sea_fv.cfg
 family sea_sph 'kinetic energy' 1e-3 2 "1 2" 0.4 sea_sph.cfg
 
 # meshes: a column of water in a tank without lid, an obstacle; the restart file knows its meshes
-awk -v lo="0 0 0" -v hi="1 0.4 0.6" -v drop=zp -f "$root/tests/jobs/stl.awk" >tank.stl
-awk -v lo="0.62 0.13 0" -v hi="0.78 0.27 0.17" -v drop=zm -f "$root/tests/jobs/stl.awk" >block.stl
+stl "0 0 0" "1 0.4 0.6" zp >tank.stl
+stl "0.62 0.13 0" "0.78 0.27 0.17" zm >block.stl
 cat >meshes.cfg <<'END'
 format = 1;
 time:    { end = 0.1; };
@@ -160,7 +160,7 @@ refuses() { # SAYS ARGS...
 refuses 'sph.dx = 0.02.* in the file, 0.04.* here' dam.cfg -o dam-half -n 1 -p sph.dx=0.04
 refuses 'is of 64 x 16 x 1 cells, the case of 32 x 16 x 1' "$root/cases/stress/outflow_fv.cfg" -o outflow-half -n 1 -p "fv.cells=(32,16)"
 if [ -d meshes-half ]; then
-    awk -v lo="0.62 0.13 0" -v hi="0.78 0.27 0.18" -v drop=zm -f "$root/tests/jobs/stl.awk" >block.stl
+    stl "0.62 0.13 0" "0.78 0.27 0.18" zm >block.stl
     refuses 'of another mesh block: its file, or scale' meshes.cfg -o meshes-half -n 1
 fi
 

@@ -441,7 +441,7 @@ every=
 [ $# -gt 0 ] || set -- dam channel float hinge touch mesh train group swirls
 for solid in "tank -0.8 0.8 zp" "cube -0.3 0.1" "other -0.5 0.3" "water -1 0.5"; do # NAME LOW HIGH [open face]
     echo "$solid" | while read -r name low high open; do
-        awk -v lo="$low $low $low" -v hi="$high $high $high" -v drop="$open" -f "$root/tests/jobs/stl.awk" >"$name.stl"
+        stl "$low $low $low" "$high $high $high" "$open" >"$name.stl"
     done
 done
 printf "0,0\n0.3,0\n0,0.4\n0,0\n" >other.csv
