@@ -7,6 +7,6 @@
 #include "../common/run/run.h"
 
 /* The only partner there is; its ctx is a struct cpl *. */
-extern const struct partner cpl_partner; /* ctx is a struct cpl * */
+extern const struct partner cpl_partner;
 
 #endif

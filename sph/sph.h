@@ -42,8 +42,7 @@ struct list_state {
     double skin_most; /* m: what ghosts are prepared for, and half a period has room for */
     /* List and ghosts belong to the positions of y. Whoever moves, adds or removes particles
      * outside of the stages clears it. */
-    bool ready;  /* list and ghosts belong to the positions of y; whoever moves, adds or removes
-                    particles outside a step clears it */
+    bool ready;
     bool sloped; /* prim and slope belong to y as well, and the next stage may take them as they are
                   */
 };
@@ -60,17 +59,14 @@ struct sph_step {
     /* m/s: U of the laws of shifting. With walls and a Riemann scheme 0.1 c0; else the largest |u|
      * so far (without walls relative to the drift, with walls at least nu/R), at most 0.1 c0 or,
      * without walls, 0.2 c0. */
-    double shift_speed;     /* m/s: U of the laws of shifting: largest |u| so far, without walls
-                               relative     to the mean velocity; with walls at least nu/R */
+    double shift_speed;
     double drift[3], stray; /* m/s: middle of the range of the velocities u0 in each direction,
                                largest |u0 - drift| */
     double dt_most;         /* s: largest next step [2.102-2.104] */
     /* kg: with refinement, of the fluid after the step, this rank. Levels take over from each other
      * across a width of one spacing of the coarser one, so that a lattice row that passes there
      * does not count at once. */
-    double mass; /* kg: with refinement, of the fluid after it, this rank. Levels take over
-                    from each other across a spacing of the coarser one, lest a row of a
-                    lattice that passes there count at once */
+    double mass;
 };
 
 /* Sums and maxima over all steps since the start. */

@@ -58,7 +58,8 @@ struct sph_params {
     double cfl;           /* CFL_a of [2.102] */
     double cfl_viscous;   /* CFL_v of [2.103] */
     double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
-    double free[2][3];    /* instead of box: the free zone; box is the widths of the zones larger */
+    /* The free zone, given instead of box; box is then larger by the widths of the zones. */
+    double free[2][3];
     double box_velocity[3]; /* m/s */
     char box_follows[128];  /* name of a body, "": none */
     int walls;              /* enum sph_walls */

@@ -4,6 +4,6 @@
 #define COMMON_VERSION_H
 
 /* "0.1 (9f3c2a1)": release and commit, set by the Makefile when version.c is compiled. */
-extern const char run_version[]; /* "0.1 (9f3c2a1)" */
+extern const char run_version[];
 
 #endif

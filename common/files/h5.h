@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 /* an open file: made by h5_create, h5_create_restart or h5_open, freed by h5_close */
-struct h5; /* an open file */
+struct h5;
 
 /* Opens PATH.part for writing; h5_close renames it to `path', so that a file under its own name is
  * complete. path is copied. */

@@ -27,7 +27,7 @@ struct summary *summary_create(void);
 void summary_free(struct summary **s);
 /* Each sets the value of a key, replacing an earlier one in its place. Non-finite numbers become
  * null. */
-void summary_real(struct summary *s, const char *key, double v); /* non-finite: null */
+void summary_real(struct summary *s, const char *key, double v);
 /* For lid-driven cavities: found and known hold the smallest u, the largest and the smallest v on
  * the centre lines, m/s; writes them and their largest relative deviation as error.extrema. */
 void summary_extrema(struct summary *s, const double found[3], const double known[3]);

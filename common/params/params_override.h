@@ -13,10 +13,10 @@ struct override {
     const char *text; /* as given: "sph.dx=0.02"; borrowed */
     /* Of sph.dx: "sph" and "dx"; of an element of a list: "walls" and "[0].kind"; of a whole:
      * "walls", "". */
-    char group[64], key[64]; /* of an element of a list: "walls", "[0].kind"; of all: "walls", "" */
-    config_t cfg;            /* holds the value as setting "value" */
-    bool known;              /* this program has its group, though perhaps not its element */
-    bool used;               /* its value was taken; one that is not used is a fault */
+    char group[64], key[64];
+    config_t cfg; /* holds the value as setting "value" */
+    bool known;   /* this program has its group, though perhaps not its element */
+    bool used;    /* its value was taken; one that is not used is a fault */
 };
 
 /* Takes text (borrowed) apart. VALUE is libconfig text; a plain word is taken as text, 64x64 as the

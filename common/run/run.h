@@ -36,7 +36,7 @@ struct run {
     bool restart;                 /* the state comes from a restart file */
     bool coupled;                 /* other programs take part in the job */
     /* Coupled, and the free surface crosses open sides of a box of particles: crossing.h. */
-    bool crossed; /* coupled, and the free surface crosses open sides of sph.box: crossing.h */
+    bool crossed;
     bool gauge_elsewhere[PROBES_MAX]; /* a partner reads the gauge: crossing_deal */
     const struct partner *partner;    /* NULL when alone */
     void *partner_ctx;                /* its state (struct cpl *) */
@@ -201,7 +201,7 @@ int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, boo
 void run_check_memory(const struct run *r, struct faults *f, const char *key, double n,
                       const char *unit, double bytes);
 /* Makes a folder and all above it; false: errno says why. Local to a rank. */
-bool run_make_folder(const char *dir); /* with all above it; false: errno says why */
+bool run_make_folder(const char *dir);
 /* Removes from dir the restart files of program `name' that are older than `newest' (a file's
  * name), but for `older', the one before it. Newer ones, of a coupling step under way, stay. Rank
  * 0. */
@@ -217,7 +217,7 @@ void signals_install(const char *program, int rank);
  * before signals_install ends the program with one line of text. */
 void signals_start_mpi(int *argc, char ***argv, const char *program);
 /* Whether this rank was asked to stop. Ranks may differ: reduce it before branching. */
-bool signals_stop(void); /* this rank's flag */
+bool signals_stop(void);
 /* An orderly stop is under way: from now on the handler sets no deadline. */
 void signals_handled(void);
 /* The time loop now looks at signals_stop. Before this call a signal ends a program that runs alone

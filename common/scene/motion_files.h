@@ -9,8 +9,9 @@
 struct motion_file {
     char *path;
     int columns;
-    int n; /* rows; -1: there is no such file, 0: a line has another number of columns, or a time
-              that does not rise */
+    /* Rows; -1: there is no such file, 0: a line has another number of columns, or a time that
+     * does not rise. */
+    int n;
     double *rows; /* [n][columns] */
 };
 

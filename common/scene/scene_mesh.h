@@ -15,7 +15,7 @@ enum { MESH_OF_ALL = 7 }; /* bits 1 << owner */
 /* One mesh. Its normals point out of the fluid, of shapes as well. */
 struct scene_mesh {
     /* Name in the summary; key in the case, "walls.[0].mesh". */
-    char name[64], key[64]; /* in the summary; in the case, "walls.[0].mesh" */
+    char name[64], key[64];
     enum mesh_owner owner;
     int index; /* in the list of its owner; -1: another program has it */
     struct trimesh mesh;

@@ -14,8 +14,7 @@ struct scene_speed {
     const char *from; /* what sets the speed: "the fall of the water" */
     /* false: nothing in the scene moves, and speed is sqrt(pressure), or the domain's length over
      * the run's time. */
-    bool moves; /* false: nothing in the scene moves; the speed is sqrt(pressure), or the
-                   domain's length over the run's time */
+    bool moves;
 };
 
 /* The largest of: the initial field with the velocity that carries it, velocities of shapes,

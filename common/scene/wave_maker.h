@@ -29,8 +29,8 @@ void wave_makers_describe(const struct scene *s);
 struct wave_paddle {
     double per;   /* what moves (m, rad) over the displacement at the still level, m, signed */
     double hinge; /* m: of a flap's axis over the floor; a piston < 0 */
-    double
-        face; /* m: coordinate along the waves of the face that the water touches, at the start */
+    /* m: coordinate along the waves of the face that the water touches, at the start. */
+    double face;
     double middle[3]; /* m: a point on the vertical plane through the middle of the face along the
                          waves */
 };

@@ -13,7 +13,7 @@ double complex reflection_amplitude(int n, const double *t, const double *v, dou
 /* The result of a separation. */
 struct reflection {
     /* Amplitudes a, b of a e^(i(wt - kx)) + b e^(i(wt + kx)). */
-    double complex onward, back; /* of a e^(i(wt - kx)) + b e^(i(wt + kx)) */
+    double complex onward, back;
     double condition; /* 1 - |S|^2/N^2 of the normal equations; 0: gauges half a length apart do not
                          separate */
     double rest;      /* largest |misfit| that a and b leave at a gauge */

@@ -62,7 +62,8 @@ struct waves {
     double limit;                    /* m: height of the highest wave of that length and depth */
     double shortest, longest;        /* m: lengths of what carries energy */
     struct steady steady;
-    double current;     /* m/s: uniform, so that there is no net transport; regular: of the frame */
+    /* m/s: uniform current so that there is no net transport; regular: of the frame. */
+    double current;
     double transport;   /* m^2/s: that of the waves on water that is still in the mean */
     double gain, ahead; /* factor of a regular wave's velocities, m by which they are ahead */
     struct wave_component *components;

@@ -91,8 +91,8 @@ struct cpl {
     struct client_field field[LIMIT_FIELDS];
     int64_t window; /* number of the coupling step under way or last done; before: of the first */
     double t0, t1, waited, heard;
-    struct pack
-        told; /* keys and values of cpl_tell, sent with the next advance; empty: not begun */
+    /* Keys and values of cpl_tell, sent with the next advance; empty: not begun. */
+    struct pack told;
     int64_t ntold;
 };
 

@@ -197,7 +197,7 @@ void rendezvous_close(struct coupler *c);
 
 /* checkpoint.c: a restart point exists when its manifest does. At a restart takes the old point's
  * files from the manifest, so that they are removed when two newer points exist; rank 0. */
-void checkpoint_resume(struct coupler *c); /* rank 0, at a restart */
+void checkpoint_resume(struct coupler *c);
 /* Takes the message that a solver's restart file is complete; writes the manifest with the last of
  * them. */
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);

@@ -41,8 +41,8 @@ struct forcing {
     int dim;
     unsigned char *forced; /* [size] 1: forced (ghosts too), 2: behind a closed side, 3: in a
                               blocked box, 4: of blocks: no cell */
-    unsigned char
-        *layer; /* [size] of an imposed cell: distance from the free ones, 1 ..; 0: deep or free */
+    /* [size] of an imposed cell: distance from the free ones, 1 ..; 0: deep or free. */
+    unsigned char *layer;
     int64_t nlocal, *local; /* imposed cells of this rank */
     int64_t nset,
         *set; /* cells that this rank gives values: local near ones, ghosts behind closed sides */

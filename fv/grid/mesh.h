@@ -51,9 +51,9 @@ struct mesh_block {
     int v0[3], nv[3];              /* vertices: first index, number with ghosts */
     double (*x)[3];                /* m: vertices with ghosts */
     enum mesh_side side[6];
-    const struct scene_wall
-        *wall[6]; /* of the scene, on whose side of the domain this one lies; NULL: none */
-    int on[6];    /* side of the domain that a side lies wholly on; 6: none */
+    /* Of the scene, on whose side of the domain this one lies; NULL: none. */
+    const struct scene_wall *wall[6];
+    int on[6];               /* side of the domain that a side lies wholly on; 6: none */
     double opening[6][2][3]; /* m: box of the opening on that side of the domain that a side is part
                                 of: sides of blocks that touch are one */
     struct mesh_join join[6];

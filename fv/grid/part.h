@@ -21,8 +21,7 @@ struct part {
         size; /* index of the first ghost; offsets to neighbours; entries in a field */
     /* First cell and number of the cells near water, of each line of cells along x, those of ghosts
      * included (surface/near_water.c); NULL: all are near. */
-    int (*near)[2]; /* first cell and number of those near water, of each row and of those of ghosts
-                       (surface/near_water.c); NULL: all */
+    int (*near)[2];
 };
 
 /* Number of the line of cells (j, k), ghosts included, in near. */

@@ -47,7 +47,7 @@ struct poisson {
     const struct backend *by;
     void *of; /* its own */
     /* Of blocks: rows of this rank; number of the first among all ranks'. */
-    int n, first;   /* rows of this rank; number of the first among all */
+    int n, first;
     int64_t *place; /* [n] index of the row's cell in a field */
     double *V;      /* m^dim: of computed cells, else 0 */
     double volumes; /* m^dim: of all computed cells */

@@ -23,8 +23,7 @@ struct fraction {
     double *C; /* -: share, with ghosts */
     /* -: layer (levelset.h) of each cell when the projection was made, which made the divergence of
      * those of layer 0 zero. */
-    double *layer;   /* -: of each cell when the projection was made; it made the divergence of
-                        those of layer 0 zero */
+    double *layer;
     double *n[3];    /* -: normals of the planes in mixed cells, out of the water */
     double *alpha;   /* -: of the planes */
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
@@ -39,8 +38,7 @@ struct fraction {
     double first;        /* axis of the next sweep */
     double first_before; /* at the start of a step */
     /* m^dim: moved to neighbours, as cells were fuller than full or less than empty; this rank. */
-    double moved;   /* m^dim: put into neighbours, as cells were too full or less than empty;
-                       this rank's */
+    double moved;
     double entered; /* m^dim: through openings, of the last advance; over all ranks */
     double excess;  /* m^dim: volume error that the projection left, of this advance and rank */
 };

@@ -54,17 +54,16 @@ struct surface {
     struct surface_forced *forced;
     /* Uniform cells whose values belong to nobody: behind sides, in boxes, deep in a partner's
      * part. */
-    bool *closed; /* even cells whose values are nobody's: behind sides, boxes, deep in a partner's
-                     part */
-    const unsigned char
-        *none; /* not 0: the former, or those of blocks that are out, see mesh_view.h
-                */
+    bool *closed;
+    /* Not 0: cells that hold nothing, i.e. `closed', or on blocks `out' of mesh_view.h; borrowed.
+     */
+    const unsigned char *none;
     struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
     double *before[26];           /* state at the start of a step: surface_keep_state */
     /* Implicit steps: phi at half time, while phi is that at the end of the step. */
-    double *half; /* implicit steps: phi at half time, while phi stands where the step ends */
+    double *half;
     double travelled_before;
     double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
     unsigned char *layer; /* 0: wet; 1 .. LAYERS; DEEP */
@@ -80,16 +79,15 @@ struct surface {
     int64_t wet, cuts;    /* over all ranks */
     /* m^dim: volume to be conserved, including what has come in through openings; net volume that
      * the shifts have restored. */
-    double volume0, returned; /* m^dim: to be kept, with what has come in through openings; restored
-                                 by the shifts, all in all */
-    double lost, gained;      /* m^dim: parts of returned: restored losses, removed surplus */
-    double passed;            /* m^dim: through openings and a partner's interface, in and out */
-    double entered;           /* m^dim: through openings, in less out */
-    double carried_in;        /* m^dim: the same of the first half of a step, by the shares */
-    double through[3];        /* m^dim/s: at the start of a step, see flows() */
-    double travelled;         /* -: cells that it has moved since the last reinitialisation */
-    double least, largest;    /* m: sizes of cells */
-    bool keeps;               /* slopes of phi behind inclined walls stay as they are */
+    double volume0, returned;
+    double lost, gained;         /* m^dim: parts of returned: restored losses, removed surplus */
+    double passed;               /* m^dim: through openings and a partner's interface, in and out */
+    double entered;              /* m^dim: through openings, in less out */
+    double carried_in;           /* m^dim: the same of the first half of a step, by the shares */
+    double through[3];           /* m^dim/s: at the start of a step, see flows() */
+    double travelled;            /* -: cells that it has moved since the last reinitialisation */
+    double least, largest;       /* m: sizes of cells */
+    bool keeps;                  /* slopes of phi behind inclined walls stay as they are */
     bool leans[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
     bool any_leans;              /* those of some block */
     double across;      /* m: least spacing of cells across gravity, of 45 degrees and less */

@@ -45,8 +45,8 @@ struct surface_mesh {
     double *height;     /* m: of centres, against gravity */
     unsigned char *out; /* 0: a cell; else none: behind sides and in holes, where psi is mirrored
                            (BEHIND_EVEN) or has its sign turned (BEHIND_ODD: outflows) */
-    unsigned char
-        *keep; /* 1: a dry cell of the fringe whose velocity is that of its block's water */
+    /* 1: a dry cell of the fringe whose velocity is that of its block's water. */
+    unsigned char *keep;
     bool slants[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright, or end in an
                                      overlap */
     int64_t nface[3], face_room[3];

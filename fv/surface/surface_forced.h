@@ -16,8 +16,8 @@ struct surface_forced {
     double *profile;           /* of colour.h */
     double *phi[2];            /* [size] m: at the start and at the end of the coupling step */
     double t[2];               /* s */
-    double
-        step; /* m: mean difference of phi of the free cells from the partner's, at the interface */
+    /* m: mean difference of phi of the free cells from the partner's, at the interface. */
+    double step;
 };
 
 /* For the cells of s->forcing; NULL without. Freed by surface_forced_free. */

@@ -102,7 +102,8 @@ int newton_columns(const struct fv_params *prm, const char **columns);
 int newton_values(const struct newton *w, double *values);
 void newton_summarise(const struct newton *w, double steps, struct summary *to);
 
-/* newton_residual.c. */
+/* newton_residual.c: coefficient of the dissipation in newton's convection, -: 1/12 with fv.flux =
+ * "upwind", else 1/96. */
 double newton_dissipation(const struct fv *s);
 
 /* newton_vector.c: gives q, and what is cloned from it, faster sums. */

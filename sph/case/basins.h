@@ -16,7 +16,7 @@ void basins_clear(const struct basins *b, struct lattice *l);
 /* Counts the rooms that meshes separate, pockets left out: *wet with fluid, *dry without. */
 void basins_rooms(const struct basins *b, int *wet, int *dry);
 /* Number of pockets, with their *cells in all and the position of one, m. */
-int basins_pockets(const struct basins *b, int64_t *cells, double *where); /* one place, m */
+int basins_pockets(const struct basins *b, int64_t *cells, double *where);
 /* Height against gravity where p = 0 for the water of this cell, m; NAN: it falls freely. */
 double basins_level(const struct basins *b, int64_t cell);
 

@@ -12,8 +12,8 @@ struct lattice {
     int n[3];
     double origin[3], dx; /* m: lower corner of the first cell */
     unsigned char *bits;  /* of all ranks: one a cell */
-    unsigned char
-        *cut[3]; /* one a cell: a mesh parts it from the next along the axis; NULL: none */
+    /* One a cell: a mesh parts it from the next along the axis; NULL: none. */
+    unsigned char *cut[3];
 };
 
 /* Number of cells; indices of a cell, and the number of a cell with given indices. */

@@ -17,8 +17,8 @@ struct windows {
     double weight;     /* m^2/s^2: g times depth or L under a surface, else 0 */
     double omega;      /* rad/s: of the waves; 0: there are none */
     double T_most;     /* s: largest T that is accurate enough for the flow and the waves */
-    double
-        mass; /* m: added mass of the partner's region seen from the side, per area and density */
+    /* m: added mass of the partner's region seen from the side, per area and density. */
+    double mass;
     double gain; /* of the loop in a coupling step: p = rho mass du/T, then du = p/(rho c0) */
 };
 

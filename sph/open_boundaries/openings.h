@@ -38,10 +38,10 @@ struct openings {
     double *change; /* kg: of this step, this rank, then summed */
     double *flux;   /* kg/s: inward, of the faces this rank owns, 0 elsewhere */
     /* kg, all ranks: deficits of air cavities, to be removed by the zones' `drain'. */
-    double owed;  /* kg, all ranks': deficits of air cavities, to be drained by zones' `drain' */
+    double owed;
     double *room; /* -: fraction of each face that is not cut off by walls */
-    double
-        *share; /* -: fraction of each face that is neither cut off nor above the water outside */
+    /* -: fraction of each face that is neither cut off nor above the water outside. */
+    double *share;
     double rain[4]; /* kg, kg m/s: drops that left over the water, this rank */
     double films;   /* kg: of that what ran along a wall */
     int64_t drops;

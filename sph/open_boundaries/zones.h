@@ -53,9 +53,8 @@ struct zones {
     struct overlap *watched; /* overlap.h; NULL without a partner */
     /* Pa: reference pressure added to the outer solution, which an incompressible partner knows up
      * to a constant only; 0 without a free surface. */
-    double gauge; /* Pa: added to the pressure outside, which an incompressible partner knows up to
-                     a constant; 0 without a free surface */
-    double level; /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
+    double gauge;
+    double level;   /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
     double blended; /* kg: mass that blending added on this rank since the start */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */
     int capacity;

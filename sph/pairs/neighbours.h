@@ -18,17 +18,14 @@ struct neighbours {
     int64_t *start;   /* [n+1] first of row i in j */
     /* [n] entries of row i; as many dummies follow as a vector that begins at any entry can
      * reach. */
-    int *count; /* [n] entries of row i; behind them as many dummy rows (s->p.capacity) as a vector
-                   that begins at any entry can reach */
-    int *tail;  /* [n] first entry of row i with j > i */
+    int *count;
+    int *tail; /* [n] first entry of row i with j > i */
     int *j;
     unsigned char *whole; /* [n] so many neighbours that nothing of the support can be missing */
     /* [n] rows in the order in which passes treat them: those whose lists hold locals only, the
      * others, the deep ones (ROLE_DEEP). NULL: as they are stored; so it is on one rank, where
      * ghosts need no wait, without deep rows. */
-    int *order; /* [n] rows, those first whose lists hold locals only, those last that are deep
-                   (ROLE_DEEP); NULL: as they are stored, on one rank, where ghosts are at hand at
-                   once, and without deep ones */
+    int *order;
     int order_capacity;
     int ninner;   /* rows that need no ghosts and come first in order; 0 on one rank */
     int nshallow; /* rows but for the deep ones */

@@ -43,8 +43,8 @@ struct particles {
     int nstate;     /* 2 dim + 2 */
     int nslope;     /* 8 (2D) or 16 (3D) */
     double *y, *y0; /* [capacity][nstate] state, at t_n */
-    double
-        *rate; /* [capacity+1][nstate] its time derivative; before that, sums of a symmetric pass */
+    /* [capacity+1][nstate] its time derivative; before that, sums of a symmetric pass. */
+    double *rate;
     double *sum; /* [sum_capacity][nstate] weighted sum of rates, where the Runge-Kutta scheme needs
                     one */
     int sum_capacity;

@@ -21,8 +21,7 @@ struct guards {
     int n, capacity;
     /* In who come first the guards outside of where this level flows; nshallow counts these and
      * those that are not deep. */
-    int nfiner, nshallow;  /* who come first: guards of this level outside of where it flows;
-                              these and those that are not deep */
+    int nfiner, nshallow;
     int *who;              /* [n] locals */
     unsigned char *source; /* [n] the finer of their sources */
     bool *near;            /* [n] whether a source is near the free surface */
@@ -35,9 +34,8 @@ struct guards {
     int nprior;            /* locals that `prior' holds; 0: slopes are those of the last stage */
     /* [nprior][nslope] slopes that guards were given before an output; a restart continues from
      * them. */
-    double *prior; /* [nprior][nslope] slopes that guards were given before an output; what a
-                      restart goes on from */
-    bool fresh;    /* deep guards have not yet been given the fields of this step */
+    double *prior;
+    bool fresh; /* deep guards have not yet been given the fields of this step */
     int nnewborn, newborn_capacity;
     struct newborn *newborn; /* [nnewborn] of this level, at the end of the step; counts.h */
     bool mean;               /* fields by Shepard's mean [5.23-5.24] alone, for comparison */

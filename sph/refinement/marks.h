@@ -20,9 +20,8 @@ struct marks {
     unsigned char *mark;       /* [cells] 0 or 1 */
     /* [cells] 1 .. MARKS_DEEP: distance in cells to one without mark, the last: or more; -1: beside
      * a marked one; -2: not beside one. */
-    signed char *depth; /* [cells] 1 .. MARKS_DEEP: so many cells from one without mark, the
-                           last: or more; -1: beside one with, -2: not beside */
-    bool any;           /* some cell is marked */
+    signed char *depth;
+    bool any; /* some cell is marked */
 };
 
 /* Sets *c to a grid over lo .. hi, m, of cells at least `width', m, wide, without marks; false:

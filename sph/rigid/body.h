@@ -35,8 +35,8 @@ struct body_free {
     double tension[LINES_MAX], slack[LINES_MAX]; /* N, m: of lines; length without force */
     double contact[3];                           /* N: force of contact in the last stage */
     double stiffness, damping;                   /* N/m, N s/m: of contact */
-    double
-        lambda; /* 1/s: largest rate at which the fluid's impedance brakes it; it bounds the step */
+    /* 1/s: largest rate at which the fluid's impedance brakes it; it bounds the step. */
+    double lambda;
     double impulse[2][3]; /* N s: of the fluid by either rule; of |F| in size */
     double size;          /* N s: integral of |F| over the run */
 };
@@ -44,8 +44,8 @@ struct body_free {
 /* One body. */
 struct body {
     const struct scene_body *is; /* its keys; borrowed */
-    const struct trimesh
-        *mesh; /* 3D: its surface as the case places it, normals into it; borrowed */
+    /* 3D: its surface as the case places it, normals into it; borrowed. */
+    const struct trimesh *mesh;
     int dim;
     double centre[3]; /* m: of rotation and moments at the start */
     double middle[3]; /* m: centre of its bounding box at the start */

@@ -19,8 +19,9 @@ struct free_surface {
     double *normal;    /* [n][dim] unit vector out of the fluid: on and near the surface, else 0 */
     double *M, *g;     /* [n][dim^2], [n][dim] moments with wall terms */
     double *lambda;    /* [n] smallest eigenvalue of M; 1 where there are neighbours enough */
-    double *less; /* [n] volume_feedback.h: sum w W after the first pass, then the share of their
-                     room that volumes lack; if `follows' */
+    /* [n] volume_feedback.h: sum w W after the first pass, then the share of their room that
+     * volumes lack; if `follows'. */
+    double *less;
     int less_capacity;
     bool follows; /* volumes are corrected in this step */
     bool fades;   /* shifts fade towards the surface [5.14], for comparison */

@@ -115,8 +115,8 @@ struct walls {
     double t;    /* s: of `segments' */
     const struct wall_model *model;
     void *state; /* of the model */
-    bool *
-        beside; /* [n] whether a local's support meets a wall; NULL: the model does not report it */
+    /* [n] whether a local's support meets a wall; NULL: the model does not report it. */
+    bool *beside;
     int beside_capacity;
     double speed;      /* m/s: 1.1 times the largest speed of a body in the next step */
     double dt_contact; /* s: step that the contact force is dimensioned for */
