@@ -43,8 +43,8 @@ struct list_state {
     /* List and ghosts belong to the positions of y. Whoever moves, adds or removes particles
      * outside of the stages clears it. */
     bool ready;
-    bool sloped; /* prim and slope belong to y as well, and the next stage may take them as they are
-                  */
+    /* Prim and slope belong to y as well, and the next stage may take them as they are. */
+    bool sloped;
 };
 
 /* The last step of this level: extremes over all ranks (extremes.h), and the bounds of the next

@@ -55,8 +55,8 @@ struct surface {
     /* Uniform cells whose values belong to nobody: behind sides, in boxes, deep in a partner's
      * part. */
     bool *closed;
-    /* Not 0: cells that hold nothing, i.e. `closed', or on blocks `out' of mesh_view.h; borrowed.
-     */
+    /* Not 0: cells that hold nothing, i.e. `closed', or on blocks `out' of mesh_view.h;
+     * borrowed. */
     const unsigned char *none;
     struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate; /* m, m, m/s */

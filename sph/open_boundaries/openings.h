@@ -32,8 +32,8 @@ struct openings {
     double dx, lo[3], hi[3];
     bool open[6], bounded[3]; /* sides that are open; axes that do not repeat */
     int cells[3];             /* faces along each axis */
-    int first[7];   /* first face of side 2a (low), 2a+1 (high); first[2 dim] is the number of faces
-                     */
+    /* First face of side 2a (low), 2a+1 (high); first[2 dim] is the number of faces. */
+    int first[7];
     double *mass;   /* kg: accumulated, the same on all ranks */
     double *change; /* kg: of this step, this rank, then summed */
     double *flux;   /* kg/s: inward, of the faces this rank owns, 0 elsewhere */
