@@ -1,8 +1,12 @@
-/* body_contact.c - bodies that touch walls or each other: a spring and damper that act from one
- * spacing before they meet: a row of particles stays between, which pressed flat would be shot out
- * (a block of 3000 kg/m^3 that sinks to the floor ended the run with half of that). Corners of each
- * line against the other; the points of a pair share its stiffness by their depths, so that it has
- * no jumps. Friction after Coulomb, smoothed below a small slip velocity.
+/* body_contact.c - contact of bodies with walls and with each other: a spring and damper that act
+ * from one spacing before they meet, so that a row of particles stays between; pressed flat, these
+ * would be shot out (a block of 3000 kg/m^3 that sinks to the floor ended the run with half of that
+ * distance). Corners of each surface are tested against the other; the points of a pair share its
+ * stiffness by their depths, so that it has no jumps. With the depth h and the rate of approach v,
+ * v_0 at the first touch, a pair has
+ *   F_n = k h (1 + d v/v_0),   k = M (pi/(CONTACT_STEPS dt))^2
+ * (after Hunt & Crossley, J. Appl. Mech. 42, 1975), d from the coefficient of restitution, M the
+ * pair's reduced mass. Friction after Coulomb, smoothed below a small slip velocity.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 

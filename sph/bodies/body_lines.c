@@ -1,5 +1,8 @@
-/* body_lines.c - springs, dampers and mooring lines between a body and a place or another body, and
- * what a hinge has of them. SPDX-License-Identifier: BSD-3-Clause */
+/* body_lines.c - springs, dampers and mooring lines between a body and a fixed point or another
+ * body, and the spring and damper of a hinge. A line of length l pulls its ends together with
+ *   F = stiffness (l - l_0) + damping dl/dt,
+ * which a rope (pull_only) does only while l > l_0, and never pushes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bodies.h"
 
 #include <string.h>
