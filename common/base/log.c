@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "log.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -42,6 +43,8 @@ void log_file(const char *path)
     state.file = path && rank_now() == 0 ? fopen(path, "a") : NULL;
     if (state.file)
         setvbuf(state.file, NULL, _IOLBF, 0);
+    else if (path && rank_now() == 0)
+        log_warn("%s: cannot be written (%s): this run keeps no log", path, strerror(errno));
 }
 
 /* One write of prefix and text, ended by a newline. */

@@ -103,7 +103,6 @@ struct scene_body {
     } contact;
 };
 
-extern const struct param_list scene_motion_list;
 extern const struct param scene_body_rows[];
 extern const int scene_body_nrows;
 extern const struct param_list scene_motion_list; /* of a struct scene_motions */

@@ -26,6 +26,8 @@ static inline enum mesh_side side_of_wall(const struct scene_wall *w)
     static const enum mesh_side kinds[] = {MESH_SLIP, MESH_WALL, MESH_INFLOW, MESH_OUTFLOW};
     if (w->carried || w->has_discharge) /* both have velocities that change */
         return MESH_CARRIED;
+    if (w->kind > WALL_OUTFLOW) /* what this program has no side for is closed */
+        return MESH_SLIP;
     return w->kind == WALL_INFLOW && w->has_level ? MESH_OUTFLOW : kinds[w->kind];
 }
 

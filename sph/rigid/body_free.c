@@ -3,8 +3,7 @@
  *   dx/dt = P/m,   dP/dt = F,   dL/dt = T,   omega = Q I^-1 Q^T L,   dq/dt = (0, omega) q/2.
  * L is kept in the axes of space, where a body without torque keeps it to the last digit. Hinges,
  * sliders and locked degrees of freedom are reduced equations, so that nothing drifts from them.
- * The angular acceleration of a body that rotates freely in 3D is not formed: domega is reported as
- * 0.
+ * The angular acceleration of a body that rotates freely in 3D is Q I^-1 Q^T (T - omega x L).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -164,6 +163,16 @@ void body_destroy(struct body *b) { mem_free(b->free); }
 
 static bool is_locked(const struct body_free *f, int axis) { return f->locked >> axis & 1; }
 
+/* Q I^-1 Q^T v. */
+static void over_inertia(const struct body_free *f, const struct body_motion *m, const double *v,
+                         double *out)
+{
+    double in_body[3];
+    turn_back3((double(*)[3])m->Q, v, in_body);
+    turn3((double(*)[3])f->inverse, in_body, in_body);
+    turn3((double(*)[3])m->Q, in_body, out);
+}
+
 static void move_rotation(const struct body_free *f, struct body_motion *m)
 {
     const double *y = f->y, *L = y + BODY_L;
@@ -178,12 +187,9 @@ static void move_rotation(const struct body_free *f, struct body_motion *m)
         rotation_of_vector(m->r, m->Q);
         return;
     }
-    double in_body[3];
     rotation_of_quaternion(y + BODY_Q, m->Q);
     vector_of_quaternion(y + BODY_Q, m->r);
-    turn_back3(m->Q, L, in_body);
-    turn3((double(*)[3])f->inverse, in_body, in_body);
-    turn3(m->Q, in_body, m->omega);
+    over_inertia(f, m, L, m->omega);
     for (int a = 0; a < 3 && f->held; a++)
         m->omega[a] = 0.0;
 }
@@ -207,6 +213,16 @@ static void move_centre(const struct body *b, struct body_motion *m)
         }
 }
 
+/* Of a rotation about all axes, from omega as it is now. */
+static void accelerate_turn(const struct body_free *f, struct body_motion *m)
+{
+    double gyro[3], torque[3];
+    vec3_cross(m->omega, f->y + BODY_L, gyro);
+    for (int a = 0; a < 3; a++)
+        torque[a] = f->held ? 0.0 : f->rate[BODY_L + a] - gyro[a];
+    over_inertia(f, m, torque, m->domega);
+}
+
 /* Accelerations, of the last stage: averaged forces carry pressures with them. */
 static void accelerate(const struct body *b, struct body_motion *m)
 {
@@ -216,9 +232,9 @@ static void accelerate(const struct body *b, struct body_motion *m)
             m->du[a] = f->rate[BODY_P + a] / f->mass;
         if (f->rotation == TURNS_AXIS)
             m->domega[a] = f->rate[BODY_L + a] / f->J;
-        else if (f->rotation == TURNS_FREE)
-            m->domega[a] = 0.0;
     }
+    if (f->rotation == TURNS_FREE)
+        accelerate_turn(f, m);
     if (f->hinged) {
         double arm[3], inward[3];
         turn3((double(*)[3])m->Q, f->arm, arm);

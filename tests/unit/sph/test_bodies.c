@@ -123,6 +123,39 @@ static void torque_free_top(void **state)
     assert_true(log2(coarse / fine) > 3.8);
 }
 
+static void twist(struct body *b, double loads[6])
+{
+    (void)b;
+    loads[3] += 0.4;
+    loads[4] -= 0.7;
+}
+
+/* The angular acceleration that pressures carry with them is the slope of omega, by differences
+ * over 2 steps of 1e-3 s, with and without a torque. */
+static void acceleration_of_a_top(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct scene_body is = {.free = true, .mass = 1.0, .inertia = {3, {1.0, 2.0, 3.0}}};
+        struct body b;
+        const double dt = 1e-3;
+        double before[3], slope[3];
+        is.spin[0] = 1.2;
+        is.spin[1] = 0.5;
+        is.spin[2] = 0.8;
+        body_create(&b, &is, NULL, 3, NULL);
+        for (int i = 0; i < 500; i++) {
+            memcpy(before, b.now.omega, sizeof before);
+            step(&b, i * dt, dt, k ? twist : NULL);
+        }
+        memcpy(slope, b.now.domega, sizeof slope);
+        step(&b, 500 * dt, dt, k ? twist : NULL);
+        for (int a = 0; a < 3; a++)
+            assert_close(slope[a], (b.now.omega[a] - before[a]) / (2.0 * dt), 1e-5);
+        body_destroy(&b);
+    }
+}
+
 static void weight(struct body *b, double loads[6]) { loads[1] -= 9.81 * b->free->mass; }
 
 /* Complete elliptic integral K by the arithmetic-geometric mean. */
@@ -388,6 +421,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(motion_files_are_read_once),
                                        cmocka_unit_test(torque_free_top),
+                                       cmocka_unit_test(acceleration_of_a_top),
                                        cmocka_unit_test(pendulum),
                                        cmocka_unit_test(spring_keeps_energy),
                                        cmocka_unit_test(mooring_is_slack),
