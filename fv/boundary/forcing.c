@@ -14,11 +14,7 @@
 /* Visits all cells of all parts with their ghosts: at (int[3]) of part p has place c. */
 #define ALL_CELLS(s, p, at, c)                                                                     \
     for (const struct part *p = (s)->grid.part; p < (s)->grid.part + (s)->grid.nparts; p++)        \
-        for (at[2] = -p->g[2]; at[2] < p->n[2] + p->g[2]; at[2]++)                                 \
-            for (at[1] = -p->g[1]; at[1] < p->n[1] + p->g[1]; at[1]++)                             \
-                for (at[0] = -p->g[0]; at[0] < p->n[0] + p->g[0]; at[0]++)                         \
-                    for (int64_t c = part_at(p, at[0], at[1], at[2]), its_once_##c = 1;            \
-                         its_once_##c; its_once_##c = 0)
+        PART_ALL (p, at, c)
 
 static bool is_local(const struct part *p, const int *at)
 {

@@ -78,17 +78,15 @@ static void fill(struct fv *s)
 {
     const struct block *b = &s->b;
     double x[3], h[3], u[3], p;
-    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
-        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
-            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                block_cell(b, i, j, k, x, h);
-                exact_average(&s->exact, x, h, 0.0, u, &p, NULL);
-                fv_shape_velocity(s, x, h, u);
-                for (int a = 0; a < b->dim; a++)
-                    s->u[a][c] = u[a];
-                s->p[c] = s->p_before[c] = (p - fv_still_in_exact(s, x)) / s->exact.rho;
-            }
+    int i[3];
+    PART_ALL (&s->whole, i, c) {
+        block_cell(b, i[0], i[1], i[2], x, h);
+        exact_average(&s->exact, x, h, 0.0, u, &p, NULL);
+        fv_shape_velocity(s, x, h, u);
+        for (int a = 0; a < b->dim; a++)
+            s->u[a][c] = u[a];
+        s->p[c] = s->p_before[c] = (p - fv_still_in_exact(s, x)) / s->exact.rho;
+    }
 }
 
 /* Fluxes that belong to the velocities of the start; the exact field's own are solenoidal averages.

@@ -169,15 +169,12 @@ void mesh_set_status(struct mesh *m)
     for (int q = 0; q < m->nparts; q++) {
         const struct part *p = m->part + q;
         int i[3];
-        for (i[2] = -p->g[2]; i[2] < p->n[2] + p->g[2]; i[2]++)
-            for (i[1] = -p->g[1]; i[1] < p->n[1] + p->g[1]; i[1]++)
-                for (i[0] = -p->g[0]; i[0] < p->n[0] + p->g[0]; i[0]++) {
-                    int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]}, k = p->block;
-                    double move[3] = {0.0, 0.0, 0.0};
-                    if (mesh_resolve(m, &k, at, move))
-                        m->status[part_at(p, i[0], i[1], i[2])] =
-                            m->block[k].status[mesh_cell(m->block + k, at)];
-                }
+        PART_ALL (p, i, c) {
+            int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]}, k = p->block;
+            double move[3] = {0.0, 0.0, 0.0};
+            if (mesh_resolve(m, &k, at, move))
+                m->status[c] = m->block[k].status[mesh_cell(m->block + k, at)];
+        }
     }
 }
 

@@ -70,20 +70,17 @@ static void place_faces(struct mesh *m, const struct part *p)
 {
     const struct mesh_block *b = m->block + p->block;
     const struct mesh_motion *v = b->motion;
-    const int most[3] = {p->n[0] + p->g[0], p->n[1] + p->g[1], p->n[2] + p->g[2]};
+    int i[3];
     double u[3], omega[3];
     turn_back3(((struct mesh_motion *)v)->now.Q, v->now.u, u);
     turn_back3(((struct mesh_motion *)v)->now.Q, v->now.omega, omega);
-    for (int k = -p->g[2]; k < most[2]; k++)
-        for (int j = -p->g[1]; j < most[1]; j++)
-            for (int i = -p->g[0]; i < most[0]; i++)
-                for (int a = 0; a < m->dim; a++) {
-                    const int64_t c = part_at(p, i, j, k);
-                    const double *S = b->faces + 6 * (m->dim * (c - p->base) + a), *R = S + 3;
-                    m->grid[a][c] = vec3_dot(u, S) + vec3_dot(omega, R);
-                    for (int q = 0; q < m->dim && v->turns; q++)
-                        m->S[a][q][c] = vec3_dot(v->now.Q[q], S);
-                }
+    PART_ALL (p, i, c)
+        for (int a = 0; a < m->dim; a++) {
+            const double *S = b->faces + 6 * (m->dim * (c - p->base) + a), *R = S + 3;
+            m->grid[a][c] = vec3_dot(u, S) + vec3_dot(omega, R);
+            for (int q = 0; q < m->dim && v->turns; q++)
+                m->S[a][q][c] = vec3_dot(v->now.Q[q], S);
+        }
 }
 
 void mesh_motion_place(struct mesh *m, double t)
@@ -254,19 +251,16 @@ void mesh_motion_free(struct mesh *m)
 static void keep_faces(struct mesh *m, const struct part *p)
 {
     struct mesh_block *b = m->block + p->block;
-    const int most[3] = {p->n[0] + p->g[0], p->n[1] + p->g[1], p->n[2] + p->g[2]};
+    int i[3];
     b->faces = NEW(double, 6 * m->dim * p->size);
-    for (int k = -p->g[2]; k < most[2]; k++)
-        for (int j = -p->g[1]; j < most[1]; j++)
-            for (int i = -p->g[0]; i < most[0]; i++)
-                for (int a = 0; a < m->dim; a++) {
-                    const int64_t c = part_at(p, i, j, k);
-                    const int at[3] = {p->lo[0] + i, p->lo[1] + j, p->lo[2] + k};
-                    double *S = b->faces + 6 * (m->dim * (c - p->base) + a);
-                    for (int q = 0; q < m->dim; q++)
-                        S[q] = m->S[a][q][c];
-                    mesh_face_moment(b->made, m->dim, at, a, b->motion->centre, S + 3);
-                }
+    PART_ALL (p, i, c)
+        for (int a = 0; a < m->dim; a++) {
+            const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+            double *S = b->faces + 6 * (m->dim * (c - p->base) + a);
+            for (int q = 0; q < m->dim; q++)
+                S[q] = m->S[a][q][c];
+            mesh_face_moment(b->made, m->dim, at, a, b->motion->centre, S + 3);
+        }
 }
 
 void mesh_motion_metrics(struct mesh *m)

@@ -79,7 +79,14 @@ static inline void part_index(const struct part *p, int64_t c, int *at)
                          its_once_##c = 1;                                                         \
                  its_once_##c; its_once_##c = 0)
 
-/* Visits a part's cells: i (int[3]) has place c. */
+/* Visits a part's cells and its ghosts: i (int[3]) has place c. */
+#define PART_ALL(p, i, c)                                                                          \
+    for ((i)[2] = -(p)->g[2]; (i)[2] < (p)->n[2] + (p)->g[2]; (i)[2]++)                            \
+        for ((i)[1] = -(p)->g[1]; (i)[1] < (p)->n[1] + (p)->g[1]; (i)[1]++)                        \
+            for ((i)[0] = -(p)->g[0]; (i)[0] < (p)->n[0] + (p)->g[0]; (i)[0]++)                    \
+                for (int64_t c = part_at(p, (i)[0], (i)[1], (i)[2]), its_once_##c = 1;             \
+                     its_once_##c; its_once_##c = 0)
+/* The same of the cells alone. */
 #define PART_CELLS(p, i, c)                                                                        \
     for ((i)[2] = 0; (i)[2] < (p)->n[2]; (i)[2]++)                                                 \
         for ((i)[1] = 0; (i)[1] < (p)->n[1]; (i)[1]++)                                             \

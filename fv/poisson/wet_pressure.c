@@ -75,12 +75,10 @@ static void set_rows(const struct fv *s, struct wet_pressure *p)
     for (int q = 0; q < m->nparts; q++) {
         const struct part *part = m->part + q;
         int i[3];
-        for (i[2] = -part->g[2]; i[2] < part->n[2] + part->g[2]; i[2]++)
-            for (i[1] = -part->g[1]; i[1] < part->n[1] + part->g[1]; i[1]++)
-                for (i[0] = -part->g[0]; i[0] < part->n[0] + part->g[0]; i[0]++) {
-                    const int at[3] = {part->lo[0] + i[0], part->lo[1] + i[1], part->lo[2] + i[2]};
-                    p->row_of[part_at(part, i[0], i[1], i[2])] = row_of(m, part->block, at);
-                }
+        PART_ALL (part, i, c) {
+            const int at[3] = {part->lo[0] + i[0], part->lo[1] + i[1], part->lo[2] + i[2]};
+            p->row_of[c] = row_of(m, part->block, at);
+        }
     }
 }
 

@@ -200,15 +200,12 @@ static double cut_slope(const struct fv *s, int a, const struct cut *x, double s
 
 static void fill_even(const struct fv *s, double *phi)
 {
-    const struct block *b = &s->b;
     double x[3];
-    for (int k = -b->g[2]; k < b->n[2] + b->g[2]; k++)
-        for (int j = -b->g[1]; j < b->n[1] + b->g[1]; j++)
-            for (int i = -b->g[0]; i < b->n[0] + b->g[0]; i++) {
-                const int64_t c = block_at(b, i, j, k);
-                block_centre(b, i, j, k, x);
-                phi[c] = is_blocked(s, c) ? surface_far(s) : surface_distance(s, x);
-            }
+    int i[3];
+    PART_ALL (&s->whole, i, c) {
+        block_centre(&s->b, i[0], i[1], i[2], x);
+        phi[c] = is_blocked(s, c) ? surface_far(s) : surface_distance(s, x);
+    }
 }
 
 static void set_sizes(const struct block *b, const double *g, struct surface *f)

@@ -70,16 +70,13 @@ static void set_centres(const struct fv *s, const struct part *p, struct surface
 {
     const struct mesh *m = s->m;
     int i[3];
-    for (i[2] = -p->g[2]; i[2] < p->n[2] + p->g[2]; i[2]++)
-        for (i[1] = -p->g[1]; i[1] < p->n[1] + p->g[1]; i[1]++)
-            for (i[0] = -p->g[0]; i[0] < p->n[0] + p->g[0]; i[0]++) {
-                const int64_t c = part_at(p, i[0], i[1], i[2]);
-                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                double x[3], dx[3][3];
-                mesh_map_point(m->block + p->block, m->dim, at, (double[3]){0.5, 0.5, 0.5}, x, dx);
-                for (int a = 0; a < 3; a++)
-                    w->x[a][c] = x[a];
-            }
+    PART_ALL (p, i, c) {
+        const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+        double x[3], dx[3][3];
+        mesh_map_point(m->block + p->block, m->dim, at, (double[3]){0.5, 0.5, 0.5}, x, dx);
+        for (int a = 0; a < 3; a++)
+            w->x[a][c] = x[a];
+    }
 }
 
 /* grad xi_a of a cell, 1/m. */
@@ -158,14 +155,11 @@ static unsigned char behind(const struct mesh *m, int block, const int *cell)
 static void set_part_out(const struct fv *s, const struct part *p, unsigned char *out)
 {
     int i[3];
-    for (i[2] = -p->g[2]; i[2] < p->n[2] + p->g[2]; i[2]++)
-        for (i[1] = -p->g[1]; i[1] < p->n[1] + p->g[1]; i[1]++)
-            for (i[0] = -p->g[0]; i[0] < p->n[0] + p->g[0]; i[0]++) {
-                const int64_t c = part_at(p, i[0], i[1], i[2]);
-                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                if (s->m->status[c] == CELL_HOLE)
-                    out[c] = behind(s->m, p->block, at);
-            }
+    PART_ALL (p, i, c) {
+        const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+        if (s->m->status[c] == CELL_HOLE)
+            out[c] = behind(s->m, p->block, at);
+    }
 }
 
 /* Heights of centres. */
