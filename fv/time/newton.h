@@ -38,9 +38,9 @@ struct newton_cells {
     void (*evaluate)(struct fv *s);
     /* The same along the variation w->v; NULL: by difference quotients. */
     void (*evaluate_variation)(struct fv *s);
-    /* Rows A of the preconditioner from the fluxes of the state. */
+    /* Rows A of the preconditioner from the fluxes of the state, but for what a surface changes. */
     void (*fill_rows)(struct fv *s);
-    /* div -= D I(x) */
+    /* div -= D I(x); x with its ghosts. */
     void (*subtract_divergence)(struct fv *s, double *const x[3], double *div);
 };
 extern const struct newton_cells newton_even, newton_blocks;

@@ -173,22 +173,6 @@ static void evaluate(struct fv *s)
     remove_mean(s, s->faces[0]);
 }
 
-/* Beyond the surface the velocity goes on as it is. */
-static void close_wet_rows(struct fv *s)
-{
-    const unsigned char *layer = s->surface->layer;
-    double *const *A = s->newton->A;
-    for (int e = 1; e <= 2 * s->dim; e++)
-        FLOW_ROWS_AT (s, part, j, c, n)
-            for (int64_t i = c; i < c + n; i++) {
-                const int64_t to = i + (e % 2 ? -1 : 1) * part->stride[(e - 1) / 2];
-                if (s->free[i] > 0.0 && layer[to] && s->m->status[to] != CELL_HOLE) {
-                    A[0][i] += A[e][i];
-                    A[e][i] = 0.0;
-                }
-            }
-}
-
 /* First-order upwind, as on even cells; what lies behind closed sides goes into the diagonal, with
  * ghosts that are odd (walls) or even (outflow); given cells do not vary. Cells that are not
  * computed get rows of their own. */
@@ -213,8 +197,6 @@ static void fill_rows(struct fv *s)
             }
             A[0][i] = s->free[i] > 0.0 ? A[0][i] : 1.0;
         }
-    if (s->surface)
-        close_wet_rows(s);
     if (s->prm.c0 > 0.0)
         poisson_shift(s, pow(s->newton->of.c0 / s->prm.c0, 2.0));
 }
@@ -223,10 +205,6 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *div)
 {
     const struct mesh *m = s->m;
     const struct newton *w = s->newton;
-    if (s->surface) {
-        extension_apply(s, x, EXTEND_CHANGE, STENCILS);
-        sides_velocity(s, BC_ZERO, x);
-    }
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double sum = 0.0;

@@ -7,7 +7,6 @@
 
 #include "../boundary/bc.h"
 #include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
 #include "../operators/operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/levelset.h"
@@ -307,32 +306,11 @@ static void close_rows(struct fv *s)
     }
 }
 
-/* Beyond the surface the velocity goes on as it is. */
-static void close_wet_rows(struct fv *s)
-{
-    const unsigned char *layer = s->surface->layer;
-    double *const *A = s->newton->A;
-    for (int e = 1; e <= 2 * s->dim; e++) {
-        const int64_t to = (e % 2 ? -1 : 1) * s->b.stride[(e - 1) / 2];
-        BLOCK_ROWS (&s->b, 0, c, n)
-            for (int64_t i = c; i < c + n; i++) {
-                if (!layer[i] && layer[i + to])
-                    A[0][i] += A[e][i];
-                if (layer[i] || layer[i + to])
-                    A[e][i] = 0.0;
-                if (layer[i])
-                    A[0][i] = 1.0;
-            }
-    }
-}
-
 static void fill_rows(struct fv *s)
 {
     const double a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0, c0 = s->newton->of.c0;
     fill_open_rows(s);
     close_rows(s);
-    if (s->surface)
-        close_wet_rows(s);
     poisson_shift(s, a * c0 * c0);
 }
 
@@ -340,10 +318,6 @@ static void fill_rows(struct fv *s)
 static void subtract_divergence(struct fv *s, double *const x[3], double *restrict div)
 {
     const struct block *b = &s->b;
-    if (s->surface) {
-        extension_apply(s, x, EXTEND_CHANGE, STENCILS);
-        sides_velocity(s, BC_ZERO, x);
-    }
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict u = x[a];

@@ -13,6 +13,26 @@
 #include "../boundary/fv_sides.h"
 #include "../operators/flow_ops.h"
 #include "../poisson/poisson.h"
+#include "../surface/levelset.h"
+
+/* Beyond the surface the velocity goes on as it is; dry cells get rows of their own. */
+static void close_at_surface(struct fv *s)
+{
+    const unsigned char *layer = s->surface->layer;
+    double *const *A = s->newton->A;
+    for (int e = 1; e <= 2 * s->dim; e++)
+        FLOW_ROWS_AT (s, part, j, c, n) {
+            const int64_t to = (e % 2 ? -1 : 1) * part->stride[(e - 1) / 2];
+            for (int64_t i = c; i < c + n; i++) {
+                if (!layer[i] && layer[i + to])
+                    A[0][i] += A[e][i];
+                if (layer[i] || layer[i + to])
+                    A[e][i] = 0.0;
+                if (layer[i])
+                    A[0][i] = 1.0;
+            }
+        }
+}
 
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
 {
@@ -20,6 +40,8 @@ int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
     double *restrict diagonal = s->newton->A[0];
     (void)q, (void)uscale, (void)f, (void)fscale;
     s->newton->cells_of->fill_rows(s);
+    if (s->surface)
+        close_at_surface(s);
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             diagonal[i] = 1.0 / diagonal[i];
@@ -113,6 +135,10 @@ int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
     (void)q, (void)uscale, (void)f, (void)fscale;
     newton_unpack(s, v, w->div, w->r);
     smooth(s, w->r, w->x);
+    if (s->surface) {
+        extension_apply(s, w->x, EXTEND_CHANGE, STENCILS);
+        sides_velocity(s, BC_ZERO, w->x);
+    }
     w->cells_of->subtract_divergence(s, w->x, w->div);
     timer_start(&s->run->timers, "pressure");
     poisson_cycle(s, w->div, w->phi);
