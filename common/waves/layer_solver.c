@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/lanes.h"
 #include "../base/log.h"
 #include "../base/mem.h"
 #include "layer.h"
@@ -192,11 +193,7 @@ void layer_solver_flat(struct sigma_layer *l, const double *y)
 
 static double dot(size_t n, const double *x, const double *y)
 {
-    double sum[8] = {0.0};
-    for (size_t i = 0; i + 8 <= n; i += 8) /* rows * cells is a multiple of 8 */
-        for (int k = 0; k < 8; k++)
-            sum[k] += x[i + (size_t)k] * y[i + (size_t)k];
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
+    return lanes_dot_any(x, y, (int64_t)n);
 }
 
 static void add(size_t n, double a, const double *restrict x, double *restrict y)

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/lanes.h"
 #include "viscous_solver.h"
 
 double helmholtz_tolerance(const struct fv *s)
@@ -17,24 +18,11 @@ double helmholtz_tolerance(const struct fv *s)
     return fmin(s->forcing ? 1e-5 : s->m ? 1e-4 : 1e-3, 1e-3 * side * side);
 }
 
-static double dot_row(const double *restrict a, const double *restrict b, int64_t n)
-{
-    double part[8] = {0.0};
-    int64_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int k = 0; k < 8; k++)
-            part[k] += a[i + k] * b[i + k];
-    for (; i < n; i++)
-        part[0] += a[i] * b[i];
-    return ((part[0] + part[1]) + (part[2] + part[3])) +
-           ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
 double helmholtz_dot(const struct fv *s, const double *x, const double *y)
 {
     double sum = 0.0;
     FLOW_NEAR (s, c, n)
-        sum += dot_row(x + c, y + c, n);
+        sum += lanes_dot_any(x + c, y + c, n);
     return sum;
 }
 

@@ -3,6 +3,7 @@
  * takes few steps; else, and should the bounds fail, BiCGStab scaled by the diagonal, which cells
  * of very different size want; between joins of like cells conjugate gradients.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "../../common/base/lanes.h"
 #include "../boundary/mesh_bc.h"
 #include "../fv.h"
 #include "../grid/mesh.h"
@@ -78,10 +79,10 @@ static double step_row(const double *restrict x, const double *restrict L, const
                        const double *restrict is_free, double c, double alpha, double beta,
                        int64_t n, double *restrict y)
 {
-    double part[8] = {0.0};
+    double part[LANES] = {0.0};
     int64_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int k = 0; k < 8; k++) {
+    for (; i + LANES <= n; i += LANES)
+        for (int k = 0; k < LANES; k++) {
             const double left = is_free[i + k] * (r[i + k] - x[i + k] + c * L[i + k]);
             y[i + k] = x[i + k] + beta * (x[i + k] - y[i + k]) + alpha * left;
             part[k] += left * left;
@@ -91,8 +92,7 @@ static double step_row(const double *restrict x, const double *restrict L, const
         y[i] = x[i] + beta * (x[i] - y[i]) + alpha * left;
         part[0] += left * left;
     }
-    return ((part[0] + part[1]) + (part[2] + part[3])) +
-           ((part[4] + part[5]) + (part[6] + part[7]));
+    return lanes_sum(part);
 }
 
 static double step(struct fv *s, const struct helmholtz_course *k, double *const x[3],

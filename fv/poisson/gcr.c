@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/lanes.h"
 #include "../../common/base/mem.h"
 
 void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
@@ -26,19 +27,6 @@ void gcr_free(struct gcr *g)
     }
 }
 
-static double dot(int n, const double *restrict x, const double *restrict y)
-{
-    double part[8] = {0.0};
-    int i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int m = 0; m < 8; m++)
-            part[m] += x[i + m] * y[i + m];
-    for (; i < n; i++)
-        part[0] += x[i] * y[i];
-    return ((part[0] + part[1]) + (part[2] + part[3])) +
-           ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
 static void add(int n, double a, const double *restrict x, double *restrict y)
 {
     for (int i = 0; i < n; i++)
@@ -47,7 +35,7 @@ static void add(int n, double a, const double *restrict x, double *restrict y)
 
 double gcr_norm(const struct gcr *g, const double *x)
 {
-    double sum = dot(g->n, x, x);
+    double sum = lanes_dot_any(x, x, g->n);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->comm);
     return sqrt(sum);
 }
@@ -62,7 +50,7 @@ static void make_conjugate(struct gcr *g, int k, int m, int first)
         const int j = (first + i) % GCR_KEPT;
         if (j == k || !(g->kept[j] > 0.0))
             continue;
-        double sum = dot(g->n, g->Az[k], test(g, j));
+        double sum = lanes_dot_any(g->Az[k], test(g, j), g->n);
         MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->comm);
         add(g->n, -sum / g->kept[j], g->z[j], g->z[k]);
         add(g->n, -sum / g->kept[j], g->Az[j], g->Az[k]);
@@ -72,7 +60,8 @@ static void make_conjugate(struct gcr *g, int k, int m, int first)
 /* x along direction k. Returns the norm of the residual; < 0: there is no such direction. */
 static double advance(struct gcr *g, int k, double *x)
 {
-    double sums[2] = {dot(g->n, g->Az[k], test(g, k)), dot(g->n, test(g, k), g->r)};
+    double sums[2] = {lanes_dot_any(g->Az[k], test(g, k), g->n),
+                      lanes_dot_any(test(g, k), g->r, g->n)};
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, g->comm);
     g->kept[k] = sums[0];
     if (!(sums[0] > 0.0))

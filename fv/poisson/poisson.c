@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/lanes.h"
 #include "../../common/base/mem.h"
 #include "../boundary/mesh_bc.h"
 #include "../grid/mesh.h"
@@ -70,15 +71,14 @@ const char *poisson_name(const struct poisson *p) { return p->by->name; }
 /* Sum of f q^2; sums side by side, or each addition waits for the one before. */
 static double squares(const double *restrict f, const double *restrict q, int64_t n)
 {
-    double part[8] = {0.0};
+    double part[LANES] = {0.0};
     int64_t i = 0;
-    for (; i + 8 <= n; i += 8)
-        for (int k = 0; k < 8; k++)
+    for (; i + LANES <= n; i += LANES)
+        for (int k = 0; k < LANES; k++)
             part[k] += f[i + k] * q[i + k] * q[i + k];
     for (; i < n; i++)
         part[0] += f[i] * q[i] * q[i];
-    return ((part[0] + part[1]) + (part[2] + part[3])) +
-           ((part[4] + part[5]) + (part[6] + part[7]));
+    return lanes_sum(part);
 }
 
 /* What rounding makes of divergences: nothing to solve for. div is 0 in cells that are not

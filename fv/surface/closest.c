@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lanes.h"
+#include "../../common/base/lanes.h"
 
 enum {
     REACH = 3,             /* cells around that are read: the ghosts of a rank */

@@ -8,12 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/lanes.h"
 #include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
 #include "../boundary/still.h"
 #include "extension_window.h"
-#include "lanes.h"
 #include "level_ops.h"
 #include "mesh_view.h"
 #include "near_water.h"

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/lanes.h"
 #include "fraction.h"
-#include "lanes.h"
 
 enum { STENCIL = 128 };
 

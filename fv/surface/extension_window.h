@@ -3,8 +3,8 @@
 #ifndef FV_EXTENSION_WINDOW_H
 #define FV_EXTENSION_WINDOW_H
 
+#include "../../common/base/lanes.h"
 #include "../fv.h"
-#include "lanes.h"
 
 enum { STENCIL = 128 /* 125 cells and what fills up the last lanes */ };
 

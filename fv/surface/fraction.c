@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/lanes.h"
 #include "../../common/base/log.h"
 #include "../../common/base/mem.h"
 #include "../boundary/still.h"
-#include "lanes.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"

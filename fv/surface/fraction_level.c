@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lanes.h"
+#include "../../common/base/lanes.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"

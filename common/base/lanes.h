@@ -1,8 +1,10 @@
-/* lanes.h - sums and bounds over short lists whose lengths are multiples of LANES: partial results
- * side by side, for vector registers (strict order of summation would forbid them).
+/* lanes.h - sums and bounds over lists: partial results side by side, for vector registers (strict
+ * order of summation would forbid them).
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_LANES_H
-#define FV_LANES_H
+#ifndef COMMON_LANES_H
+#define COMMON_LANES_H
+
+#include <stdint.h>
 
 enum { LANES = 8 };
 
@@ -15,12 +17,26 @@ static inline double lanes_sum(const double p[LANES])
     return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
 }
 
+/* Of short lists whose lengths are multiples of LANES, as in lanes_bounds. */
 static inline double lanes_dot(const double *restrict a, const double *restrict b, int n)
 {
     double part[LANES] = {0.0};
     for (int k = 0; k < n; k += LANES)
         for (int m = 0; m < LANES; m++)
             part[m] += a[k + m] * b[k + m];
+    return lanes_sum(part);
+}
+
+/* The same of any length. */
+static inline double lanes_dot_any(const double *restrict a, const double *restrict b, int64_t n)
+{
+    double part[LANES] = {0.0};
+    int64_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (int m = 0; m < LANES; m++)
+            part[m] += a[i + m] * b[i + m];
+    for (; i < n; i++)
+        part[0] += a[i] * b[i];
     return lanes_sum(part);
 }
 
