@@ -61,6 +61,13 @@ int level_parts(double cfl);
 /* surface_pressure.c: of even cells. */
 void level_find_cuts(struct fv *s);
 void level_cut_fluxes(const struct fv *s, double tau, const double *psi);
+/* surface_pressure.c: the cut of a face between the cells face - d and face, of which one is wet
+ * (here: the latter), with theta where phi is 0 between their centres; the caller sets step and
+ * size. */
+struct cut level_cut(const struct surface *f, int64_t face, int64_t d, bool here);
+/* Appends it to the cuts along a: x, m: where it is; e: unit vector from the wet to the dry cell.
+ * theta becomes the distance at which p stands, height that of x. */
+void level_add_cut(struct fv *s, int a, struct cut cut, const double *x, const double *e);
 /* Share of a cell below phi + shift = 0. */
 double level_share(const struct fv *s, const struct part *p, int64_t c, double shift);
 

@@ -185,9 +185,6 @@ void extension_beyond(const struct fv *s, double *q);
 void surface_smooth(struct fv *s, double dt);
 
 /* surface_pressure.c */
-/* surface_pressure.c: what the surface's rise within an implicit step adds to the distance from a
- * wet centre to its pressure, m; e: unit vector from the wet to the dry cell. */
-double surface_rise(const struct fv *s, const double *e);
 /* Finds wet cells, cut faces and stencils of the present phi; poisson_rebuild is due afterwards. */
 void surface_rebuild(struct fv *s);
 /* Sets p/rho on the cut faces, with the viscous stress of the last extension. */

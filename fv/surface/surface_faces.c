@@ -6,6 +6,7 @@
  * Gradients beside the surface are made of these fluxes: e_a the spacing of centres,
  *   grad psi = sum over a of e_a (F_a,lower + F_a,upper)/2V.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include "level_ops.h"
 #include "levelset.h"
 #include "mesh_view.h"
 
@@ -14,7 +15,6 @@
 #include "../../common/base/mem.h"
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
-#include "../boundary/still.h"
 
 enum { AROUND = 12 }; /* two cells, and the four around each along two tangents */
 
@@ -65,31 +65,18 @@ static void add_slope(const struct fv *s, int64_t c, int64_t t, double weight, s
 
 static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
 {
-    struct surface *f = s->surface;
-    const struct surface_mesh *w = f->mesh;
-    const bool here = is_wet(s, face);
-    struct cut x = {.face = face,
-                    .wet = here ? face : face - d,
-                    .dry = here ? face - d : face,
-                    .up = here ? -1.0 : 1.0};
-    const double inside = fmin(0.0, f->phi[x.wet]), theta = inside / (inside - f->phi[x.dry]);
+    const struct surface_mesh *w = s->surface->mesh;
+    struct cut x = level_cut(s->surface, face, d, is_wet(s, face));
     double at[3], e[3];
     for (int k = 0; k < 3; k++) {
         e[k] = w->x[k][x.dry] - w->x[k][x.wet];
-        at[k] = w->x[k][x.wet] + theta * e[k];
+        at[k] = w->x[k][x.wet] + x.theta * e[k];
         x.step += e[k] * e[k];
     }
     x.step = x.size = sqrt(x.step);
     for (int k = 0; k < 3; k++)
         e[k] /= x.step;
-    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) + surface_rise(s, e) / x.step;
-    x.height = -fv_still_pressure(s, at) / s->run->scene.fluid.rho;
-    if (f->ncut[a] == f->room[a]) {
-        const int64_t more = 2 * f->room[a] + 256;
-        GROW(f->cut[a], f->ncut[a], more);
-        f->room[a] = more;
-    }
-    f->cut[a][f->ncut[a]++] = x;
+    level_add_cut(s, a, x, at, e);
 }
 
 static void add_face(struct fv *s, int a, const struct wet_face *x, const struct stencil *q)

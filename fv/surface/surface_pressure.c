@@ -19,7 +19,9 @@
 #include "level_ops.h"
 #include "mesh_view.h"
 
-double surface_rise(const struct fv *s, const double *e)
+/* m: what the surface's rise within an implicit step adds to the distance from a wet centre to its
+ * pressure; e: unit vector from the wet to the dry cell. */
+static double rise_of(const struct fv *s, const double *e)
 {
     const double g = s->surface->g;
     double up = 0.0;
@@ -28,32 +30,43 @@ double surface_rise(const struct fv *s, const double *e)
     return s->surface->rise * g * fmax(0.0, up) / fmax(up * up, 0.5);
 }
 
-static void add_cut(struct fv *s, int a, int64_t face, bool wet_here)
+struct cut level_cut(const struct surface *f, int64_t face, int64_t d, bool here)
+{
+    struct cut x = {.face = face,
+                    .wet = here ? face : face - d,
+                    .dry = here ? face - d : face,
+                    .up = here ? -1.0 : 1.0};
+    const double inside = fmin(0.0, f->phi[x.wet]);
+    x.theta = inside / (inside - f->phi[x.dry]);
+    return x;
+}
+
+void level_add_cut(struct fv *s, int a, struct cut cut, const double *x, const double *e)
 {
     struct surface *f = s->surface;
-    const struct block *b = &s->b;
-    const int64_t d = b->stride[a];
-    int at[3];
-    block_place(b, face, at);
-    struct cut x = {.face = face,
-                    .wet = wet_here ? face : face - d,
-                    .dry = wet_here ? face - d : face,
-                    .up = wet_here ? -1.0 : 1.0};
-    const double inside = fmin(0.0, f->phi[x.wet]), theta = inside / (inside - f->phi[x.dry]);
-    double at_surface[3], e[3] = {0.0, 0.0, 0.0};
-    e[a] = x.up;
-    block_centre(b, at[0], at[1], at[2], at_surface);
-    x.step = block_step(b, a, at[1]);
-    x.size = block_size(b, a, wet_here ? at[1] : at[1] - (a == 1));
-    at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * theta) * x.step;
-    x.theta = fmax(theta, fmax(f->theta_least, 0.01)) + surface_rise(s, e) / x.step;
-    x.height = -fv_still_pressure(s, at_surface) / s->run->scene.fluid.rho;
+    cut.theta = fmax(cut.theta, fmax(f->theta_least, 0.01)) + rise_of(s, e) / cut.step;
+    cut.height = -fv_still_pressure(s, x) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;
         GROW(f->cut[a], f->ncut[a], more);
         f->room[a] = more;
     }
-    f->cut[a][f->ncut[a]++] = x;
+    f->cut[a][f->ncut[a]++] = cut;
+}
+
+static void add_cut(struct fv *s, int a, int64_t face, bool wet_here)
+{
+    const struct block *b = &s->b;
+    int at[3];
+    block_place(b, face, at);
+    struct cut x = level_cut(s->surface, face, b->stride[a], wet_here);
+    double at_surface[3], e[3] = {0.0, 0.0, 0.0};
+    e[a] = x.up;
+    block_centre(b, at[0], at[1], at[2], at_surface);
+    x.step = block_step(b, a, at[1]);
+    x.size = block_size(b, a, wet_here ? at[1] : at[1] - (a == 1));
+    at_surface[a] += ((wet_here ? 0.0 : -1.0) + x.up * x.theta) * x.step;
+    level_add_cut(s, a, x, at_surface, e);
 }
 
 /* Faces of local cells and of one layer around, and the next further up along a: that of a cell two
