@@ -275,25 +275,33 @@ bool coupling_has_outlet(const struct run *r, int end)
     return any;
 }
 
-/* What sph gives from wall to wall cuts fv's flow in parts. One without an outlet takes the level
- * of its pressure from sph, on uniform cells; between two boxes nothing would say how much flows.
- */
+/* Why fv's flow cannot be cut in two along axis a and a remedy, or NULL: between two boxes nothing
+ * would say how much flows, nor between two outlets, for pressures do not pass through sph; a part
+ * without an outlet takes the level of its pressure from sph, on uniform cells alone. */
+static const char *no_balance(const struct run *r, int a)
+{
+    char names[PARAM_KIN_MAX][64];
+    const bool below = coupling_has_outlet(r, 2 * a), above = coupling_has_outlet(r, 2 * a + 1);
+    if (params_kin(r->params, "sph", names) > 1)
+        return "what lies between several boxes would have no sides of its own: ";
+    if (below && above)
+        return "with outlets beyond both of its ends nothing would say how much flows through it: "
+               "give one of them an inflow, on fv.cells, or ";
+    if (params_has_group(r->params, "blocks"))
+        return "blocks beyond it have no outlet among the walls, which would set their pressure: "
+               "take fv.cells, which need none, or ";
+    return NULL;
+}
+
 static void check_parted(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
-    const bool blocks = params_has_group(r->params, "blocks");
-    char names[PARAM_KIN_MAX][64];
     for (int a = 0; a < r->scene.domain.dim; a++) {
-        const bool several = params_kin(r->params, "sph", names) > 1,
-                   shut = !coupling_has_outlet(r, 2 * a) || !coupling_has_outlet(r, 2 * a + 1);
-        if (coupling_cuts(r, prm, a) && (several || (blocks && shut)))
+        const char *why = coupling_cuts(r, prm, a) ? no_balance(r, a) : NULL;
+        if (why)
             params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
-                         "cuts fv's flow in two along %c, and %s. Leave fv a way around the box: "
-                         "end it before one of the sides that it reaches now%s",
-                         axes[a],
-                         several ? "what lies between several boxes would have no sides of its own"
-                                 : "blocks beyond it have no outlet among the walls, which would "
-                                   "set their pressure",
-                         several ? "" : "; or take fv.cells, which need none");
+                         "cuts fv's flow in two along %c, and %sleave fv a way around the box: end "
+                         "it before one of the sides that it reaches now",
+                         axes[a], why);
     }
 }
 

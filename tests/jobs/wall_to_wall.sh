@@ -41,7 +41,11 @@ refused() { # NAME WORDS CASE: a fault that says why
 sed 's/^sph: .*/sph_a: { dx = 0.0125; box = ((0.5, 0), (1.2, 0.4)); }; sph_b: { dx = 0.0125; box = ((1.8, 0), (2.5, 0.4)); };/; /^probes/,/^  .*);$/d' channel.cfg >two.cfg
 refused two "what lies between several boxes" two.cfg
 sed 's/^fv: .*/fv: {}; blocks: ( { cells = (96, 12); max = (3, 0.4); } );/' channel.cfg >blocks.cfg
-refused blocks "or take fv.cells, which need none" blocks.cfg
+refused blocks "take fv.cells, which need none" blocks.cfg
+sed 's/kind = "inflow"; velocity = (0.3, 0); profile = "parabolic"/kind = "outflow"; pressure = 0.45/' channel.cfg >outlets.cfg
+refused outlets "nothing would say how much flows through it" outlets.cfg
+sed 's/^fv: .*/fv: {}; blocks: ( { cells = (96, 12); max = (3, 0.4); } );/' outlets.cfg >outlets_blocks.cfg
+refused outlets_blocks "nothing would say how much flows through it" outlets_blocks.cfg
 sed 's/cells = (96, 12)/integrator = "newton"; cells = (96, 12)/' channel.cfg >newton.cfg
 refused newton "newton solves for one pressure" newton.cfg
 
