@@ -63,13 +63,24 @@ bool crossing_find(const struct run *r)
     return ends;
 }
 
-/* Whether a gauge lies in a box; one of the level by its place on the ground alone. */
+/* The image of x along axis a that lies in the period from lo on; without a period x. */
+static double image_from(const struct scene_domain *d, int a, double lo, double x)
+{
+    const double L = d->max[a] - d->min[a];
+    return d->periodic[a] ? x - L * floor((x - lo) / L) : x;
+}
+
+/* Whether a gauge lies in a box, which may reach over a periodic side; one of the level, whose
+ * column ends there, by its place on the ground alone. */
 static bool holds(const struct scene *c, int up, double box[2][3], const struct scene_probe *g)
 {
     bool inside = true;
     for (int a = 0; a < c->domain.dim; a++)
-        if (box[1][a] > box[0][a] && (a != up || probe_is_point(g)))
-            inside = inside && g->at[a] >= box[0][a] && g->at[a] <= box[1][a];
+        if (box[1][a] > box[0][a] && (a != up || probe_is_point(g))) {
+            const double x =
+                probe_is_point(g) ? image_from(&c->domain, a, box[0][a], g->at[a]) : g->at[a];
+            inside = inside && x >= box[0][a] && x <= box[1][a];
+        }
     return inside;
 }
 

@@ -48,14 +48,27 @@ int probes_columns(const struct run *r, const char **names)
     return n;
 }
 
+/* From a particle at x to a gauge, across the nearest periodic side, m; returns its square. */
+static double way_to(const struct sph *s, const struct scene_probe *g, const double *x, double *d)
+{
+    const struct scene_domain *o = &s->run->scene.domain;
+    double r2 = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        d[a] = g->at[a] - x[a];
+        if (o->periodic[a])
+            d[a] -= (o->max[a] - o->min[a]) * round(d[a] / (o->max[a] - o->min[a]));
+        r2 += d[a] * d[a];
+    }
+    return r2;
+}
+
 /* w W of local particle i at a gauge; 0: out of reach, or a guard. */
 static double weight_at(const struct sph *s, int i, const struct scene_probe *g)
 {
     const double *q = prim_line(&s->p, i);
     const double R = fmax(s->p.size ? s->p.size[i][0] : s->R, g->radius);
-    double r2 = 0.0;
-    for (int a = 0; a < s->dim; a++)
-        r2 += (g->at[a] - q[a]) * (g->at[a] - q[a]);
+    double d[3];
+    const double r2 = way_to(s, g, q, d);
     return r2 >= R * R || particles_is_guard(&s->p, i)
                ? 0.0
                : q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), R);
@@ -65,16 +78,16 @@ static double weight_at(const struct sph *s, int i, const struct scene_probe *g)
  * W. */
 static void add_pressure(const struct sph *s, const struct scene_probe *g, double sums[2])
 {
-    const double *at = g->at;
     const int dim = s->dim;
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), rho = q[at_rho(dim)], W = weight_at(s, i, g);
         const double *grho = slope_line(&s->p, i);
-        double more = 0.0;
+        double more = 0.0, d[3];
         if (W == 0.0)
             continue;
+        way_to(s, g, q, d);
         for (int a = 0; a < dim; a++)
-            more += (at[a] - q[a]) * grho[a];
+            more += d[a] * grho[a];
         const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
         sums[0] += W * (eos_p(rho, s->rho0, s->c0, s->gamma) + c * c * more);
         sums[1] += W;

@@ -125,6 +125,28 @@ not_told() {
 not_told lift.cfg 's/0.2); body = "box"/0.2); body = "bax"/' "probes.\[0\].body: with: no body .bax' moves" sph
 not_told swing.cfg 's/body = "cylinder"/body = "outer"/' 'probes.\[0\].body: is not used: no block of that name moves' fv
 not_told lift.cfg 's/^sph/gauges: ( { name = "g"; probes = "level level"; period = 1; } );\n&/' 'gauges that move with a body' sph
+# Across periodic sides: vortices are the same on both sides of x = 0, so that no water crosses it; where the box of a coupled
+# job reaches over that side, sph reads what lies in it, (cos 2kx + cos 2ky) rho U^2 F^2/4 + p0 of the vortices
+cat >seam.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { rho = 1.0; nu = 1.0e-2; };
+domain:  { dim = 2; min = (0, 0); max = (1.0, 1.0); periodic = (true, true); };
+initial: { field = "taylor_green"; };
+probes:  ( { name = "near"; at = (0.05, 0.5); }, { name = "mid"; at = (0.9, 0.5); }, { name = "far"; at = (0.4, 0.5); },
+           { name = "v"; kind = "velocity"; at = (0.0, 0.25); } );
+output:  { snapshots = false; series = 1; };
+sph:     { dx = 0.02; noise = 0.0; };
+END
+"$b/sph" seam.cfg -o seam --force >seam.txt 2>&1 || bad "seam ended with $?" seam.txt
+u=$(last seam/series.csv "v u")
+near "$u" 0 1e-4 || bad "seam: $u m/s across a plane of symmetry"
+sed 's/^sph: .*/sph: { dx = 0.02; free = ((0.75, 0.3), (1.2, 0.7)); }; fv: { cells = (32, 32); };/; /"v"/d; s/"far"; at = (0.4, 0.5); },/"far"; at = (0.4, 0.5); } );/' seam.cfg >over.cfg
+"$root/cases/run" over.cfg -n 1:1:1 -o over --force >over.txt 2>&1 || bad "over ended with $?" over.txt
+near_=$(last over/sph-series.csv "near ") mid=$(last over/sph-series.csv "mid ")
+near "$near_" 0.386 0.02 && near "$mid" 0.279 0.02 || bad "over: $near_, $mid Pa at the places of a box over a periodic side (0.386, 0.279)"
+[ -z "$(last over/fv-series.csv "near ")$(last over/sph-series.csv "far ")" ] || bad "over: a gauge is read by the wrong program"
+echo "across a periodic side: $u m/s, $near_ and $mid Pa"
 echo "a body takes a gauge along: $follows Pa/m (-9810), one that stands $stands; before a wall off by $wall"
 echo "$failed faults"
 [ $failed = 0 ]
