@@ -161,11 +161,11 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         scene_currents_resolve(&r->scene, r->motions);
     if (l->faults.n == 0)
-        wave_gauges_check(&r->scene, l->params, &l->faults);
-    if (l->faults.n == 0)
         r->crossed = crossing_find(r);
     if (l->faults.n == 0)
         crossing_deal(r);
+    if (l->faults.n == 0)
+        wave_gauges_check(&r->scene, r->gauge_elsewhere, l->params, &l->faults);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
     if (l->faults.n == 0 && l->p->complete)

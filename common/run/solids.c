@@ -57,6 +57,14 @@ static void number_mesh(struct scene *s, enum mesh_owner owner, int k, int index
         }
 }
 
+/* Gauges that a body takes along are read where the body is. */
+static void give_gauges(struct run *r, const char *body)
+{
+    for (int k = 0; k < r->scene.nprobes; k++)
+        if (strcmp(r->scene.probes[k].body, body) == 0)
+            r->gauge_elsewhere[k] = true;
+}
+
 void solids_deal(struct run *r)
 {
     struct scene *s = &r->scene;
@@ -72,7 +80,9 @@ void solids_deal(struct run *r)
     for (int k = 0; k < s->nbodies; k++) {
         const bool away = solids_elsewhere(r, MESH_OF_BODY, k);
         number_mesh(s, MESH_OF_BODY, k, away ? -1 : n);
-        if (!away)
+        if (away)
+            give_gauges(r, s->bodies[k].name);
+        else
             s->bodies[n++] = s->bodies[k];
     }
     s->nbodies = n;

@@ -80,7 +80,17 @@ static bool any_moves(const struct scene *s, int n, const int *probe)
     return any;
 }
 
-void wave_gauges_check(const struct scene *s, const struct params *p, struct faults *f)
+/* The first gauge of a group that another program reads than the first one, or -1. */
+static int apart(const bool *elsewhere, int n, const int *probe)
+{
+    for (int i = 1; i < n; i++)
+        if (elsewhere[probe[i]] != elsewhere[probe[0]])
+            return probe[i];
+    return -1;
+}
+
+void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struct params *p,
+                       struct faults *f)
 {
     for (int k = 0; k < s->ngauges; k++) {
         const struct scene_gauges *g = s->gauges + k;
@@ -98,6 +108,12 @@ void wave_gauges_check(const struct scene *s, const struct params *p, struct fau
             params_fault(p, f, key,
                          "gauges that move with a body (probes.body) do not tell waves apart: "
                          "take gauges that stand");
+        else if (apart(elsewhere, n, probe) >= 0)
+            params_fault(p, f, key,
+                         "%s and %s are read by different programs, in sph.box by sph, outside by "
+                         "fv, and waves are told apart from the series of one: take gauges of one "
+                         "part",
+                         s->probes[probe[0]].name, s->probes[apart(elsewhere, n, probe)].name);
         else if (!(scene_waves_depth(s) > 0.0))
             params_fault(p, f, key, "no shape tells how deep the water is (waves.depth)");
         snprintf(key, sizeof key, "gauges.[%d].period", k);

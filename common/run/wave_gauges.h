@@ -8,9 +8,10 @@
 #include "../scene/scene.h"
 
 /* Adds a fault for names that are no level gauges, groups of fewer than two, gauges that move with
- * a body, an unknown depth or period, less than two periods of evaluation, and distances that do
- * not separate the two waves. */
-void wave_gauges_check(const struct scene *s, const struct params *p, struct faults *f);
+ * a body or of which a partner reads some (elsewhere, of each probe), an unknown depth or period,
+ * less than two periods of evaluation, and distances that do not separate the two waves. */
+void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struct params *p,
+                       struct faults *f);
 /* Reads the series at `path' and writes to the summary, of each group: reflection.NAME.incident
  * (m), .reflected (m), .R; of each of its gauges: height.GAUGE.mean, .significant, .largest,
  * .period, .waves, .spectral (4 sqrt(m0)), and in a sea that the case makes .error of the latter

@@ -146,6 +146,40 @@ sed 's/^sph: .*/sph: { dx = 0.02; free = ((0.75, 0.3), (1.2, 0.7)); }; fv: { cel
 near_=$(last over/sph-series.csv "near ") mid=$(last over/sph-series.csv "mid ")
 near "$near_" 0.386 0.02 && near "$mid" 0.279 0.02 || bad "over: $near_, $mid Pa at the places of a box over a periodic side (0.386, 0.279)"
 [ -z "$(last over/fv-series.csv "near ")$(last over/sph-series.csv "far ")" ] || bad "over: a gauge is read by the wrong program"
+# Two boxes, each with a body that takes a gauge along: each program reads its own; waves are told apart from gauges of one part
+cat >boxes.cfg <<'END'
+format = 1;
+time:    { end = 0.03; };
+fluid:   { rho = 1.0; nu = 1.0e-2; };
+domain:  { dim = 2; min = (0, 0); max = (4.0, 2.0); periodic = (true, true); };
+initial: { field = "uniform"; U = 0.3; velocity = (0.2, 0.0); };
+bodies:  ( { name = "a"; motion = ( { kind = "harmonic"; amplitude = 0.02; period = 1.0; } ); points = ((0.9, 0.9), (1.1, 0.9), (1.1, 1.1), (0.9, 1.1)); },
+           { name = "b"; motion = ( { kind = "harmonic"; amplitude = 0.02; period = 1.0; } ); points = ((2.9, 0.9), (3.1, 0.9), (3.1, 1.1), (2.9, 1.1)); } );
+probes:  ( { name = "ga"; at = (1.0, 1.2); body = "a"; }, { name = "gb"; at = (3.0, 1.2); body = "b"; } );
+sph_a:   { dx = 0.04; free = ((0.6, 0.6), (1.4, 1.4)); };
+sph_b:   { dx = 0.04; free = ((2.6, 0.6), (3.4, 1.4)); };
+fv:      { cells = (64, 32); };
+output:  { snapshots = false; series = 1; };
+END
+"$root/cases/run" boxes.cfg -n 1:1:1 -o boxes --force >boxes.txt 2>&1 || bad "boxes ended with $?" boxes.txt
+[ -n "$(last boxes/sph_a-series.csv "ga ")" ] && [ -n "$(last boxes/sph_b-series.csv "gb ")" ] || bad "boxes: a gauge on a body is not read by the body's program"
+[ -z "$(last boxes/sph_a-series.csv "gb ")$(last boxes/sph_b-series.csv "ga ")$(last boxes/fv-series.csv "g")" ] || bad "boxes: a gauge on a body is read twice"
+cat >parts.cfg <<'END'
+format = 1;
+time:    { end = 4.0; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { max = (8, 1.4); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "box"; box = ((0, 0), (8, 1)); } );
+probes:  ( { name = "w1"; kind = "level"; at = (5.0, 1); }, { name = "w2"; kind = "level"; at = (5.5, 1); }, { name = "w3"; kind = "level"; at = (7.0, 1); } );
+gauges:  ( { name = "g"; probes = "w1 w2"; period = 1.0; } );
+sph:     { dx = 0.1; box = ((2.5, 0), (6.5, 1.4)); };
+fv:      { cells = (50, 10); };
+END
+for p in sph fv; do
+    "$b/$p" parts.cfg --check >parts.txt 2>&1 || bad "$p refuses gauges in one part" parts.txt
+    not_told parts.cfg 's/"w1 w2"/"w1 w3"/' 'w1 and w3 are read by different programs' $p
+done
 echo "across a periodic side: $u m/s, $near_ and $mid Pa"
 echo "a body takes a gauge along: $follows Pa/m (-9810), one that stands $stands; before a wall off by $wall"
 echo "$failed faults"
