@@ -103,31 +103,29 @@ static double skewness(const struct sph *q, double L)
     return sum_anywhere(sum);
 }
 
-/* Distance of the nearest particle of a level to a place. */
-static double nearest(const struct sph *q, const double *x)
-{
-    double least = INFINITY;
-    for (int i = 0; i < q->p.n; i++) {
-        const double *y = state_row(&q->p, q->p.y, i);
-        least = fmin(least, hypot(y[0] - x[0], y[1] - x[1]));
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
-    return least;
-}
-
-/* Least and largest distance of places on the edges, but for corners, to the nearest particle. */
+/* Least and largest distance of places on the edges, but for corners, to the nearest particle of a
+ * level. */
 static void find_gaps(const struct sph *q, const struct triangle *t, double gap[2])
 {
     enum { PLACES = 101 };
-    gap[0] = INFINITY;
-    gap[1] = 0.0;
+    double least[SIDES * PLACES]; /* squared */
     for (int k = 0; k < SIDES * PLACES; k++) {
         const double *a = t->x[k / PLACES], *b = t->x[(k / PLACES + 1) % SIDES];
         const double part = 0.15 + 0.7 * (k % PLACES) / (PLACES - 1.0);
         const double x[2] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
-        const double d = nearest(q, x) / q->dx;
-        gap[0] = fmin(gap[0], d);
-        gap[1] = fmax(gap[1], d);
+        least[k] = INFINITY;
+        for (int i = 0; i < q->p.n; i++) {
+            const double *y = state_row(&q->p, q->p.y, i);
+            const double d[2] = {y[0] - x[0], y[1] - x[1]};
+            least[k] = fmin(least[k], d[0] * d[0] + d[1] * d[1]);
+        }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, least, SIDES * PLACES, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    gap[0] = INFINITY;
+    gap[1] = 0.0;
+    for (int k = 0; k < SIDES * PLACES; k++) {
+        gap[0] = fmin(gap[0], sqrt(least[k]) / q->dx);
+        gap[1] = fmax(gap[1], sqrt(least[k]) / q->dx);
     }
 }
 
@@ -138,7 +136,7 @@ static void find_gaps(const struct sph *q, const struct triangle *t, double gap[
 static void levels_end_at_the_surface(void **state)
 {
     (void)state;
-    for (int seed = 0; seed < (SANITIZED ? 3 : 12); seed++) {
+    for (int seed = 0; seed < (SANITIZED ? 1 : 12); seed++) {
         const struct triangle t = triangle_of(seed, false);
         struct sph_case c;
         int level = 0;
@@ -156,7 +154,7 @@ static void levels_end_at_the_surface(void **state)
 static void mirrors_and_units_agree(void **state)
 {
     (void)state;
-    for (int seed = 0; seed < 4; seed++) {
+    for (int seed = 0; seed < (SANITIZED ? 1 : 4); seed++) {
         const struct triangle t = triangle_of(seed, false), u = triangle_of(seed, true);
         struct sph_case c, d;
         const struct sph *q = start(&c, &t, 1.0, 1), *r = start(&d, &u, 1e3, 1);
