@@ -246,10 +246,51 @@ double steady_eta(const struct steady *w, double x, double t)
     return cimag(place(w, creal(invert(w, phase(w, x, t), 1e3)), &slope)) / w->k;
 }
 
+/* z'' at zeta. */
+static double complex bend(const struct steady *w, double complex zeta)
+{
+    const double complex E = cexp(-I * zeta), G = cexp(I * zeta - 2.0 * w->strip);
+    double complex e = 1.0, g = 1.0, sum = 0.0;
+    for (int j = 0; j < w->modes; j++) {
+        e = CMPLX(creal(e) * creal(E) - cimag(e) * cimag(E),
+                  creal(e) * cimag(E) + cimag(e) * creal(E));
+        g = CMPLX(creal(g) * creal(G) - cimag(g) * cimag(G),
+                  creal(g) * cimag(G) + cimag(g) * creal(G));
+        sum += (j + 1) * (j + 1) * w->A[j] * (e - g);
+    }
+    return -I * sum;
+}
+
+/* The velocity in the wave's frame, -c/z', is analytic in z: its derivative there is c z''/z'^3.
+ * The gradient of p is Bernoulli's. Above the surface nothing changes upwards. */
+static void add_slopes(const struct steady *w, double complex zeta, double complex slope,
+                       bool above, struct steady_slopes *of)
+{
+    const double complex D = w->frame * bend(w, zeta) / (slope * slope * slope);
+    const double uf = -creal(w->frame / slope), vf = cimag(w->frame / slope);
+    const double ux = creal(D), vx = -cimag(D), scale = sqrt(w->g * w->k), weight = w->rho * w->g;
+    const double tilt = cimag(slope) / creal(slope); /* of the streamline */
+    const double up = above ? 0.0 : 1.0, along = above ? tilt : 0.0;
+    of->u[0][0] = scale * (ux + along * vx);
+    of->u[0][1] = scale * up * vx;
+    of->u[1][0] = scale * (vx - along * ux);
+    of->u[1][1] = -scale * up * ux;
+    of->p[0] = above ? 0.0 : -weight * (uf * ux + vf * vx);
+    of->p[1] = above ? 0.0 : -weight * (uf * vx - vf * ux + 1.0);
+}
+
 void steady_point(const struct steady *w, double x, double y, double t, double *u, double *p)
+{
+    steady_point_slopes(w, x, y, t, u, p, NULL);
+}
+
+void steady_point_slopes(const struct steady *w, double x, double y, double t, double *u, double *p,
+                         struct steady_slopes *of)
 {
     double complex slope;
     double v[2] = {0.0, 0.0}, q = -w->rho * w->g * fmin(y, 0.0);
+    if (of)
+        *of = (struct steady_slopes){.p = {0.0, y < 0.0 ? -w->rho * w->g : 0.0}};
     if (!is_far(w, x, t)) {
         const double complex zeta = invert(w, phase(w, x, t), w->k * y);
         const double up = cimag(place(w, zeta, &slope));
@@ -259,6 +300,8 @@ void steady_point(const struct steady *w, double x, double y, double t, double *
         v[0] = (creal(flow) - w->back) * sqrt(w->g / w->k);
         v[1] = -cimag(flow) * sqrt(w->g / w->k);
         q = w->rho * w->g / w->k * (0.5 * w->b + w->y0 - 0.5 * speed2 - up);
+        if (of)
+            add_slopes(w, zeta, slope, cimag(zeta) >= 0.0 && w->k * y > up, of);
     }
     if (u) {
         u[0] = v[0];

@@ -27,6 +27,12 @@ struct steady {
     double A[STEADY_MODES]; /* Y_j/(1 - e^(-2j h*)), j = 1 .. modes */
 };
 
+/* Gradients at a point. */
+struct steady_slopes {
+    double u[2][2]; /* 1/s: of u, of v, each along x, y */
+    double p[2];    /* Pa/m */
+};
+
 /* Solves for the wave of that depth, length and height from trough to crest, m, whose crest is at
  * x, m, at t = 0. solitary: length is not used, depth is that of the still water. false: there is
  * no such wave, or Newton's method does not find it. */
@@ -37,5 +43,8 @@ double steady_eta(const struct steady *w, double x, double t);
 /* u, v (m/s), p (Pa, 0 on the surface) at (x, y), y = 0 at the still level; above the surface as on
  * it. u, p may be NULL. */
 void steady_point(const struct steady *w, double x, double y, double t, double *u, double *p);
+/* The same, and the gradients of both there unless of is NULL; above the surface those along it. */
+void steady_point_slopes(const struct steady *w, double x, double y, double t, double *u, double *p,
+                         struct steady_slopes *of);
 
 #endif

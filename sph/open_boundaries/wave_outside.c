@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../common/scene/exact.h"
+#include "../../common/waves/steady.h"
 
 static const double step = 1e-4; /* of differences, over the depth */
 
@@ -15,32 +16,22 @@ bool wave_outside_wanted(const struct run *r, const struct sph_params *prm)
 }
 
 /* The wave varies along x and y alone. */
-static void add_gradients(const struct exact *e, double t, const double *x, double *gu, double *gp)
-{
-    const double h = step * e->height;
-    memset(gu, 0, 3 * (size_t)e->dim * sizeof *gu);
-    memset(gp, 0, 3 * sizeof *gp);
-    for (int b = 0; b < 2; b++)
-        for (int sign = -1; sign <= 1; sign += 2) {
-            double y[3] = {x[0], x[1], x[2]}, v[3], q;
-            y[b] += sign * h;
-            exact_point(e, y, t, v, &q, NULL);
-            for (int a = 0; a < e->dim; a++)
-                gu[3 * a + b] += sign * v[a] / (2.0 * h);
-            gp[b] += sign * q / (2.0 * h);
-        }
-}
-
 void wave_outside_eval(void *ctx, double t, int n, const double *x, double *u, double *p,
                        double *gu, double *gp)
 {
     const struct exact *e = ctx;
+    struct steady_slopes of;
     for (int i = 0; i < n; i++) {
-        double v[3];
-        exact_point(e, x + 3 * i, t, v, p + i, NULL);
+        double v[3] = {0.0, 0.0, 0.0};
+        steady_point_slopes(&e->steady, x[3 * i], x[3 * i + 1] - e->bottom - e->height, t, v, p + i,
+                            gu ? &of : NULL);
         memcpy(u + e->dim * i, v, (size_t)e->dim * sizeof *u);
-        if (gu)
-            add_gradients(e, t, x + 3 * i, gu + 3 * e->dim * i, gp + 3 * i);
+        if (!gu)
+            continue;
+        memset(gu + 3 * e->dim * i, 0, 3 * (size_t)e->dim * sizeof *gu);
+        for (int a = 0; a < 2; a++)
+            memcpy(gu + 3 * (e->dim * i + a), of.u[a], sizeof of.u[a]);
+        memcpy(gp + 3 * i, (double[3]){of.p[0], of.p[1], 0.0}, 3 * sizeof *gp);
     }
 }
 

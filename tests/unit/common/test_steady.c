@@ -1,5 +1,5 @@
 /* test_steady.c - waves of permanent form: published speeds, still water far from solitary ones,
- * Bernoulli's equation, no divergence. SPDX-License-Identifier: BSD-3-Clause */
+ * Bernoulli's equation, no divergence, gradients. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include <math.h>
@@ -65,6 +65,22 @@ static void judge(const struct steady *w, double depth, double x)
     const double uy = (v[2][0] - v[3][0]) / (2.0 * h), px = (q[0] - q[1]) / (2.0 * h);
     assert_close(ux + vy, 0.0, 1e-6);
     assert_close((u[0] - w->c) * ux + u[1] * uy + px / w->rho, 0.0, 1e-6);
+    struct steady_slopes of;
+    steady_point_slopes(w, x, y, 0.0, u, &p, &of);
+    assert_close(of.u[0][0], ux, 1e-6);
+    assert_close(of.u[0][1], uy, 1e-6);
+    assert_close(of.u[1][0], (v[0][1] - v[1][1]) / (2.0 * h), 1e-6);
+    assert_close(of.u[1][1], vy, 1e-6);
+    assert_close(of.p[0], px, 1e-6);
+    assert_close(of.p[1], (q[2] - q[3]) / (2.0 * h), 1e-6);
+    steady_point(w, x + h, eta + 0.3, 0.0, v[0], q);
+    steady_point(w, x - h, eta + 0.3, 0.0, v[1], q + 1);
+    steady_point_slopes(w, x, eta + 0.3, 0.0, u, &p, &of);
+    for (int a = 0; a < 2; a++) { /* above the surface */
+        assert_close(of.u[a][0], (v[0][a] - v[1][a]) / (2.0 * h), 1e-6);
+        assert_close(of.u[a][1], 0.0, 1e-12);
+        assert_close(of.p[a], 0.0, 1e-12);
+    }
 }
 
 static void fields_obey_euler(void **state)
