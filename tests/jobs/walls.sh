@@ -29,11 +29,11 @@ holds "$defect < 1e-10" || bad "wedge: momentum off by $defect"
 # a block at rest near a floor, beside a side and between both: Archimedes on each of its faces, 392.4 N/m, and the
 # balance of fluid, block and walls
 sum() { awk -v x="$1" 'BEGIN { print x + 0.2 }'; }
-# resting NAME HEIGHT POINTS: a body at rest in water of 0.5 m, in a tank of that height
+# resting NAME HEIGHT POINTS [END]: a body at rest in water of 0.5 m, in a tank of that height
 resting() {
     cat >"$1.cfg" <<END
 format = 1;
-time:    { end = 0.4; };
+time:    { end = ${4:-0.4}; };
 fluid:   { rho = 1000.0; gravity = (0, -9.81); };
 domain:  { dim = 2; min = (0, 0); max = (1.0, $2); };
 walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
@@ -58,7 +58,7 @@ gap "2.5 dx from floor and side" 0.0625 0.0625
 
 # faces that stand on the floor at an angle, and a block in a corner: p A on each, 3 % of the whole
 corner() { # NAME WANTED_X WANTED_Y POINTS
-    resting corner 0.8 "$4"
+    resting corner 0.8 "$4" 0.8 # the start takes half of 0.4 s
     off=$(awk -v x="$(number corner x)" -v y="$(number corner y)" -v wx="$2" -v wy="$3" 'BEGIN {
         print sqrt((x - wx) ^ 2 + (y - wy) ^ 2) / sqrt(wx ^ 2 + wy ^ 2) }')
     holds "$off < 0.03" || bad "corner, $1: force off by $off, wanted 3 %: ($(number corner x), $(number corner y)) N/m"
