@@ -224,8 +224,9 @@ static bool check_domain(const struct run *r, int k, const double *x, const char
 {
     const struct scene_domain *d = &r->scene.domain;
     for (int a = 0; a < 3; a++) {
+        const double small = 1e-9 * (d->max[a] - d->min[a]); /* a rotation's last digits */
         char key[64];
-        if (x[a] >= d->min[a] && x[a] <= d->max[a])
+        if (x[a] >= d->min[a] - small && x[a] <= d->max[a] + small)
             continue;
         snprintf(key, sizeof key, "bodies.[%d]", k);
         params_fault(
