@@ -110,7 +110,7 @@ static double pressure_at(struct sph *s, const struct scene_probe *g)
                : 0.0;
 }
 
-/* Kernel average of the velocity; blank where there is hardly any fluid. */
+/* Kernel average of the velocity; NAN where there is hardly any fluid. */
 static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
 {
     double sums[4] = {0.0, 0.0, 0.0, 0.0};
