@@ -483,46 +483,38 @@ static void take_off(const struct fv *s, int a, int64_t i, double excess, double
         f->sign[a][i] * excess * (grid_face_area(&s->grid, c, a) / grid_flow_area(&s->grid, c, a));
 }
 
-/* The part that the computed cell beside a face of the outline lies in. */
+/* The part that the computed cell beside a face of the outline lies in; 0 where there are none. */
 static int face_part(const struct fv *s, int a, int64_t i)
 {
     const struct forcing *f = s->forcing;
     const int64_t c = f->face[a][i];
+    if (!f->parted)
+        return 0;
     return f->parted->of[f->sign[a][i] > 0 ? c - grid_part(&s->grid, c, NULL)->stride[a] : c];
 }
 
-/* Flux outwards through the outline, and its area; of all ranks. */
-static void sum_outline(const struct fv *s, double *const U[3], double sums[2])
+/* Net flux of the outline's faces of each part outwards, m^dim/s, and their area; of this rank. */
+static void sum_outline(const struct fv *s, double *const U[3], double sums[2][PARTS_MAX])
 {
     const struct forcing *f = s->forcing;
-    sums[0] = sums[1] = 0.0;
+    memset(sums, 0, 2 * sizeof *sums);
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->nface[a]; i++)
             if (f->counts[a][i]) {
                 const int64_t c = f->face[a][i];
-                sums[0] += f->sign[a][i] * U[a][c] * grid_flow_area(&s->grid, c, a);
-                sums[1] += grid_face_area(&s->grid, c, a);
+                const int k = face_part(s, a, i);
+                sums[0][k] += f->sign[a][i] * U[a][c] * grid_flow_area(&s->grid, c, a);
+                sums[1][k] += grid_face_area(&s->grid, c, a);
             }
 }
 
-/* Net flux of the outline's faces of each part, m^dim/s, and their area; of all ranks. */
-static void sum_parts(const struct fv *s, double *const U[3], double flux[PARTS_MAX],
-                      double area[PARTS_MAX])
+/* U of the outline less the excess of each part, m/s outwards. */
+static void take_off_all(const struct fv *s, const double *excess, double *const U[3])
 {
     const struct forcing *f = s->forcing;
-    double sums[2][PARTS_MAX] = {{0.0}};
     for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++) {
-            const int k = face_part(s, a, i);
-            const int64_t c = f->face[a][i];
-            if (!f->counts[a][i])
-                continue;
-            sums[0][k] += f->sign[a][i] * U[a][c] * grid_flow_area(&s->grid, c, a);
-            sums[1][k] += grid_face_area(&s->grid, c, a);
-        }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2 * PARTS_MAX, MPI_DOUBLE, MPI_SUM, s->comm);
-    memcpy(flux, sums[0], sizeof sums[0]);
-    memcpy(area, sums[1], sizeof sums[1]);
+        for (int64_t i = 0; i < f->nface[a]; i++)
+            take_off(s, a, i, excess[face_part(s, a, i)], U[a]);
 }
 
 /* What flows out of a floating part through its sides flows in through its interface with the
@@ -530,22 +522,20 @@ static void sum_parts(const struct fv *s, double *const U[3], double flux[PARTS_
  * density is constant in the mean. */
 static void balance_parts(const struct fv *s, double *const U[3])
 {
-    const struct forcing *f = s->forcing;
-    const struct parted *p = f->parted;
-    double net[PARTS_MAX], flux[PARTS_MAX], area[PARTS_MAX], excess[PARTS_MAX], left[2] = {0.0};
+    const struct parted *p = s->forcing->parted;
+    double net[PARTS_MAX], sums[2][PARTS_MAX], excess[PARTS_MAX], left[2] = {0.0};
     parted_net_fluxes(p, s, U, net);
-    sum_parts(s, U, flux, area);
+    sum_outline(s, U, sums);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2 * PARTS_MAX, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < p->n; k++) {
-        excess[k] = p->floats[k] && area[k] > 0.0 ? net[k] / area[k] : 0.0;
-        left[0] += flux[k] - excess[k] * area[k];
-        left[1] += p->floats[k] ? 0.0 : area[k];
+        excess[k] = p->floats[k] && sums[1][k] > 0.0 ? net[k] / sums[1][k] : 0.0;
+        left[0] += sums[0][k] - excess[k] * sums[1][k];
+        left[1] += p->floats[k] ? 0.0 : sums[1][k];
     }
     for (int k = 0; k < p->n; k++)
         if (!p->floats[k] && left[1] > 0.0)
             excess[k] = left[0] / left[1];
-    for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++)
-            take_off(s, a, i, excess[face_part(s, a, i)], U[a]);
+    take_off_all(s, excess, U);
 }
 
 /* Takes the net flux out, where the outline does and no surface lets it in; sides: theirs counts.
@@ -553,7 +543,7 @@ static void balance_parts(const struct fv *s, double *const U[3])
 static void balance(const struct fv *s, bool sides, double *const U[3])
 {
     const struct forcing *f = s->forcing;
-    double sums[2];
+    double of[2][PARTS_MAX];
     if (f->parted) {
         balance_parts(s, U);
         return;
@@ -561,16 +551,15 @@ static void balance(const struct fv *s, bool sides, double *const U[3])
     if (s->surface || f->net == NET_OTHERS)
         return;
     sides = sides && f->net == NET_SIDES;
-    sum_outline(s, U, sums);
+    sum_outline(s, U, of);
+    double sums[2] = {of[0][0], of[1][0]};
     if (s->bc && sides)
         sums[0] += s->bc->outflux;
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     if (s->m && sides)
         sums[0] += mesh_bc_net_flux(s);
     const double excess = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
-    for (int a = 0; a < f->dim; a++)
-        for (int64_t i = 0; i < f->nface[a]; i++)
-            take_off(s, a, i, excess, U[a]);
+    take_off_all(s, &excess, U);
 }
 
 /* Whether the flux through the lower face of c is a partner's alone, and what it is. */

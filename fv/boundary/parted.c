@@ -82,34 +82,43 @@ static void count_parts(const struct fv *s, const unsigned char *forced, struct 
     }
 }
 
+/* The layer along a that a cell, a ghost too, stands for. */
+static int layer_of(const struct block *b, int a, int64_t c)
+{
+    int at[3];
+    block_place(b, c, at);
+    const int i = b->lo[a] + at[a], n = b->cells[a];
+    return b->periodic[a] ? (i + n) % n : i < 0 ? 0 : i >= n ? n - 1 : i;
+}
+
+static bool any_floats(const struct parted *p)
+{
+    bool any = false;
+    for (int k = 0; k < p->n; k++)
+        any = any || p->floats[k];
+    return any;
+}
+
 struct parted *parted_create(const struct fv *s, const unsigned char *forced)
 {
     const struct block *b = &s->b;
-    int most = 0, axis = 0, at[3];
+    int most = 0, axis = 0;
+    if (s->m || s->surface)
+        return NULL;
     for (int a = 0; a < b->dim; a++)
         most = b->cells[a] > most ? b->cells[a] : most;
     int *part = NEW(int, most);
     struct parted *p = NEW(struct parted, 1);
     p->forced = forced;
-    p->n = s->m || s->surface ? 0 : find_cut(s, forced, &axis, part);
-    if (p->n > 1) {
-        const int last = b->cells[axis] - 1;
+    p->n = find_cut(s, forced, &axis, part);
+    if (p->n > 0) {
         p->of = NEW(signed char, s->size);
-        for (int64_t c = 0; c < s->size; c++) {
-            block_place(b, c, at);
-            const int i = b->lo[axis] + at[axis];
-            p->of[c] = (signed char)part[b->periodic[axis] ? (i + last + 1) % (last + 1)
-                                         : i < 0           ? 0
-                                         : i > last        ? last
-                                                           : i];
-        }
+        for (int64_t c = 0; c < s->size; c++)
+            p->of[c] = (signed char)part[layer_of(b, axis, c)];
         count_parts(s, forced, p);
     }
     mem_free(part);
-    bool any = false;
-    for (int k = 0; k < p->n; k++)
-        any = any || p->floats[k];
-    if (!any)
+    if (!any_floats(p))
         parted_free(&p);
     return p;
 }

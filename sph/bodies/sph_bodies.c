@@ -63,6 +63,9 @@ static int find_bounds(const struct scene *c, const struct sph_params *used, str
     return n;
 }
 
+/* A side of the domain, whose fluid is within whatever the sense of its ends. */
+static bool is_side(const struct bound *b) { return b->line.x == (const double(*)[2])b->x; }
+
 /* --- gaps --- */
 
 /* Nearest point of a line to x; side: > 0 if x is on its left, 0 beyond an end. */
@@ -99,9 +102,7 @@ static bool is_wet(const struct scene *c, const struct bound *A, const struct bo
     bool in = scene_is_room(c, mid);
     for (int a = 0; a < 2; a++)
         in = in && mid[a] > c->domain.min[a] && mid[a] < c->domain.max[a];
-    const bool side_a = A->line.x == (const double(*)[2])A->x;
-    const bool side_b = B->line.x == (const double(*)[2])B->x;
-    return in && (side_a || left[0] >= 0.0) && (side_b || left[1] >= 0.0);
+    return in && (is_side(A) || left[0] >= 0.0) && (is_side(B) || left[1] >= 0.0);
 }
 
 static void fault_at(const struct run *r, struct faults *f, const struct bound *b, const char *what,
@@ -198,7 +199,7 @@ static void check_backs(const struct run *r, const struct bound *all, int n, str
                 if (d >= least)
                     continue;
                 least = d;
-                side = all[m].line.x == (const double(*)[2])all[m].x ? 1.0 : of;
+                side = is_side(all + m) ? 1.0 : of;
                 at_back = all + m;
             }
             behind = side < 0.0;
