@@ -23,6 +23,7 @@
 #include "forced_restart.h"
 #include "fv_course.h"
 #include "fv_link.h"
+#include "mean_velocity.h"
 #include "moved_box.h"
 #include "shared_walls.h"
 #include "water_budget.h"
@@ -49,8 +50,9 @@ struct link {
     double wish; /* s: window in which no box passes a cell of blocks */
     struct giver of[PARTNERS_MAX];
     int grid, velocity, pressure;
-    bool has_moved; /* some box, once */
-    char lost[256]; /* why its place is none for FV; "": it is one */
+    bool knows_mean; /* mean_velocity_is_known */
+    bool has_moved;  /* some box, once */
+    char lost[256];  /* why its place is none for FV; "": it is one */
     struct water_budget of_water;
     int phi;                      /* where the surface crosses into a giver's part */
     double *share, *share_of_one; /* of a kernel that the givers' water fills, at the places */
@@ -412,6 +414,7 @@ void fv_coupling_create(struct fv *s)
         s->surface->forced = surface_forced_create(s);
     tell_of_friction(s);
     declare(s, k);
+    k->knows_mean = mean_velocity_is_known(s);
     k->course = course_create(s, &k->patch, longest_memory(k));
     make_room(s, k);
     if (s->m) /* the start makes fluxes before the partner has said a word */
@@ -756,9 +759,12 @@ void fv_coupling_window_begin(void *state, double t0, double t1)
 void fv_coupling_window_end(void *state, double t1)
 {
     struct fv *s = state;
+    const struct link *k = s->link;
     if (s->forcing && !s->surface)
         find_datum(s);
-    course_take(s, s->link->course);
+    if (k->knows_mean)
+        mean_velocity_relax(s);
+    course_take(s, k->course);
     if (s->surface)
         water_budget_close(s, &s->link->of_water, t1 - s->forcing->t0);
 }
