@@ -1,4 +1,8 @@
-/* kernel_sums.c - see kernel_sums.h. SPDX-License-Identifier: BSD-3-Clause */
+/* kernel_sums.c - the Shepard sum S_i = sum_j w_j W(x_i - x_j), with the particle itself (j = i). S
+ * is 1 in a support that is full, up to the quadrature's error; at a free surface it falls to about
+ * 1/2. kernel_lattice_sum is what a cubic lattice of spacing dx has, the value that "full" is
+ * compared with.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "kernel_sums.h"
 
 #include <math.h>
@@ -6,6 +10,8 @@
 #include "kernel.h"
 #include "neighbours.h"
 
+/* The list holds no pair (i, i), so that the sum begins with the particle's own w_i W(0). Listed
+ * neighbours beyond R contribute zeros. */
 double kernel_sum(const struct sph *s, int i)
 {
     const int dim = s->dim, *j = s->list->j + s->list->start[i];
@@ -21,6 +27,8 @@ double kernel_sum(const struct sph *s, int i)
     return sum;
 }
 
+/* Lattice points within R lie in [-n, n]^dim around the one at the origin; the corners of that cube
+ * get W = 0. */
 double kernel_lattice_sum(const struct sph *s)
 {
     const int n = (int)(s->R / s->dx) + 1, deep = s->dim == 3 ? n : 0;

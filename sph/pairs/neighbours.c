@@ -1,6 +1,11 @@
 /* neighbours.c - cell grid and Verlet list. Locals are stored in the order of the cells, so what a
  * cell finds around it is a few runs; they are copied side by side once a cell, and every particle
- * of the cell filters that copy. SPDX-License-Identifier: BSD-3-Clause */
+ * of the cell filters that copy. Order within a step: neighbours_sort puts locals in the order of
+ * the cells; the halo makes ghosts; neighbours_build sorts these by cell (by index, they stay where
+ * they are) and writes the rows. Cells have the edge R + skin, so that all neighbours of a particle
+ * lie in the 3^dim cells around its own; in x these are contiguous, so there are 3 runs in 2D, 9 in
+ * 3D. The work is O(n) as long as cells hold a bounded number of particles.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "neighbours.h"
 
 #include <math.h>
@@ -70,6 +75,8 @@ void neighbours_free(struct neighbours **l)
         }                                                                                          \
     } while (0)
 
+/* The bounding box of this rank's particles from their states; [0, 0] along each axis where there
+ * are none or one is not finite. */
 static void bound_locals(const struct sph *s, double lo[3], double hi[3])
 {
     for (int a = 0; a < s->dim; a++) {
@@ -86,7 +93,9 @@ static void bound_locals(const struct sph *s, double lo[3], double hi[3])
 }
 
 /* Box of the locals in cells of the reach, with one layer more for ghosts. Should particles fly
- * apart, cells grow instead of their number. */
+ * apart, cells grow instead of their number. The bound 64 + 8 n on the number of cells keeps memory
+ * and the passes over cells O(n); 1.26 is the cube root of 2, so that every trial halves their
+ * number in 3D. Sets the edge, the number of cells along each axis and their total. */
 static void lay_grid(struct list_grid *g, const struct sph *s)
 {
     double hi[3], edge = (1.0 + 1e-9) * (s->R + s->lists.skin);
@@ -109,7 +118,8 @@ static void lay_grid(struct list_grid *g, const struct sph *s)
     }
 }
 
-/* margin 1 for locals, 0 for ghosts. What lies outside goes to the outermost cells; so does NaN. */
+/* margin 1 for locals, 0 for ghosts. What lies outside goes to the outermost cells; so does NaN. x
+ * runs fastest; cell 0 along each axis is outside the locals' box, hence the 1 that is added. */
 static int cell_of(const struct list_grid *g, const double *x, int margin)
 {
     int cell = 0;
@@ -121,7 +131,8 @@ static int cell_of(const struct list_grid *g, const double *x, int margin)
     return cell;
 }
 
-/* Stable counting sort of n rows by cell: first[cell], order. */
+/* Stable counting sort of n rows by cell: first[cell], order. first has total + 1 entries: cell c
+ * holds order[first[c]] .. order[first[c + 1] - 1]. */
 static void sort_rows(struct list_grid *g, const double *rows, int width, int n, int margin,
                       int *first, int *order)
 {
@@ -135,6 +146,7 @@ static void sort_rows(struct list_grid *g, const double *rows, int width, int n,
         first[c + 1] += first[c];
     for (int i = 0; i < n; i++)
         order[first[g->cell[i]]++] = i;
+    /* filling has moved each first[c] to the end of its cell, the first of the next one */
     memmove(first + 1, first, (size_t)g->total * sizeof *first);
     first[0] = 0;
 }
@@ -151,7 +163,7 @@ void neighbours_sort(struct sph *s)
     particles_permute(&s->p, s->p.n, g->order, s->guards != NULL);
 }
 
-/* Keeps what is there. */
+/* Grows the arrays of what lies around a cell to n entries; their contents stay. */
 static void near_room(struct list_grid *g, int n)
 {
     if (n <= g->near_capacity)
@@ -169,6 +181,8 @@ struct list_box {
     int without; /* bits of enum sph_role that leave a particle out */
 };
 
+/* The box around the particles that are in a cell now (tighter than the cell itself), against which
+ * copy_near filters the surroundings. The cell must not be empty. */
 static struct list_box box_of(const struct sph *s, const struct list_grid *g, int cell,
                               double reach)
 {
@@ -185,7 +199,9 @@ static struct list_box box_of(const struct sph *s, const struct list_grid *g, in
     return b;
 }
 
-/* Copies a particle that is within reach of the box: written in any case, counted if so. */
+/* Copies a particle that is within reach of the box: written in any case, counted if so. Without a
+ * branch: the next particle overwrites one that was not counted, so there must be room for one
+ * more. */
 INLINE void copy_near(const struct sph *s, struct list_grid *g, const struct list_box *b, int id,
                       const int dim)
 {
@@ -212,7 +228,9 @@ static int rows_around(const struct list_grid *g, int cell, int rows[9])
     return n;
 }
 
-/* Particles of the cells around `cell': locals in ascending order, then ghosts. */
+/* Particles of the cells around `cell': locals in ascending order, then ghosts. The order makes
+ * rows of the list begin with lower locals, then higher ones, then ghosts. `most' counts all that
+ * the runs hold, before the filter. */
 INLINE void look_around(const struct sph *s, struct list_grid *g, int cell, double reach,
                         const int dim)
 {
@@ -289,12 +307,20 @@ static void add_close(const struct sph *s, int i, double close2)
     }
 }
 
+/* Writes the rows of all particles of one cell: gathers its surroundings once, then filters them
+ * for each particle by the exact distance. The particle itself (position `self' in the gathered
+ * ids, which ascend in step with i) splits the row into the part before it and the tail after
+ * it. */
 INLINE void list_cell(struct sph *s, int cell, const int dim)
 {
     struct neighbours *l = s->list;
     struct list_grid *g = l->grid;
     const double reach = s->R + s->lists.skin, reach2 = reach * reach;
+    /* 88 % of the points of a full lattice within the reach: with as many neighbours nothing of the
+     * support is missing, and surface detection takes the particle as inside without eigenvalues */
     const double enough = 0.88 * (dim == 2 ? M_PI : 4.0 / 3.0 * M_PI) * pow(reach / s->dx, dim);
+    /* two that are farther apart now than this cannot come within `touching' before the next
+     * list */
     const double close = l->touching > 0.0 ? l->touching + reach - s->R : 0.0;
     const double close2 = close * close;
     const vec within = vec_all(reach2);
@@ -318,12 +344,14 @@ INLINE void list_cell(struct sph *s, int cell, const int dim)
         l->whole[i] = l->count[i] + 1 >= enough;
         if (vec_less(least, vec_all(close2)))
             add_close(s, i, close2);
+        /* padding: a vector that starts at any entry, the last one included, reads dummies */
         for (int k = 0; k < LANES - 1; k++)
             j[l->count[i] + k] = s->p.capacity;
         l->start[i + 1] = at + l->count[i] + LANES - 1;
     }
 }
 
+/* Lists all cells in 2D. dim is a constant in each of the two copies. */
 static void build_2d(struct sph *s)
 {
     const struct list_grid *g = s->list->grid;
@@ -332,6 +360,7 @@ static void build_2d(struct sph *s)
             list_cell(s, cell, 2);
 }
 
+/* The same in 3D. */
 static void build_3d(struct sph *s)
 {
     const struct list_grid *g = s->list->grid;
@@ -340,7 +369,7 @@ static void build_3d(struct sph *s)
             list_cell(s, cell, 3);
 }
 
-/* Ghosts stand at the end of a row. */
+/* Whether row i has no ghosts: they stand at its end, so the last entry tells. */
 static bool is_inner(const struct neighbours *l, int i)
 {
     return l->count[i] == 0 || l->j[l->start[i] + l->count[i] - 1] < l->n;
@@ -354,7 +383,8 @@ static int kind_of(const struct sph *s, int i)
     return s->run->size > 1 && is_inner(s->list, i) ? 0 : 1;
 }
 
-/* By kind, each as they are stored. */
+/* Fills `order' with the rows by kind (inner, outer, deep), each kind in the order in which rows
+ * are stored; frees it where storage order will do. */
 static void order_rows(const struct sph *s, struct neighbours *l)
 {
     int n[3] = {0};
@@ -382,6 +412,8 @@ void neighbours_rows(struct neighbours *l, enum rows which)
     l->last = which != ROWS_INNER; /* no outer rows: an empty part ends the pass */
 }
 
+/* `touching' must have been set before; rows are those of the last neighbours_sort, whose number of
+ * locals must still hold. */
 void neighbours_build(struct sph *s)
 {
     struct neighbours *l = s->list;
@@ -437,7 +469,9 @@ INLINE void gather_row(const struct sph *s, struct list_grid *g, const struct li
     }
 }
 
-/* Cells are those of the last sort, from where particles have moved by the skin at most. */
+/* Cells are those of the last sort, from where particles have moved by the skin at most. Gathers
+ * around the box b, with `reach' the distance within which cells may hold what is near it at the
+ * time of the last sort. */
 INLINE void gather(const struct sph *s, const struct list_box *b, double reach,
                    const unsigned short *ghost_role, const int dim)
 {
@@ -459,6 +493,8 @@ INLINE void gather(const struct sph *s, const struct list_box *b, double reach,
         }
 }
 
+/* The filter acts with `reach' itself on present positions; only the choice of cells is wider by
+ * the skin. */
 void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
                        const unsigned short *ghost_role, int without)
 {
@@ -472,6 +508,8 @@ void neighbours_gather(const struct sph *s, const double *lo, const double *hi, 
         gather(s, &b, reach, ghost_role, 3);
 }
 
+/* Filters what was gathered by its distance from x, a vector of LANES at a time; the room for 2
+ * LANES more is what `append' may write beyond the end. */
 int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
                     int *capacity)
 {
@@ -486,6 +524,8 @@ int neighbours_pick(const struct sph *s, const double *x, double reach, int n, i
                             : append(g, 0, g->near, x, reach * reach, *found + n, &least, 3));
 }
 
+/* The records are laid out from the start of s->p.rate, [n + nghost][width], and one for the dummy
+ * at s->p.capacity, which takes what padded lanes add. Zeroed only at the first part of a pass. */
 double *neighbours_sums(struct sph *s, int width)
 {
     double *sums = s->p.rate;
@@ -498,6 +538,8 @@ double *neighbours_sums(struct sph *s, int width)
     return sums;
 }
 
+/* Counts entries of all rows at present distances, so that each pair of locals counts twice, and
+ * one with a ghost once on either rank. */
 int64_t neighbours_pairs(const struct sph *s)
 {
     const struct neighbours *l = s->list;
@@ -516,6 +558,8 @@ int64_t neighbours_pairs(const struct sph *s)
     return pairs;
 }
 
+/* The tail of each row suffices, since every pair of locals is in one of them. Padding lies at the
+ * dummy's position, which must be far away. */
 INLINE double least_pair(const struct sph *s, const int dim)
 {
     const struct neighbours *l = s->list;

@@ -9,7 +9,10 @@
  * of delta Pi_ij = alpha c0 R rho0 (u_j - u_i).d/d^2, of standard it acts on approaching pairs
  * alone; Psi is 0 there. Densities follow volumes, drho = -rho/w dw. Where a transport law moves
  * particles at u0 = u + shift, u and rho are convected along: shift . grad u, shift . grad rho (Sun
- * et al., Comput. Phys. Commun. 224, 2018).
+ * et al., Comput. Phys. Commun. 224, 2018). Symmetric: row i treats its tail alone, adds to both
+ * particles of a pair, and the sums of i are complete once all rows are. Two loops over batches of
+ * neighbours (geometry; forces), then write_rates. Called as the second pass of every Runge-Kutta
+ * stage, by the table of instances at the end of the file.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
@@ -58,6 +61,7 @@ struct delta_sums {
     vec q[3], w, diffused;
 };
 
+/* Collects what is the same for all pairs of the pass from the state and the parameters. */
 static struct delta_constants constants_of(const struct sph *s)
 {
     const double R = s->R, mu = s->rho0 * s->nu, monaghan = 2.0 * (s->dim + 2.0) * mu;
@@ -78,6 +82,7 @@ static struct delta_constants constants_of(const struct sph *s)
     };
 }
 
+/* Broadcasts the records of particle i over the lanes, with its pressure and speed of sound. */
 INLINE struct delta_own load_own(const struct delta_constants *c, const double *prim,
                                  const double *slope, const struct delta_variant v)
 {
@@ -98,7 +103,8 @@ INLINE struct delta_own load_own(const struct delta_constants *c, const double *
     return i;
 }
 
-/* First loop: distances and kernel. */
+/* First loop: distances and kernel. d = 0 would give 0/0 further on; eps2 keeps r at 1e-10 R or
+ * more. Neighbours beyond R get q = 0, so that listed pairs need no test. */
 INLINE void geometry(const struct delta_constants *c, const struct delta_own *i, const double *prim,
                      const double *slope, const int *j, struct delta_batch *t,
                      const struct delta_variant v)
@@ -124,6 +130,8 @@ INLINE void geometry(const struct delta_constants *c, const struct delta_own *i,
     }
 }
 
+/* Velocities of LANES neighbours; in 3D they stand in columns 3 to 5, so that the columns are read
+ * in pairs from 2 on. */
 INLINE void load_u(const double *prim, const int *j, vec u[3], const int dim)
 {
     vec spare;
@@ -163,7 +171,9 @@ INLINE vec psi(const struct delta_own *i, const double *slope, const int *j, vec
     return f * (2.0 * (rho - i->rho) - vec_dot(g, d, dim));
 }
 
-/* Second loop: forces, to j as they are, to i with the opposite sign; volumes. */
+/* Second loop: forces, to j as they are, to i with the opposite sign; volumes. With kernel factor f
+ * = w_i w_j |W'|/r, grad W at x_i is +f d/(w_i w_j) up to its sign: W' < 0 and d points to j, so
+ * the force on j is along +d where pressures push. */
 INLINE void forces(const struct delta_constants *c, const struct delta_own *i, const struct sph *s,
                    const int *j, const struct delta_batch *t, double *sums, struct delta_sums *to,
                    const struct delta_variant v)
@@ -194,6 +204,7 @@ INLINE void forces(const struct delta_constants *c, const struct delta_own *i, c
             to->q[a] -= q[a];
         }
         vec w = fX; /* [2.48], the same for both */
+        /* w_i w_j (u_j - u_i).grad W at x_i, whose sign is the same seen from j */
         to->w += w;
         if (v.diffusion) {
             const vec diffused = psi(i, s->p.slope, j, f, rho, d, dim);
@@ -204,7 +215,8 @@ INLINE void forces(const struct delta_constants *c, const struct delta_own *i, c
     }
 }
 
-/* Row i of the list from the first neighbour beyond i on. */
+/* Row i of the list from the first neighbour beyond i on. What padded lanes add goes to the dummy's
+ * record. */
 INLINE void add_row(const struct sph *s, const struct delta_constants *c, double *sums, int i,
                     const struct delta_variant v)
 {
@@ -238,7 +250,8 @@ INLINE void move(struct sph *s, int i, double *rate, const int dim)
     }
 }
 
-/* What a particle that moves at u0 instead of u meets on its way. */
+/* Adds what a particle convects that moves at u0 instead of u: momentum rho w (u0 - u).grad u and
+ * volume -(w/rho) (u0 - u).grad rho. */
 INLINE void take_along(const struct sph *s, int i, double *rate, const int dim)
 {
     const double *prim = prim_line(&s->p, i), *u = prim + dim;
@@ -273,6 +286,8 @@ INLINE void write_rates(struct sph *s, const double *sums, const int dim)
     }
 }
 
+/* One body for all instances: v is constant in each, so the compiler drops what a variant does not
+ * have. */
 INLINE void rates(struct sph *s, const struct delta_variant v)
 {
     const struct delta_constants c = constants_of(s);

@@ -7,7 +7,10 @@
  *   xsph:  u0 = u + sum_j w_j rho_j (u_j - u_i)/(rho_i + rho_j) W_ij   [2.106]
  *   none:  u0 = u,   eulerian:  u0 = 0,
  * U from scheme_shift_speed, R_d = 2 dx, at most R. With walls or a free surface
- * surface/transport.c bounds the shift.
+ * surface/transport.c bounds the shift. Called first in every stage, before walls, surface and the
+ * second pass, which read the slopes. Sums are kept in the lanes of vectors to the end of a row
+ * (gradient_sums), added up once (total), renormalised (invert, renormalise) and written to slope
+ * (write_slope).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
@@ -19,6 +22,7 @@
 #include "neighbours.h"
 #include "vec.h"
 
+/* vectors of neighbours between two loops: d and t of a batch stay in the first-level cache */
 enum { BATCH = 16 };
 
 struct gradient_constants {
@@ -46,7 +50,8 @@ struct gradient_sums {
     vec W;       /* W/W(dx), where volumes follow it */
 };
 
-/* Short loops instead of one: the square root is under way for several vectors at once. */
+/* First loop: d = x_j - x_i and t = 1 - r/R of a batch. Short loops instead of one: the square root
+ * is under way for several vectors at once. */
 INLINE void geometry(const struct gradient_constants *c, const double *i, const double *prim,
                      const int *j, struct gradient_batch *near, const int dim)
 {
@@ -77,6 +82,8 @@ INLINE vec crowding(const struct gradient_constants *c, vec t, const int transpo
     return t3 + 0.2 * t3 * (W2 * W2);
 }
 
+/* Second loop: adds the contributions of a batch. `velocity' and `filled' are constants of the
+ * instance, without them no velocities are loaded and no kernel sum is made. */
 INLINE void add(const struct gradient_constants *c, const double *i, const double *prim,
                 const int *j, const struct gradient_batch *near, struct gradient_sums *s,
                 const int dim, const int transport, const bool velocity, const bool filled)
@@ -123,7 +130,9 @@ INLINE void add(const struct gradient_constants *c, const double *i, const doubl
     }
 }
 
-/* Whether all eigenvalues of the symmetric M are above a bound. */
+/* Whether all eigenvalues of the symmetric M are above a bound: by Sylvester's criterion all
+ * leading minors of M - bound I are positive. Spares the eigenvalues themselves inside the
+ * fluid. */
 INLINE bool exceeds(const double *M, double bound, const int dim)
 {
     const double a = M[0] - bound, b = M[1], e = M[2] - bound;
@@ -134,7 +143,8 @@ INLINE bool exceeds(const double *M, double bound, const int dim)
            a * (e * i - h * h) - b * (b * i - h * c) + c * (b * h - e * c) > 0.0;
 }
 
-/* All entries of a symmetric matrix. */
+/* All entries [dim][dim] of a symmetric matrix from those of its half, which are stored in the
+ * order 00 01 11 02 12 22. */
 INLINE void unpack(const double *M, double *all, const int dim)
 {
     all[0] = M[0];
@@ -164,7 +174,8 @@ static double trusted(const double *M, const int dim)
     return (lambda - least) / (enough - least);
 }
 
-/* B = M^-1 for symmetric M, as far as it can be trusted. */
+/* B = M^-1 for symmetric M by cofactors, times the share that can be trusted; zero where the share
+ * is 0, so that a singular M divides nothing. */
 INLINE void invert(const double *M, double B[3][3], const int dim)
 {
     const double share = trusted(M, dim);
@@ -191,7 +202,8 @@ struct totals {
     double M[6], rho[3], u[3][3], n[3], W;
 };
 
-/* What a variant has not summed is left out by the compiler. */
+/* Adds up the lanes, four sums at a time. Entries that a variant has not summed are zeros, and the
+ * compiler leaves them out. */
 INLINE struct totals total(const struct gradient_sums *s, const int dim)
 {
     const vec none = vec_all(0.0);
@@ -229,7 +241,8 @@ INLINE struct totals total(const struct gradient_sums *s, const int dim)
     return t;
 }
 
-/* out_b = sum_a v_a B_ab */
+/* out_b = kernel sum_a v_a B_ab: the gradient from the moments v without the kernel's constant,
+ * kernel = 20 W(0)/R^2. */
 INLINE void renormalise(double *out, const double *v, double B[3][3], double kernel, const int dim)
 {
     for (int b = 0; b < dim; b++) {
@@ -240,6 +253,7 @@ INLINE void renormalise(double *out, const double *v, double B[3][3], double ker
     }
 }
 
+/* R_delta = 2 dx of the law of Oger, never more than R. */
 INLINE double oger_radius(const struct sph *s) { return 2.0 * s->dx < s->R ? 2.0 * s->dx : s->R; }
 
 /* u0 - u from the crowding vector without its constants. Whole-support law: -2 U R n, at most U/4.
@@ -263,6 +277,8 @@ INLINE void shift(const struct sph *s, int i, double *delta, const double *u, co
             delta[a] *= sqrt(most2 / size2);
 }
 
+/* Finishes particle i: writes grad rho, grad u and u0 to its slope record, M for surface detection
+ * where that is under way, and the kernel sum of how filled its support is. */
 INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
                         const struct gradient_sums *sum, int i, const int dim, const int transport,
                         const bool velocity, const bool filled)
@@ -290,6 +306,7 @@ INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
         u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : u[a] + delta[a];
 }
 
+/* One body for all laws of transport; constants in each instance drop what it does not need. */
 INLINE void pass(struct sph *s, const int dim, const int transport, const bool velocity,
                  const bool filled)
 {

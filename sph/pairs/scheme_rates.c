@@ -28,6 +28,8 @@
 enum { EXACT = false };
 EACH(DEFINE)
 
+/* The instance of the pass for this dimension, scheme and viscosity. Without viscosity the index is
+ * VISCOSITY_OFF, whatever the parameter says. */
 scheme_pass *scheme_rates(const struct sph *s)
 {
     static scheme_pass *const passes[2][2][3] = {EACH(ENTRY)};
@@ -37,6 +39,9 @@ scheme_pass *scheme_rates(const struct sph *s)
     return passes[s->dim - 2][s->prm.scheme][viscosity];
 }
 
+/* With a background pressure of at least the largest tension no pair has a negative p_i + p_j,
+ * hence no tensile instability. Tait's law is monotonic, so the least density gives the least
+ * pressure. */
 double scheme_background(const struct sph *s)
 {
     if (!s->prm.background)
@@ -48,6 +53,8 @@ double scheme_background(const struct sph *s)
     return fmax(0.0, -eos_p(least, s->rho0, s->c0, s->gamma));
 }
 
+/* Central schemes need the first pass only for what reads its slopes: shifting, walls, surface
+ * detection, or the diffusion of density, which is content with grad rho. */
 struct scheme scheme_pick(const struct sph *s)
 {
     static const char *const names[] = {"riemann_ale", "riemann", "delta", "standard"};
