@@ -1,8 +1,14 @@
-/* params_derived.c - see params_derived.h. SPDX-License-Identifier: BSD-3-Clause */
+/* params_derived.c - what follows from the parameters alone, before there is a state. The region of
+ * the particles within the domain (sph.box or all of it), which of its sides are open, whether
+ * there are walls, and the bounds of the time step. Used by the checks of a case, by --check and
+ * when the state is created, so that all three give the same answers.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "params_derived.h"
 
 #include <math.h>
 
+/* Whether the region reaches a side of the domain (2a low, 2a+1 high), to 1e-6 dx; a periodic
+ * direction is reached only if the region spans all of it. */
 bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)
 {
     const int a = side / 2;
@@ -13,7 +19,7 @@ bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *p
 }
 
 /* Walls that the particles can meet: polylines, bodies, sides of the domain that the region
- * reaches. */
+ * reaches. A side that only borders the region far away is no wall of it. */
 bool sph_params_walls(const struct scene *c, const struct sph_params *prm)
 {
     bool any = c->nbodies > 0;
@@ -26,6 +32,8 @@ bool sph_params_walls(const struct scene *c, const struct sph_params *prm)
     return any;
 }
 
+/* Corners of the region and its periodic directions; the third dimension of 2D is [0, 0]. A box
+ * that spans less than a period is not periodic. */
 void sph_params_region(const struct scene_domain *d, const struct sph_params *prm, double lo[3],
                        double hi[3], bool periodic[3])
 {
@@ -37,6 +45,8 @@ void sph_params_region(const struct scene_domain *d, const struct sph_params *pr
     }
 }
 
+/* dt = min(cfl R/signal, cfl_viscous R^2/nu), s, with `signal' the largest c + |u - u0|, m/s.
+ * `limited_by' may be NULL. */
 double sph_params_dt(const struct sph_params *prm, double nu, double signal,
                      const char **limited_by)
 {

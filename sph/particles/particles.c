@@ -1,4 +1,7 @@
-/* particles.c - storage of the particles and the lines that the pair loops load.
+/* particles.c - storage of the particles and the lines that the pair loops load. Positions in the
+ * arrays change at every sort and migration: what must find a particle again goes by its id. The
+ * state y is what steps integrate; packed records are made anew from it in every stage
+ * (particles_lines).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../sph.h"
 
@@ -22,6 +25,8 @@ static void set_dummy(struct particles *p, int dim)
     memset(p->slope + (size_t)p->nslope * p->capacity, 0, (size_t)p->nslope * sizeof(double));
 }
 
+/* Reallocates all arrays to `capacity' records. The dummy stands at the end of prim, slope and rate
+ * and is written anew; `sum' is dropped, since its contents matter within a stage only. */
 static void grow(struct particles *p, int capacity)
 {
     const size_t old = (size_t)p->capacity, n = (size_t)capacity, ns = (size_t)p->nstate;
@@ -111,6 +116,7 @@ void particles_copy(struct particles *p, int to, int from)
     memcpy(slope_line(p, to), slope_line(p, from), (size_t)p->nslope * sizeof(double));
 }
 
+/* Applies the order to the slope records of locals, by a copy of all. */
 static void permute_slopes(struct particles *p, int n, const int *order)
 {
     const size_t row = (size_t)p->nslope;
@@ -122,6 +128,7 @@ static void permute_slopes(struct particles *p, int n, const int *order)
     mem_free(old);
 }
 
+/* Applies the order to the sizes of locals; those of ghosts are lost. */
 static void permute_sizes(struct particles *p, int n, const int *order)
 {
     double(*size)[2] = mem_new((size_t)p->capacity, sizeof *size);
@@ -131,7 +138,8 @@ static void permute_sizes(struct particles *p, int n, const int *order)
     p->size = size;
 }
 
-/* y0 is free between steps: the new order is made there and swapped in. */
+/* y0 is free between steps: the new order is made there and swapped in. Arrays of bytes and ids are
+ * replaced by new ones. O(n). */
 void particles_permute(struct particles *p, int n, const int *order, bool slopes)
 {
     const size_t row = (size_t)p->nstate;
@@ -171,6 +179,8 @@ void particles_set(struct sph *s, int i, const double *x, const double *u, doubl
     y[at_mass(dim)] = rho * w;
 }
 
+/* The packed record q of a state: velocity momentum/mass, density mass/volume; in 2D two doubles of
+ * the 64 bytes are left for p and c, in 3D there is no room for them. */
 static inline __attribute__((always_inline)) void line(const struct sph *s, const double *y,
                                                        double *q, const int dim)
 {
@@ -193,6 +203,8 @@ static inline __attribute__((always_inline)) void lines(struct sph *s, const int
         line(s, s->p.y + (size_t)s->p.nstate * i, prim_line(&s->p, i), dim);
 }
 
+/* Packs states interpolated linearly between y0 and y, part 0 .. 1: levels with steps of their own
+ * need each other's fields at times within a step. */
 static inline __attribute__((always_inline)) void lines_between(struct sph *s, double part,
                                                                 const int dim)
 {

@@ -1,11 +1,17 @@
-/* state_sums.c - see state_sums.h. SPDX-License-Identifier: BSD-3-Clause */
+/* state_sums.c - conserved sums of the flow and its energies. Energy is kinetic + potential
+ * (gravity, and the central force -W^2 x) + elastic, the work m int p/rho^2 d rho that Tait's law
+ * stores from rho0 on. Sums run over all levels and ranks, guards left out; called for the series,
+ * for drifts since the start and for watches.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "state_sums.h"
 
 #include <math.h>
 
 #include "../sph.h"
 
-/* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. */
+/* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. With gamma = 7 it is
+ * c0^2/7 ((r^6 - 1)/6 + 1/r - 1), with gamma = 1 c0^2 (ln r + 1/r - 1); both are 0 and flat at r =
+ * 1. */
 static double elastic(const struct sph *s, double r)
 {
     const double c2 = s->c0 * s->c0, r2 = r * r;
@@ -14,6 +20,8 @@ static double elastic(const struct sph *s, double r)
     return c2 / 7.0 * ((r2 * r2 * r2 - 1.0) / 6.0 + 1.0 / r - 1.0);
 }
 
+/* Energy of a state record y, J (per m in 2D). Gravity along a periodic direction drives the flow
+ * and has no potential. */
 double sph_energy(const struct sph *s, const double *y, double *kinetic)
 {
     const int dim = s->dim;
@@ -27,7 +35,7 @@ double sph_energy(const struct sph *s, const double *y, double *kinetic)
     return *kinetic + potential + m * elastic(s, m / w / s->rho0);
 }
 
-/* Those of one level. */
+/* Adds the sums of one level on this rank to sums[]. */
 static void add_sums(const struct sph *s, double sums[SUM_COUNT])
 {
     const int dim = s->dim;
@@ -45,6 +53,8 @@ static void add_sums(const struct sph *s, double sums[SUM_COUNT])
     }
 }
 
+/* With levels the mass is that of step.mass, in which levels overlap smoothly (sph.h), since the
+ * plain sum jumps when a layer of particles passes from one level to the next. Collective. */
 void sph_sums(const struct sph *s, double sums[SUM_COUNT])
 {
     for (int k = 0; k < SUM_COUNT; k++)

@@ -9,7 +9,8 @@
 #include "../../common/scene/scene.h"
 #include "../sph.h"
 
-/* Neither a free surface nor an opening; walls slide along themselves and bodies are rigid. */
+/* Whether the room is closed: neither a free surface nor an opening. Walls slide along themselves
+ * and bodies are rigid, so that they leave its volume as it is. */
 static bool is_closed(const struct sph *s)
 {
     return !s->surface && !s->zones && !scene_has_surface(&s->run->scene);
@@ -20,7 +21,8 @@ void volume_remember(struct sph *s, double volume)
     s->start.volume = is_closed(s) ? volume : 0.0;
 }
 
-/* Of what flows, all levels and ranks. */
+/* Volume of the particles that flow, guards left out, of all levels and ranks, m^dim.
+ * Collective. */
 static double sum_volumes(const struct sph *s)
 {
     const int at = at_volume(s->dim), row = s->p.nstate;
@@ -32,6 +34,9 @@ static double sum_volumes(const struct sph *s)
     return sum;
 }
 
+/* The factor is the same everywhere: densities change by it, pressures by c0^2 rho (1 - factor) to
+ * first order, whose gradient is that of the density, i.e. nearly none. No mass or momentum
+ * changes. */
 void volume_keep(struct sph *s)
 {
     const int at = at_volume(s->dim), row = s->p.nstate;
@@ -43,6 +48,7 @@ void volume_keep(struct sph *s)
             s->p.y[(size_t)row * i + at] *= factor;
 }
 
+/* Called where something changes the room itself; `by' is this rank's share, m^dim. */
 void volume_change(struct sph *s, double by)
 {
     if (s->start.volume == 0.0)
