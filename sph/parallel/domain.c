@@ -1,6 +1,11 @@
-/* domain.c - orthogonal recursive bisection over the ranks, migration, ghosts and their halo.
- * The tree needs no pointers: a node is a range of ranks [a, b), cut before rank m = a + (b - a)/2
- * by cuts[m - 1]; ranks left of it are a .. m-1. SPDX-License-Identifier: BSD-3-Clause */
+/* domain.c - orthogonal recursive bisection over the ranks, migration, ghosts and their halo. The
+ * tree needs no pointers: a node is a range of ranks [a, b), cut before rank m = a + (b - a)/2 by
+ * cuts[m - 1]; ranks left of it are a .. m-1. Cost: owner O(log ranks); ghosts O(particles near the
+ * sides of a part) plus a loop over peers; cutting anew log2(ranks) levels of PASSES reductions of
+ * BINS numbers for each node. Every step: domain_ghosts after the sort, then a halo of prim and one
+ * of slopes in every stage; domain_balance every 50 steps, followed by domain_migrate. All ranks
+ * hold all cuts and boxes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "domain.h"
 
 #include <math.h>
@@ -57,6 +62,8 @@ struct domain_node {
     int n;
 };
 
+/* The axis along which the node's box is longest: cutting it keeps parts compact, with few
+ * ghosts. */
 static int longest_axis(const struct domain_node *t, int dim)
 {
     int axis = 0;
@@ -86,7 +93,8 @@ void domain_bounds(const struct domain *d, double lo[3], double hi[3])
     memcpy(hi, d->box[d->rank][1], 3 * sizeof(double));
 }
 
-/* Boxes of all ranks from the cuts. */
+/* Boxes of all ranks from the cuts. Follows the tree down to every rank; box[r][1] is cut where the
+ * rank is left of the cut, box[r][0] where it is right of it. O(size log size). */
 static void make_boxes(struct domain *d)
 {
     for (int r = 0; r < d->size; r++) {
@@ -107,7 +115,8 @@ static void make_boxes(struct domain *d)
 
 static int images(const struct domain *d) { return d->dim == 2 ? 9 : 27; }
 
-/* Displacement of an image; false if an axis that is not periodic would be shifted. */
+/* Displacement of an image, whose number has digits k + 1 in base 3, one for each axis, k = -1, 0,
+ * 1 periods. False if an axis that is not periodic would be shifted. */
 static bool image_shift(const struct domain *d, int image, double shift[3])
 {
     bool allowed = true;
@@ -130,6 +139,8 @@ static void reach_bounds(const struct domain *d, int rank, int a, double *lo, do
     *hi = open && d->box[rank][1][a] >= d->hi[a] ? INFINITY : d->box[rank][1][a];
 }
 
+/* Whether anything of `from', shifted, can lie within reach of the part of `to': compares the boxes
+ * axis by axis, so corners count a little too often. */
 static bool boxes_touch(const struct domain *d, int from, int to, const double *shift, double reach)
 {
     for (int a = 0; a < d->dim; a++) {
@@ -142,6 +153,8 @@ static bool boxes_touch(const struct domain *d, int from, int to, const double *
     return true;
 }
 
+/* Whether `from' may have ghosts for `to', directly or by an image; a rank's unshifted part is no
+ * ghost of itself. */
 static bool ranks_touch(const struct domain *d, int from, int to, double reach)
 {
     double shift[3];
@@ -152,6 +165,7 @@ static bool ranks_touch(const struct domain *d, int from, int to, double reach)
     return false;
 }
 
+/* Frees the list of peers with their buffers. */
 static void free_peers(struct domain *d)
 {
     for (int k = 0; k < d->npeers; k++) {
@@ -166,7 +180,8 @@ static void free_peers(struct domain *d)
     d->npeers = 0;
 }
 
-/* Both ranks of a pair must see each other as peers, so each looks with the eyes of both. */
+/* Both ranks of a pair must see each other as peers, so each looks with the eyes of both. Otherwise
+ * rounding of lo + shift could make one wait for a message that the other does not send. */
 static void find_peers(struct domain *d, double reach)
 {
     free_peers(d);
@@ -177,7 +192,9 @@ static void find_peers(struct domain *d, double reach)
     d->requests = NEW(MPI_Request, 2 * d->npeers);
 }
 
-/* Of one level, and of the finer ones, which share the cuts. */
+/* Passes the cuts of s on to the finer levels, and makes boxes and peers of all anew. Lists of
+ * pairs are void, since particles will migrate; reach is that of the largest skin, so peers hold
+ * until the next cut. */
 static void cuts_changed(struct sph *s)
 {
     for (struct sph *q = s; q; q = q->finer) {
@@ -260,6 +277,8 @@ static int split(const struct domain_node *t, const struct domain_cut *c)
     return n;
 }
 
+/* Cuts the node where its ranks' share of the work lies below, and then both halves. All ranks act
+ * alike: the cut comes from reduced sums. */
 static void cut_by_work(struct sph *s, const struct domain_node *t)
 {
     struct domain *d = s->domain;
@@ -278,6 +297,7 @@ static void cut_by_work(struct sph *s, const struct domain_node *t)
     cut_by_work(s, &right);
 }
 
+/* The node of all ranks and the whole region. */
 static struct domain_node root(const struct domain *d)
 {
     struct domain_node t = {.end = d->size};
@@ -321,6 +341,9 @@ void domain_free(struct domain **d)
     *d = NULL;
 }
 
+/* Work of a particle in a step, in pairs, or with levels in eighths of a pair; a level with steps
+ * of its own does 2^level of them in a step of the coarsest. 1 where the list does not belong to
+ * the present state. */
 static int work_of(const struct sph *s, int i)
 {
     const struct neighbours *l = s->list;
@@ -334,7 +357,8 @@ static int work_of(const struct sph *s, int i)
     return s->local_steps ? work << s->level : work;
 }
 
-/* Places and work of the particles of all levels; returns the sum. */
+/* Positions x[] and work[] of this rank's particles, level after level; returns the sum of the
+ * work. */
 static int64_t find_work(const struct sph *s, double (*x)[3], int *work)
 {
     int64_t sum = 0;
@@ -348,7 +372,8 @@ static int64_t find_work(const struct sph *s, double (*x)[3], int *work)
     return sum;
 }
 
-/* The tree anew. */
+/* Builds the whole tree anew from the positions and the work of this rank's n particles.
+ * Collective. */
 static void cut_anew(struct sph *s, int n, const double (*x)[3], const int *work)
 {
     struct domain_node t = root(s->domain);
@@ -405,6 +430,8 @@ double domain_tau(const struct domain *d) { return d->tau_n > 0 ? d->tau_sum / d
 static double *send_rows(const struct domain *d, const double *rows, const int *owner, int n,
                          int width, int *nrecv)
 {
+    /* four arrays in one: what goes to each rank and where it begins, what comes from each and
+     * where */
     int *count = NEW(int, 4 * d->size), *at = count + d->size, *rcount = at + d->size;
     int *rat = rcount + d->size, total = 0;
     for (int i = 0; i < n; i++)
@@ -445,6 +472,7 @@ int domain_send_items(struct sph *s, double **items, int n, int width)
     return got;
 }
 
+/* Brings positions along periodic axes back into [lo, hi); NaN becomes lo. */
 static void wrap(struct sph *s)
 {
     for (int a = 0; a < s->dim; a++) {
@@ -470,6 +498,7 @@ static void pack_row(const struct particles *p, int i, double *row, bool slopes)
         memcpy(row + p->nstate + 2, slope_line(p, i), (size_t)p->nslope * sizeof *row);
 }
 
+/* Appends a particle from what pack_row wrote on another rank. */
 static void unpack_row(struct particles *p, const double *row, bool slopes)
 {
     int64_t id;
@@ -481,6 +510,8 @@ static void unpack_row(struct particles *p, const double *row, bool slopes)
         memcpy(slope_line(p, i), row + p->nstate + 2, (size_t)p->nslope * sizeof *row);
 }
 
+/* Stayers close ranks in their order, then come the arrivals by sending rank. Order and cells are
+ * stale afterwards: neighbours_sort follows. */
 void domain_migrate(struct sph *s)
 {
     const struct domain *d = s->domain;
@@ -495,6 +526,7 @@ void domain_migrate(struct sph *s)
     int *owner = NEW(int, before);
     double *rows = NULL;
     for (int i = 0; i < before; i++) {
+        /* overwritten by the next one unless it leaves */
         owner[nleave] = domain_owner(d, state_row(p, p->y, i));
         nleave += owner[nleave] != d->rank;
     }
@@ -514,7 +546,9 @@ void domain_migrate(struct sph *s)
     mem_free(owner);
 }
 
-/* Locals that another rank or image can need: closer than reach to a bounded side of this part. */
+/* Locals that another rank or image can need: closer than reach to a bounded side of this part. The
+ * rest cannot be a ghost of anyone, and most particles are of that kind: peers look at these
+ * alone. */
 static int near_sides(const struct sph *s, double reach, int *who)
 {
     const struct domain *d = s->domain;
@@ -533,6 +567,8 @@ static int near_sides(const struct sph *s, double reach, int *who)
     return n;
 }
 
+/* Appends particle i, seen as `image', to what peer q is sent. lines has room for the wider of the
+ * two records. */
 static void add_line(struct peer *q, int i, int image, int width)
 {
     if (q->nsend == q->capacity) {
@@ -569,6 +605,7 @@ static void list_image(const struct sph *s, struct peer *q, int image, const dou
     }
 }
 
+/* Lists anew what goes to peer q: all images of this rank's particles within reach of its part. */
 static void list_peer(const struct sph *s, struct peer *q, double reach, const int *near, int nnear)
 {
     const struct domain *d = s->domain;
@@ -580,7 +617,7 @@ static void list_peer(const struct sph *s, struct peer *q, double reach, const i
             list_image(s, q, k, shift, reach, near, nnear);
 }
 
-/* Tells every peer how many lines it will get. */
+/* Sends every peer the number of records it will get, and receives theirs. */
 static void exchange_counts(struct domain *d)
 {
     int n = 0;
@@ -616,6 +653,8 @@ void domain_ghosts(struct sph *s)
     domain_halo_finish(s, false);
 }
 
+/* Copies the records of q's list to `out'; positions of images are shifted, gradients and
+ * velocities are the same. */
 static void pack(const struct sph *s, const struct peer *q, bool slopes, double *out)
 {
     const int width = slopes ? s->p.nslope : PRIM;
@@ -631,7 +670,8 @@ static void pack(const struct sph *s, const struct peer *q, bool slopes, double 
     }
 }
 
-/* A peer's ghosts are one block of lines, so messages arrive in place. */
+/* A peer's ghosts are one block of lines, so messages arrive in place. Those of this rank itself
+ * are packed straight to where they belong. */
 void domain_halo_start(struct sph *s, bool slopes)
 {
     struct domain *d = s->domain;
@@ -660,6 +700,8 @@ void domain_halo_finish(struct sph *s, bool slopes)
     s->domain->nrequests = 0;
 }
 
+/* Blocking, and with this rank's own images copied directly; records are sent as they are,
+ * unshifted. */
 void domain_share(struct sph *s, const double *rows, int width, double *ghosts)
 {
     struct domain *d = s->domain;
