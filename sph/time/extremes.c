@@ -1,4 +1,9 @@
-/* extremes.c - see extremes.h. SPDX-License-Identifier: BSD-3-Clause */
+/* extremes.c - largest speeds, sound speeds, shifts and extreme densities of a step. Each rank
+ * collects a record of EXTREMES maxima per level: velocities of displacement in the last stage
+ * (extremes_of_lines, from prim and slope), speeds and densities at the end of the step
+ * (extremes_of_state, from y). One MPI_MAX over all levels then gives s->step, on which the next
+ * step's size, the skin of the lists, the scale of shifting and the watches depend.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "extremes.h"
 
 #include <math.h>
@@ -6,8 +11,11 @@
 
 #include "../particles/eos.h"
 
+/* A NaN never replaces anything: faults are found by sph_fault_of instead. */
 void extremes_raise(double *most, double v) { *most = v > *most ? v : *most; }
 
+/* The drift that relative speeds refer to is that of the step before: it is only known after the
+ * reduction. Guards leave after u0 and the stray velocity have been counted. */
 void extremes_of_lines(struct sph *s, double *most)
 {
     timer_start(&s->run->timers, "update");
@@ -60,7 +68,9 @@ void extremes_clear(double most[LEVELS][EXTREMES])
             most[l][k] = -1e300;
 }
 
-/* What a level knows of the whole flow; its signal is its own. */
+/* Takes over the extremes of the whole flow, most[], into s->step; the signal is this level's own.
+ * The drift is the middle of the range of u0 along each axis, so that |u0 - drift| bounds half of
+ * any relative velocity. */
 static void learn(struct sph *s, const double *most, double signal)
 {
     s->step.signal = signal;
@@ -85,6 +95,8 @@ static void learn(struct sph *s, const double *most, double signal)
         s->total.mach_late = fmax(s->total.mach_late, s->step.max_speed / s->c0);
 }
 
+/* Records of all levels stand side by side, so that it is one reduction whatever the number of
+ * levels. */
 void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES])
 {
     double signal[LEVELS];

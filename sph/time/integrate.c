@@ -42,6 +42,8 @@ static void start(struct sph *s, const char *timer) { timer_start(&s->run->timer
 
 static void stop(struct sph *s, const char *timer) { timer_stop(&s->run->timers, timer); }
 
+/* All levels are prepared together, since guards list particles of two levels. After it lists,
+ * ghosts, lists of walls and of guards belong to the positions of y. */
 void integrate_prepare(struct sph *s)
 {
     bool ready = true;
@@ -59,6 +61,8 @@ void integrate_prepare(struct sph *s)
     }
 }
 
+/* If the case has neither zones nor other slopes than the scheme's, the next step's first stage
+ * takes the result as it is; otherwise it is thrown away. */
 void integrate_gradients(struct sph *s)
 {
     const bool shared =
@@ -76,6 +80,8 @@ void integrate_gradients(struct sph *s)
         level_gradients(q, shared);
 }
 
+/* One stage of all levels at the same time s->t. Guards get their fields between the packing of
+ * records and the first pass, which reads them. */
 void integrate_rates(struct sph *s)
 {
     const bool sloped = s->lists.sloped;
@@ -98,7 +104,8 @@ void integrate_rates(struct sph *s)
         forces_join_stage(s->walls, q->walls);
 }
 
-/* Largest step of the flow, all levels: one where nothing flows asks for none. */
+/* Largest step of the flow, all levels: one where nothing flows asks for none. Also records what
+ * bounds it, for the series and for messages. */
 static void plan_dt(struct sph *s)
 {
     const double bodies = bodies_dt(s);
@@ -123,7 +130,8 @@ static void plan_dt(struct sph *s)
 }
 
 /* Two particles part by at most twice the stray velocity times dt; a tenth more, for it may grow.
- * Beyond the widest skin pairs would come together unseen: no step is longer than that. */
+ * Beyond the widest skin pairs would come together unseen: no step is longer than that. The least
+ * skin, 0.01 R, keeps lists alive for fluid at rest. */
 static void plan_next(struct sph *s)
 {
     if (s->refinement && s->local_steps) {
@@ -141,6 +149,8 @@ static void plan_next(struct sph *s)
     }
 }
 
+/* The drift, the shift and the stray velocity depend on each other, hence three passes over the
+ * first state; nothing is moved. */
 void integrate_start(struct sph *s)
 {
     for (struct sph *q = s; q; q = q->finer) {
@@ -164,7 +174,8 @@ void integrate_start(struct sph *s)
     plan_next(s);
 }
 
-/* Steps of equal length to t_stop; the last lands on it. */
+/* Steps of equal length up to t_stop, none longer than dt_most; the last one lands on t_stop
+ * exactly. 1e-9 of a step too much is no reason for one more. */
 static double choose_dt(const struct sph *s, double t_stop, bool *last)
 {
     const double left = t_stop - s->t, n = ceil(left / s->step.dt_most - 1e-9);
@@ -178,7 +189,9 @@ static void set_time(struct sph *s, double t)
         s->t = t;
 }
 
-/* The stages from s->t to t_end; most gets what the last one shows of velocities. */
+/* The stages from s->t to t_end; most gets what the last one shows of velocities. dt = t_end - s->t
+ * but for rounding. After each stage's rates, and before y changes: paddles read the level, forces
+ * and work are summed with the stage's weight, bodies move as far as the particles do. */
 static void take_stages(struct sph *s, double dt, double t_end, double most[LEVELS][EXTREMES])
 {
     const struct rk_stages *c = s->stages;
@@ -213,7 +226,8 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[LEVE
 }
 
 /* What regions follow, and guards with the state at the end of the step: slopes, marks of the
- * surface and lists of guards know nothing of births and removals. */
+ * surface and lists of guards know nothing of births and removals. With local steps guards have
+ * been updated already. */
 static void look_at_levels(struct sph *s)
 {
     if (s->refinement)
@@ -229,7 +243,10 @@ static void look_at_levels(struct sph *s)
 }
 
 /* What follows the stages: imposed values, births and removals; lost: this rank had lost so many
- * before the step. */
+ * before the step. Order: imposed values; what regions and guards follow; openings, which add and
+ * remove particles; what has left; sums of forces; bodies; the volume of a closed room; at last
+ * creations and removals by levels, which use the slopes of the last stage and make the lists
+ * stale. */
 static void finish_step(struct sph *s, double dt, double lost, double *most, struct diagnosis *d)
 {
     if (s->zones) {
@@ -296,7 +313,8 @@ static int64_t gone_behind(const struct sph *s, double at[3])
     return n;
 }
 
-/* Through which side a particle at x has left, and whether that is a wall. */
+/* Through which side a particle at x has left, and whether that is a wall. If it has crossed
+ * several, the last axis counts. A name, and `wall' set; "a side" where it is beyond none. */
 static const char *side_left(const struct sph *s, const double *x, bool *wall)
 {
     int side = -1;
@@ -308,6 +326,8 @@ static const char *side_left(const struct sph *s, const double *x, bool *wall)
     return side >= 0 ? scene_side_names[side] : "a side";
 }
 
+/* Warns that `n' particles have left the region, with the place of the first one that a rank knows.
+ * Collective. */
 static void say_left(const struct sph *s, double n)
 {
     double at[3] = {0.0, 0.0, 0.0};
@@ -324,7 +344,8 @@ static void say_left(const struct sph *s, double n)
              s->t, n, side, at[0], at[1], at[2], wall ? ", which is a wall: refine sph.dx" : "");
 }
 
-/* The first time, whenever the number has grown tenfold, and when nothing is left. */
+/* The first time, whenever the number has grown tenfold, and when nothing is left. `lost': of this
+ * step, the maximum over ranks, so that all of them go in or none. */
 static void report_lost(struct sph *s, double lost)
 {
     double sums[2] = {s->total.lost, 0.0};
@@ -362,6 +383,9 @@ static void track_mass(struct sph *s)
     extremes_raise(&s->total.fluctuation, fabs((m + openings_held(s)) / s->start.mass - 1.0));
 }
 
+/* The state is bad if a particle is beyond its limits or if the step has collapsed; else the
+ * watches have their say. broken keeps anything from being made of such a state later.
+ * Collective. */
 static void judge(struct sph *s, double fault, struct diagnosis *d)
 {
     const double nominal = sph_params_dt(&s->prm, s->nu, s->c0, NULL);
@@ -386,6 +410,8 @@ static void judge(struct sph *s, double fault, struct diagnosis *d)
     s->broken = d->bad;
 }
 
+/* Counts pairs every 20 steps and takes that number for the others: it is for figures of throughput
+ * only. */
 static void count_pairs(struct sph *s)
 {
     if (s->total.pairs_now == 0 || s->run->step % COUNT_EVERY == 0) {
@@ -396,6 +422,9 @@ static void count_pairs(struct sph *s)
     s->total.pairs += s->stages->n * s->total.pairs_now;
 }
 
+/* The partition is balanced before the step's lists are made and uses the work that the last list
+ * shows; cutting clears `ready', so integrate_prepare then migrates the particles. Everything after
+ * finish_step speaks of the state at t_end. */
 double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
 {
     bool last;

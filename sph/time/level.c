@@ -1,4 +1,10 @@
-/* level.c - see level.h. SPDX-License-Identifier: BSD-3-Clause */
+/* level.c - what a stage of a Runge-Kutta step does on one level, and what its end removes. Order
+ * of a stage: level_begin_rates (walls move, zones impose, records are packed), then level_rates:
+ * first pass over pairs, surface detection, wall terms of the slopes, bounds of the shift, second
+ * pass, walls' part of the rates, volume feedback, body forces. level_update advances y = [x, m u,
+ * w, m] by these rates. integrate.c calls it for all levels at once, local_steps.c for each level
+ * at times of its own.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "level.h"
 
 #include <math.h>
@@ -24,6 +30,10 @@ static void start(struct sph *s, const char *timer) { timer_start(&s->run->timer
 
 static void stop(struct sph *s, const char *timer) { timer_stop(&s->run->timers, timer); }
 
+/* Once a step, or whenever something moved, added or removed particles. The order matters:
+ * migration before the sort, the sort before ghosts, ghosts of other ranks and images first, then
+ * those of openings, then those of walls (nhalo counts the first ones alone), and the list of pairs
+ * when all are there. Surface and slopes belonged to the old list. */
 void level_prepare(struct sph *s)
 {
     start(s, "list");
@@ -66,6 +76,7 @@ void level_prepare(struct sph *s)
 
 typedef void wall_hook(struct sph *s);
 
+/* Calls a hook of the wall model, timed as walls; none if the model has no such hook. */
 static void at_walls(struct sph *s, wall_hook *hook)
 {
     if (!hook)
@@ -76,7 +87,9 @@ static void at_walls(struct sph *s, wall_hook *hook)
 }
 
 /* A pass over the pairs: rows without ghosts while these are under way, then, when walls have seen
- * to theirs, the others. */
+ * to theirs, the others. `slopes': the halo carries slopes instead of packed records. `hook' fills
+ * what walls' ghosts have, which may depend on the halo. On one rank there are no inner rows and
+ * all are treated at the end. */
 static void pass(struct sph *s, void (*rows)(struct sph *s), const char *timer, bool slopes,
                  wall_hook *hook)
 {
@@ -101,7 +114,9 @@ static void pass(struct sph *s, void (*rows)(struct sph *s), const char *timer, 
     stop(s, timer);
 }
 
-/* What follows the first pass and its halo. */
+/* What follows the first pass: the surface is detected once for each list; walls add their terms to
+ * the slopes; then shifts are bounded and the divergence that the acoustic damper sees is cleared
+ * at the surface. Collective where there is a surface. */
 static void finish_slopes(struct sph *s)
 {
     const bool shifts = s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO;
@@ -121,7 +136,7 @@ static void finish_slopes(struct sph *s)
         surface_calm(s);
 }
 
-/* The acceleration -W^2 x. */
+/* Adds the body force of the acceleration -W^2 x about the origin, of rotating patches. */
 static void add_central(struct sph *s)
 {
     const double W2 = s->central * s->central;
@@ -134,7 +149,9 @@ static void add_central(struct sph *s)
     }
 }
 
-/* Zones before sides take momentum, which walls at rest get, and do work where they make waves. */
+/* Zones before sides take momentum, which walls at rest get, and do work where they make waves. The
+ * force on a particle is -m rate (u - u_w), with u_w the velocity of the wave that the zone lets
+ * through and `rate', 1/s, growing towards the side. */
 static void add_wave_zones(struct sph *s)
 {
     const int dim = s->dim;
@@ -160,7 +177,8 @@ static void add_wave_zones(struct sph *s)
         s->watch.wall_power += power;
 }
 
-/* What follows the slopes of one level: of its deep guards these stay for the step. */
+/* What follows the slopes of one level: of its deep guards these stay for the step. From now on
+ * passes of this step leave deep rows out: nobody needs their rates. */
 static void slopes_done(struct sph *s)
 {
     finish_slopes(s);
@@ -169,6 +187,8 @@ static void slopes_done(struct sph *s)
     s->list->treated = s->list->nshallow;
 }
 
+/* All rows at once and without overlap of the halo: it is done once an output, not in every stage.
+ * The timer tells whether the next stage profits from it. */
 void level_gradients(struct sph *s, bool shared)
 {
     start(s, shared ? "gradients" : "output");
@@ -182,6 +202,7 @@ void level_gradients(struct sph *s, bool shared)
     s->lists.sloped = shared;
 }
 
+/* Needs the list of the present step. With slopes at hand the records are those of y already. */
 void level_begin_rates(struct sph *s)
 {
     if (s->walls)
@@ -198,6 +219,9 @@ void level_begin_rates(struct sph *s)
     stop(s, "update");
 }
 
+/* Slopes of ghosts are exchanged with the second pass if the scheme reads them; schemes that need
+ * neither pass first exchange the records then. If only the first pass exchanged records, the
+ * second one needs no halo. */
 void level_rates(struct sph *s)
 {
     const struct wall_model *w = s->walls ? s->walls->model : NULL;
@@ -233,7 +257,7 @@ void level_rates(struct sph *s)
         guards_rates(s);
 }
 
-/* y = y0 + a rate. */
+/* y = y0 + a rate, over all records as one array. */
 static void advance(struct sph *s, double a)
 {
     const size_t n = (size_t)s->p.n * s->p.nstate;
@@ -243,7 +267,7 @@ static void advance(struct sph *s, double a)
         y[i] = y0[i] + a * rate[i];
 }
 
-/* sum (+)= b rate; sum is there if a stage before the last counts. */
+/* sum = b rate at the first stage, sum += b rate at the others. */
 static void add_rates(struct sph *s, double b, bool first)
 {
     const size_t n = (size_t)s->p.n * s->p.nstate;
@@ -253,6 +277,8 @@ static void add_rates(struct sph *s, double b, bool first)
         sum[i] = (first ? 0.0 : sum[i]) + b * rate[i];
 }
 
+/* Schemes whose weights are all on the last stage (j3) need no sum, which saves its memory and a
+ * pass; RK4 does. */
 void level_update(struct sph *s, int k, double dt)
 {
     const struct rk_stages *c = s->stages;
@@ -272,7 +298,8 @@ void level_update(struct sph *s, int k, double dt)
     stop(s, "update");
 }
 
-/* Whether a particle has gone out where water is to fall. */
+/* Whether a particle has gone out where water is to fall. Counts its mass for that side, unless it
+ * is a guard. */
 static bool has_fallen(struct sph *s, int i)
 {
     const double *y = state_row(&s->p, s->p.y, i);
@@ -289,7 +316,7 @@ static bool has_fallen(struct sph *s, int i)
 }
 
 /* Removes particles beyond a side where nothing holds them; the number of those that were to stay.
- */
+ * / Keeps the order of the others. NaN compares false and stays, for the watch to find. */
 static int remove_lost(struct sph *s)
 {
     const int before = s->p.n;
@@ -315,7 +342,9 @@ static int remove_lost(struct sph *s)
     return lost;
 }
 
-/* Particles that walls have let through are put back; removed are those too far behind. */
+/* Particles that walls have let through are put back; removed are those too far behind. From the
+ * highest index down, so that the last particle, which takes the place of one that is removed, has
+ * been treated by then. */
 static int remove_behind(struct sph *s)
 {
     int gone = 0;
@@ -339,6 +368,8 @@ static int remove_behind(struct sph *s)
 
 int level_clean(struct sph *s) { return remove_behind(s) + remove_lost(s); }
 
+/* 2.2 dt stray is the skin that a step of dt asks for: twice the largest velocity relative to the
+ * drift, and a tenth more. */
 double level_dt(const struct sph *s, const char **by)
 {
     double dt = INFINITY;

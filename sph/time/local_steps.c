@@ -1,5 +1,10 @@
 /* local_steps.c - see local_steps.h. The recursion over levels is that of Berger & Oliger (J.
- * Comput. Phys. 53, 1984) with particles for cells. SPDX-License-Identifier: BSD-3-Clause */
+ * Comput. Phys. 53, 1984) with particles for cells. A step of the coarsest level is a tree of
+ * calls: take() advances a level by one step, then take_finer() fills that time with steps of the
+ * next level, each by take(). A finer level so always moves between two states of the coarser one
+ * that are known, y0 and y; show_coarser interpolates them linearly. Levels meet at the ends of
+ * these steps, when lists and guards are made anew.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "local_steps.h"
 
 #include <math.h>
@@ -22,7 +27,7 @@ enum { COUNT_EVERY = 20 };
  * of the finer ones up to this share: else it would be three instead of two. */
 static const double slack = 1.05;
 
-/* The whole step. */
+/* What the levels share during a step of the coarsest one. */
 struct common {
     struct sph *coarsest;
     double (*most)[EXTREMES];
@@ -55,6 +60,8 @@ static void expect_step(struct sph *s, double dt)
     s->lists.ready = false;
 }
 
+/* dt of the coarsest is the least over levels of the level's own bound times the number of its
+ * steps within a coarsest one, rounded to whole ratios. */
 void local_steps_plan(struct sph *s)
 {
     double most = INFINITY, coarser = INFINITY, steps = 1.0;
@@ -76,7 +83,8 @@ void local_steps_plan(struct sph *s)
     }
 }
 
-/* The coarser level's lines between both ends of its step, at the time of s. */
+/* The coarser level's lines between both ends of its step, at the time of s. It overwrites the
+ * records of the coarser level: its own next stage packs them anew. */
 static void show_coarser(struct sph *s)
 {
     struct sph *c = s->coarser;
@@ -86,7 +94,9 @@ static void show_coarser(struct sph *s)
     guards_share(c, false);
 }
 
-/* Lists, and fields of all guards, of a level and all finer ones, which stand at the same time. */
+/* Lists, and fields of all guards, of a level and all finer ones, which stand at the same time.
+ * expect_step widens the skins for the steps to come, and lists of all finer levels are made anew,
+ * for they read each other's particles. */
 static void meet(struct sph *s, const struct common *all, double dt)
 {
     const char *by;
@@ -111,6 +121,7 @@ static void meet(struct sph *s, const struct common *all, double dt)
     guards_update(s);
 }
 
+/* As in integrate.c, summed over the steps of all levels. */
 static void count_pairs(struct sph *s, struct sph *coarsest)
 {
     if (s->total.pairs_now == 0 || s->run->step % COUNT_EVERY == 0)
@@ -118,7 +129,8 @@ static void count_pairs(struct sph *s, struct sph *coarsest)
     coarsest->total.pairs += s->stages->n * s->total.pairs_now;
 }
 
-/* Mass that what flows has gained since y0. */
+/* Mass, kg, that flowing particles of this level have gained since y0, by fluxes from guards; this
+ * rank. Guards give nothing back, so the excess is spread over the flow at the end. */
 static double gain(const struct sph *s)
 {
     const int at = at_mass(s->dim), row = s->p.nstate;
@@ -129,7 +141,8 @@ static double gain(const struct sph *s)
     return sum;
 }
 
-/* One level from s->t to t_end. */
+/* One level from s->t to t_end, all stages; guards at its edge follow the coarser level between
+ * them. Deep guards keep the fields they got when levels met. */
 static void take_stages(struct sph *s, double t_end, struct common *all)
 {
     const struct rk_stages *c = s->stages;
@@ -158,10 +171,13 @@ static void take_stages(struct sph *s, double t_end, struct common *all)
     collisions_apply(s);
     if (s->walls)
         walls_move(s, t_end);
+    /* before creations and removals, which would be counted as gains */
     all->gained += gain(s);
 }
 
-/* What the level shows at the end of its step; it may have to take shorter ones. */
+/* What the level shows at the end of its step; it may have to take shorter ones. A collective
+ * reduction, so that all ranks choose the same number of steps for it afterwards, and stop together
+ * when the state has broken down. */
 static void look_at(struct sph *s, struct common *all)
 {
     double now[EXTREMES];
@@ -173,7 +189,8 @@ static void look_at(struct sph *s, struct common *all)
 
 static void take(struct sph *s, double t_end, struct common *all);
 
-/* The steps of the next level within the last one of s. */
+/* The steps of the next level within the last one of s: as many as its bound asks for now, each
+ * decided anew, so that a level that speeds up gets shorter ones. */
 static void take_finer(struct sph *s, struct common *all)
 {
     struct sph *q = s->finer;
@@ -186,7 +203,8 @@ static void take_finer(struct sph *s, struct common *all)
     }
 }
 
-/* A level and all finer ones, which stand at the same time. */
+/* Advances a level to t_end and all finer ones, which stand at the same time, with it; then removes
+ * and adapts particles of the level, unless it is the coarsest, which integrate.c does. */
 static void take(struct sph *s, double t_end, struct common *all)
 {
     meet(s, all, t_end - s->t);
