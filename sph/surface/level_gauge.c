@@ -40,7 +40,8 @@ static bool has_walls_inside(const struct sph *s)
     return any;
 }
 
-/* How far it is free from x along an axis, at most `far' (signed), m. */
+/* How far it is free of walls from x along an axis, m, signed as `far', which it never exceeds in
+ * size. */
 static double free_way(const struct sph *s, const double *x, int axis, double far)
 {
     double d[3] = {0.0, 0.0, 0.0};
@@ -48,8 +49,10 @@ static double free_way(const struct sph *s, const double *x, int axis, double fa
     return walls_meet(s, x, d) * far;
 }
 
+/* Height of x against gravity, m. */
 static double height_of(const struct column *c, const double *x) { return c->sign * x[c->up]; }
 
+/* Moves x up by `by', m. */
 static void lift(const struct column *c, double *x, double by) { x[c->up] += c->sign * by; }
 
 /* How far it is free from x upwards or, if `far' is below 0, downwards, m. */
@@ -58,7 +61,8 @@ static double free_height(const struct sph *s, const struct column *c, const dou
     return c->sign * free_way(s, x, c->up, c->sign * far);
 }
 
-/* Out of the solid that the place is in or on, upwards. */
+/* Out of the solid that the place is in or on, upwards. Tries a few times, since solids may touch
+ * each other; if it ends above the domain the place stays as it is. */
 static void rise_from_solid(const struct sph *s, struct column *c)
 {
     const double step = 0.01 * s->dx;
@@ -73,7 +77,8 @@ static void rise_from_solid(const struct sph *s, struct column *c)
     memcpy(c->at, y, sizeof y);
 }
 
-/* Integral of the hat function from minus infinity to x, m. */
+/* Integral of the hat function from minus infinity to x, m. The hat is 1 at 0 and falls to 0 at
+ * +-half; the integral over all is `half'. */
 static double hat_until(const struct column *c, double x)
 {
     const double t = fmax(-1.0, fmin(1.0, x / c->half)), rest = 1.0 - fabs(t);
@@ -92,8 +97,9 @@ static bool is_hidden(const struct sph *s, const struct column *c, const double 
     return walls_meet(s, c->at, d) < 1.0 || (by < 0.0 && free_height(s, c, x, by) > by);
 }
 
-/* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof, height.
- */
+/* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof, height. /
+ * Where the solid above ends at the top of the domain it is a ceiling, not something that water can
+ * drown. */
 static void sound(const struct sph *s, const struct column *c, const double *across, double weight,
                   double sums[5], struct column *to)
 {
@@ -122,6 +128,9 @@ static void sound(const struct sph *s, const struct column *c, const double *acr
     to->crest = fmax(to->crest, under + height);
 }
 
+/* Samples floor and roof over the section, 16 places in 2D and 8 x 8 in 3D, weighted by the hat
+ * function, and takes means for the floor and what drowns, extremes for ground and crest. The
+ * section shrinks by the share of places that walls hide. */
 static void sound_all(const struct sph *s, struct column *c)
 {
     const int n = s->dim == 2 ? SAMPLES_2D : SAMPLES_3D, m = s->dim == 2 ? 1 : n;
@@ -150,6 +159,8 @@ static void sound_all(const struct sph *s, struct column *c)
     c->drowned = sums[4] / sums[0];
 }
 
+/* Sets which axis points upwards, with its sign, and the heights of the domain's two ends along
+ * it. */
 static void set_axis(const struct sph *s, struct column *c)
 {
     const struct scene *is = &s->run->scene;
@@ -160,6 +171,8 @@ static void set_axis(const struct sph *s, struct column *c)
     c->top = c->sign > 0.0 ? s->hi[c->up] : -s->lo[c->up];
 }
 
+/* The column of the gauge at `at': a hat function of half width 2 dx across, cut off at walls and
+ * at ends of the domain. Without walls inside, floor and section follow from the domain alone. */
 static struct column column_at(const struct sph *s, const double *at)
 {
     struct column c = {
@@ -186,7 +199,8 @@ static struct column column_at(const struct sph *s, const double *at)
 }
 
 /* Share of a particle d away along an axis across: it is as wide as dx, so that a lattice fills the
- * column exactly, beside walls, too. */
+ * column exactly, beside walls, too. The difference of the hat's integral over +-dx/2 is exact for
+ * particles that are boxes of width dx. */
 static double share_across(const struct sph *s, const struct column *c, int a, double d)
 {
     const double r = 0.5 * s->dx;
@@ -200,7 +214,8 @@ static double share_across(const struct sph *s, const struct column *c, int a, d
  * in the window. */
 enum { COLUMN_ALL, COLUMN_WINDOW, COLUMN_ABOVE, COLUMN_SURFACE, COLUMN };
 
-/* Adds the volumes of what flows of one level, weighted by the hat function. */
+/* Adds the volumes of what flows of one level, weighted by the hat function. Local to the rank.
+ * Positions across are taken to the nearest periodic image. */
 static void add_level(const struct sph *s, const struct column *c, const struct level_window *w,
                       double sums[COLUMN])
 {
@@ -227,6 +242,7 @@ static void add_level(const struct sph *s, const struct column *c, const struct 
     }
 }
 
+/* Adds what all levels and ranks hold in the column. Collective. */
 static void sum_column(const struct sph *s, const struct column *c, const struct level_window *w,
                        double sums[COLUMN])
 {
@@ -235,7 +251,8 @@ static void sum_column(const struct sph *s, const struct column *c, const struct
     MPI_Allreduce(MPI_IN_PLACE, sums, COLUMN, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
-/* Level as if the water filled the column's section; drowned solids count as water. */
+/* Level as if the water filled the column's section; drowned solids count as water. With roof NAN
+ * the comparison is false, and nothing drowns. */
 static double level_of(const struct sph *s, const struct column *c, double volume)
 {
     const double level = c->floor + volume / c->section;
@@ -244,7 +261,9 @@ static double level_of(const struct sph *s, const struct column *c, double volum
 
 /* The section that water really fills is that of its inside, from above the ground to below the
  * level: beside walls, where levels of refinement meet and where particles crowd, volumes do not
- * add up to the column's. Water with air in it, or less than 5.5 dx deep, fills the section. */
+ * add up to the column's. Water with air in it, or less than 5.5 dx deep, fills the section. Hence
+ * two sums: the first for the level, from which the window follows, the second for what is in
+ * it. */
 double level_gauge(struct sph *s, const double *at)
 {
     const struct column c = column_at(s, at);

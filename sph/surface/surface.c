@@ -2,7 +2,9 @@
  * M, walls included: lambda <= 0.2 is spray, on the surface; lambda >= 0.75 is inside; in between a
  * particle is on the surface if no neighbour lies in the cone of 45 degrees along its normal N =
  * -M^-1 sum w grad W (or in the disc around its tip, h = R/3, at least 4/3 dx, away) (Marrone et
- * al., J. Comput. Phys. 229, 2010; Chiron 2017, [3.12]).
+ * al., J. Comput. Phys. 229, 2010; Chiron 2017, [3.12]). Order: moments (pairs from the first pass,
+ * walls added), classify each particle, find_near for shifting. Called once for every list of
+ * pairs, from level.c after the first pass.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "surface.h"
 
@@ -19,6 +21,8 @@
 
 static const double spray = 0.20, inside = 0.75; /* bounds of the eigenvalue */
 
+/* reach is how far the surface acts on shifts: 2 dx where the law has that radius itself, else the
+ * whole support R. */
 struct free_surface *sph_surface_create(struct sph *s)
 {
     if (!s->prm.surface)
@@ -56,7 +60,8 @@ void surface_room(struct free_surface *f, int n, int dim)
     f->capacity = more;
 }
 
-/* sum w gradW of a particle. */
+/* g = sum_j w_j grad W over the neighbours of particle i, 1/m: it points away from where support is
+ * missing, into the fluid, since grad W at x_i of a pair is -(W'/r)(x_j - x_i) with W' < 0. */
 INLINE void add_crowding(const struct sph *s, int i, double *g, const int dim)
 {
     const struct neighbours *l = s->list;
@@ -82,7 +87,8 @@ INLINE void add_crowding(const struct sph *s, int i, double *g, const int dim)
 
 /* To the pairs' M of the first pass what walls add; g where a normal may be asked for, which walls
  * do not bring about. M is 0 for particles with so many neighbours that they cannot be on the
- * surface. */
+ * surface. g costs a second loop over the neighbours, hence only below the bound beyond which no
+ * normal is needed. */
 static void moments(struct sph *s, struct free_surface *f)
 {
     const int dim = s->dim;
@@ -101,7 +107,9 @@ static void moments(struct sph *s, struct free_surface *f)
         s->walls->model->moments(s, f->M, f->g);
 }
 
-/* N = -B g over its size [3.12], [4.87]; false where M is singular. */
+/* N = -B g over its size [3.12], [4.87]; false where M is singular. The sign makes N point out of
+ * the fluid; M^-1 corrects the direction near corners, where the support is cut on two sides. 1e-12
+ * is far below any determinant of particles with two neighbours. */
 static bool find_normal(const double *M, const double *g, double *N, int dim)
 {
     double v[3] = {0.0}, size = 0.0;
@@ -133,7 +141,8 @@ static bool find_normal(const double *M, const double *g, double *N, int dim)
     return size > 0.0;
 }
 
-/* Whether a neighbour lies in the cone of 45 degrees along N or in the disc around its tip. */
+/* Whether a neighbour lies in the cone of 45 degrees along N, to a distance of sqrt(2) h, or beyond
+ * that in the disc of radius h around its tip x + h N. */
 static bool is_covered(const struct sph *s, int i, const double *N)
 {
     const int dim = s->dim, *j = s->list->j + s->list->start[i];
@@ -153,6 +162,8 @@ static bool is_covered(const struct sph *s, int i, const double *N)
     return false;
 }
 
+/* Sets class, lambda and normal of particle i: inside by lambda, spray by lambda, else by the cone.
+ * Normals are kept for particles on the surface alone. */
 static void classify(struct sph *s, struct free_surface *f, int i)
 {
     const int dim = s->dim;
@@ -186,7 +197,8 @@ static double *share(struct sph *s, const struct free_surface *f)
     return ghosts;
 }
 
-/* A particle i near another with normal N takes it, weighted by the kernel. */
+/* A particle i near another with normal N takes it, weighted by the kernel. The kernel's radius is
+ * 5 % larger than R so that weights at the very edge are not 0. */
 static void take_normal(const struct sph *s, struct free_surface *f, int i, int j, const double *N)
 {
     const int dim = s->dim;
@@ -201,7 +213,8 @@ static void take_normal(const struct sph *s, struct free_surface *f, int i, int 
         f->normal[(size_t)dim * i + a] += W * N[a];
 }
 
-/* Those near ghosts on the surface; ghosts stand at the end of a row. */
+/* Those near ghosts on the surface; ghosts stand at the end of a row. Each rank does so for its own
+ * particles; the symmetric search of find_near ends at ghosts. */
 static void find_near_ghosts(struct sph *s, struct free_surface *f)
 {
     const struct neighbours *l = s->list;
@@ -218,7 +231,8 @@ static void find_near_ghosts(struct sph *s, struct free_surface *f)
     mem_free(ghosts);
 }
 
-/* Particles within reach of the surface take its normal: from those on it, which are few. */
+/* Particles within reach of the surface take its normal: from those on it, which are few. A
+ * particle that is near several takes a mean of their normals, made a unit vector at the end. */
 static void find_near(struct sph *s, struct free_surface *f)
 {
     const int dim = s->dim, n = s->p.n;

@@ -26,7 +26,8 @@ static void fade(const struct sph *s, int i, double room, double *delta)
         delta[a] *= beta;
 }
 
-/* Takes out the part of delta across the surface: nothing may move it but the flow. */
+/* Takes out the part of delta across the surface: nothing may move it but the flow. delta is 0 on
+ * the surface itself, and keeps its tangential part near it. */
 static void along_surface(const struct free_surface *f, int i, double *delta, int dim)
 {
     const double *N = f->normal + (size_t)dim * i;
@@ -55,7 +56,9 @@ static double inner_speed(const struct sph *s, int i)
  * it takes from the potential energy of all is given back by a shift against gravity of those
  * inside, in proportion to their speeds as the shift's own bound is; guards by themselves. It knows
  * nothing of walls, and pressed the first row of a dam break through the floor: those whose support
- * meets a wall take no part unless they are at rest. */
+ * meets a wall take no part unless they are at rest. The sum over all ranks of w g.(u0 - u) is the
+ * power of the shift, over rho; share = that over the sum of w g^2 |u|, so that after u0 -= share
+ * |u| g the power is 0. Two shares: of what flows and of guards. Collective. */
 static void make_workless(struct sph *s)
 {
     const int dim = s->dim;
@@ -91,13 +94,17 @@ static void make_workless(struct sph *s)
  * steps of 20 x 10 particles 9e-3 c0; with what is below 9e-4 at the start, as without levels, and
  * 1.1 to 1.6e-3 late; of 40 x 20 6e-4. Not within R of the switch alone: what others shift then
  * crowds there until particles clump and the run ends. The scale is the speed that the scene lets
- * expect, not c0: with a c0 that is large for other reasons the shift would be off everywhere. */
+ * expect, not c0: with a c0 that is large for other reasons the shift would be off everywhere. 1
+ * without levels. */
 static double share_with_levels(const struct sph *s, double u2)
 {
     static const double swift = 0.3; /* of the speed that the scene lets expect */
     return s->coarser || s->finer ? fmin(1.0, u2 / pow(swift * s->prm.expected, 2.0)) : 1.0;
 }
 
+/* Acts on u0 of every local particle in each stage after the walls' terms. delta = u0 - u is first
+ * made tangential (or faded) near the surface, then cut to a quarter of |u| or U, see the head of
+ * this file; at last the work of all shifts is taken out. */
 void transport_finish(struct sph *s)
 {
     const int dim = s->dim;

@@ -27,6 +27,7 @@ static const double calm = 0.01;      /* largest deviation in calm water */
 static const double most = 0.1;       /* of the deviation that counts */
 static const double least_room = 0.2; /* of the support: in narrower places sums say nothing */
 
+/* Whether this run corrects its volumes at all; see the head of this file for what is left out. */
 static bool wanted(const struct sph *s)
 {
     return s->prm.transport == TRANSPORT_TVS && s->prm.scheme != SCHEME_RIEMANN_ALE &&
@@ -45,13 +46,16 @@ void volume_feedback_prepare(struct sph *s)
     }
 }
 
-/* 1/s: growth of a volume that lacks the share `less' of its room. */
+/* 1/s: growth of a volume that lacks the share `less' of its room. less is within +-0.1 (`most');
+ * beyond +-calm the faster law is added. */
 static double rate_of(const struct sph *s, double less)
 {
     const double beyond = less - fmax(-calm, fmin(less, calm));
     return (less / slow + beyond / voids) * s->c0 / s->R;
 }
 
+/* less = 1 - sum w W/(room x sum of a lattice): positive where the particle has more room than its
+ * volume says. room is the share of the support that is not behind walls. */
 void volume_feedback_find(struct sph *s)
 {
     struct free_surface *f = s->surface;
