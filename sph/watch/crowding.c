@@ -14,6 +14,7 @@
 
 static const double overlap = 1.35; /* sum w W that is too much */
 
+/* O(pairs), by the present list and records; local, the caller sums and takes maxima. */
 struct sph_crowd sph_watch_crowd(const struct sph *s)
 {
     struct sph_crowd c = {0};
@@ -33,6 +34,7 @@ struct sph_crowd sph_watch_crowd(const struct sph *s)
     return c;
 }
 
+/* The place comes from the rank with the largest sum, so that all ranks write the same text. */
 void sph_watch_say_crowd(const struct sph *s, char *text, size_t size)
 {
     const struct sph_crowd *c = &s->watch.crowd;

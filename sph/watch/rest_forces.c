@@ -60,6 +60,7 @@ static void judge_body(struct sph *s, int k, struct rest_forces *worst)
     }
 }
 
+/* Writes the place and the remedy: body, mean difference over the samples, N, and dx. */
 static void say(struct sph *s, const struct rest_forces *w)
 {
     char text[3][32];
@@ -72,6 +73,9 @@ static void say(struct sph *s, const struct rest_forces *w)
              s->dx);
 }
 
+/* A body counts while rho U^2, with U the largest speed of fluid and walls, is below 2 % of the
+ * mean pressure on it: then the flow's own pressure is too small to explain a difference. SAMPLES
+ * of these in a row are averaged before a verdict. */
 void sph_watch_rest_forces(struct sph *s, double t, struct diagnosis *d)
 {
     struct sph_watch *w = &s->watch;

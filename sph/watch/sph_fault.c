@@ -37,6 +37,7 @@ double sph_fault_density_limit(const struct sph *s)
     return fmin(0.1 + fmax(s->watch.rest, s->watch.friction) + 2.0 * s->total.max_mach, 0.5);
 }
 
+/* 0 times a number is 0 for finite ones and NaN for the rest, so one sum tests the whole record. */
 double sph_fault_of(const struct sph *s, const double *y, double *speed, double *rho)
 {
     const int dim = s->dim;
@@ -82,7 +83,8 @@ static struct culprit look_at(const struct sph *s, int i)
     return c;
 }
 
-/* Collective. */
+/* Collective. O(n) on each rank and one gather of CULPRIT doubles from each; called only when a run
+ * ends or is about to be warned of. */
 static struct culprit find_worst(const struct sph *s)
 {
     struct culprit worst = {.fault = -1.0, .before = -1.0};
@@ -102,6 +104,8 @@ static struct culprit find_worst(const struct sph *s)
     return worst;
 }
 
+/* Distance to the nearest wall, m; INFINITY without walls. In 3D only plane sides count, for meshes
+ * are not searched here. */
 static double wall_distance(const struct sph *s, const double *x)
 {
     double least = INFINITY;
@@ -116,8 +120,9 @@ static double wall_distance(const struct sph *s, const double *x)
     return least;
 }
 
-/* Collective: what is around it is anywhere. What is not finite any more is looked at where it was.
- */
+/* What is around the place c, which may be on any rank: distance of the nearest particle and number
+ * within R. A particle that is not finite any more is looked at where it was, at the start of the
+ * step. Collective. */
 static struct fault_place survey(const struct sph *s, const struct culprit *c)
 {
     const double *x = c->x, *rows = c->fault < 1e300 ? s->p.y : s->p.y0;
@@ -141,6 +146,7 @@ static struct fault_place survey(const struct sph *s, const struct culprit *c)
     return p;
 }
 
+/* Writes position, zone, neighbours and the distance from a wall to d->where. */
 static void describe_where(const struct sph *s, const struct culprit *c,
                            const struct fault_place *p, struct diagnosis *d)
 {
@@ -157,6 +163,7 @@ static void describe_where(const struct sph *s, const struct culprit *c,
              zone[(int)c->zone], pair, wall);
 }
 
+/* Writes what is wrong with the particle to d->reason, with the limit that it breaks. */
 static void describe_fault(const struct sph *s, const struct culprit *c, struct diagnosis *d)
 {
     if (c->fault >= 1e300)
@@ -173,7 +180,8 @@ static void describe_fault(const struct sph *s, const struct culprit *c, struct 
                  100.0 * (c->rho / s->rho0 - 1.0), 100.0 * sph_fault_density_limit(s));
 }
 
-/* The first that the figures bear out. */
+/* The first that the figures bear out. They are ordered from what is certain (a parameter beyond a
+ * stability bound) to what is likely; each remedy names the key and a value. */
 static void describe_cause(const struct sph *s, const struct culprit *c,
                            const struct fault_place *p, struct diagnosis *d)
 {
@@ -222,6 +230,7 @@ static void describe_cause(const struct sph *s, const struct culprit *c,
                  s->dx, s->prm.cfl);
 }
 
+/* The level that the particle belongs to, whose spacing and support the texts speak of. */
 static const struct sph *level_of(const struct sph *s, const struct culprit *c)
 {
     while (s->finer && s->level < c->level)

@@ -1,21 +1,25 @@
-/* sph_watch.c - see sph_watch.h. SPDX-License-Identifier: BSD-3-Clause
+/* sph_watch.c - energy against its budget, speeds, returned, paired and overlapping particles.
  *
  * Energy: kinetic, elastic and potential (gravity across bounded axes, central force). Outside work
  * is that of a body force along periodic axes, g.sum(m u), and of moving walls: of bodies the force
  * that the fluid loses to them, of walls that slide the momentum that they give to each particle,
- * times their velocity there, by the weights of the stages. What is left
- * over may only fall. A gain is measured by the kinetic energy and a twentieth of what the scene
- * lets expect, M (U^2 + p/rho)/20: a tank at rest has its hydrostatic scale, so that noise of 1e-3
- * sqrt(g H) is no alarm and a flow of sqrt(g H)/30 that nothing drives is. A flow that creeps has
- * the elastic energy of its pressures, M p^2/(rho c0)^2, beside. The work of moving walls is known
- * to some percent only, for the division by gamma is theirs, too: five times its size is added to
- * the scale, and the warning comes at 3 % instead of 1 %.
+ * times their velocity there, by the weights of the stages. What is left over may only fall. A gain
+ * is measured by the kinetic energy and a twentieth of what the scene lets expect, M (U^2 +
+ * p/rho)/20: a tank at rest has its hydrostatic scale, so that noise of 1e-3 sqrt(g H) is no alarm
+ * and a flow of sqrt(g H)/30 that nothing drives is. A flow that creeps has the elastic energy of
+ * its pressures, M p^2/(rho c0)^2, beside. The work of moving walls is known to some percent only,
+ * for the division by gamma is theirs, too: five times its size is added to the scale, and the
+ * warning comes at 3 % instead of 1 %.
  *
  * Particles behind walls: where water splashes impacts press some through, and they come back to a
  * jet that is none the worse; a fluid that fills its room has no reason to.
  *
  * Not judged: openings and partners, which carry energy in and out, and moving walls made of
- * ghosts, whose forces are not told from those of particles. */
+ * ghosts, whose forces are not told from those of particles.
+ *
+ * A sample is taken in the first stage of every tenth step (of the state at its start) and judged
+ * when the step is complete, by one reduction over all ranks.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
 #include <math.h>
@@ -45,8 +49,8 @@ enum { ENERGY, KINETIC, POWER, WALL_WORK, REMOVED, PUT_BACK, PAIRED, CROWDED, CO
 
 static const double near_pair = 0.1; /* dx: closer than that two particles are one */
 
-/* Whether some particle feels a wall that slides and the one across at once: their forces are one
- * sum. */
+/* Whether some particle has both a side that slides and the opposite one within R: what either
+ * gives it is one sum then, and the work of the moving one cannot be told. */
 static bool is_slit(const struct scene *c, const struct sph_params *prm)
 {
     bool any = false;
@@ -69,6 +73,7 @@ static bool is_closed(const struct run *r, const struct sph_params *prm)
            !is_slit(&r->scene, prm);
 }
 
+/* The advice where particles form pairs, by what the case uses already. */
 static const char *clump_remedy(const struct sph_params *prm)
 {
     if (prm->transport != TRANSPORT_TVS)
@@ -78,6 +83,8 @@ static const char *clump_remedy(const struct sph_params *prm)
     return "particles clump, as in sheets of few particles: refine sph.dx";
 }
 
+/* Levels of warning and stopping: a Mach number of 0.3 compresses by about 5 %, of 1 the equation
+ * of state means nothing any more; energy is watched over 100 steps. */
 void sph_watch_create(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
@@ -142,13 +149,15 @@ void sph_watch_create(struct sph *s)
 
 void sph_watch_free(struct sph *s) { mem_free(s->watch.rate); }
 
+/* Nothing is computed in steps that take no sample. */
 void sph_watch_begin(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
     w->due = s->run->step % SPH_WATCH_EVERY == 0;
 }
 
-/* Locals closer than near_pair to another particle; needs the list and lines of this place. */
+/* Locals closer than near_pair to another particle; needs the list and lines of this place. Ghosts
+ * of walls and openings do not count, those of other ranks and images do. */
 static double paired_of_level(const struct sph *s)
 {
     const struct neighbours *l = s->list;
@@ -171,6 +180,7 @@ static double paired_of_level(const struct sph *s)
     return n;
 }
 
+/* Sum over the levels, this rank. */
 static double count_paired(const struct sph *s)
 {
     double n = 0.0;
@@ -179,7 +189,7 @@ static double count_paired(const struct sph *s)
     return n;
 }
 
-/* Of one level. */
+/* Adds energy, kinetic energy and the power of the body force along periodic axes of one level. */
 static void add_energy(const struct sph *s, double *sums)
 {
     for (int i = 0; i < s->p.n; i++) {
@@ -194,6 +204,8 @@ static void add_energy(const struct sph *s, double *sums)
     }
 }
 
+/* Fills w->sums on this rank. Every 50 steps pairs are counted too, which costs a loop over the
+ * list, and with levels overlaps. */
 static void sample(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
@@ -229,6 +241,7 @@ void sph_watch_stage(struct sph *s, bool first, double weight)
     s->watch.wall_work += weight * s->watch.wall_power;
 }
 
+/* With levels the coarsest one has the account. */
 void sph_watch_removed(struct sph *s, int i)
 {
     double kinetic;
@@ -252,6 +265,8 @@ static const char *energy_remedy(const struct sph *s)
     return w->remedy[s->prm.scheme <= SCHEME_RIEMANN ? REMEDY_DX : REMEDY_SCHEME];
 }
 
+/* The work between two samples is the trapezoidal rule over the power of body forces, plus what
+ * moving walls did, less what removed particles took along. */
 static void judge_energy(struct sph *s, double t, const double *sums, struct diagnosis *d)
 {
     struct sph_watch *w = &s->watch;
@@ -270,6 +285,7 @@ static void judge_energy(struct sph *s, double t, const double *sums, struct dia
     watch_judge(w->of + SPH_WATCH_ENERGY, scale > 0.0 ? gain / scale : 0.0, t, step, d);
 }
 
+/* The same on all ranks and throughout the run, since columns and reductions depend on it. */
 static bool is_judged(const struct sph *s, int kind)
 {
     return kind == SPH_WATCH_ENERGY     ? s->watch.budget_closed
@@ -279,7 +295,9 @@ static bool is_judged(const struct sph *s, int kind)
                                         : true;
 }
 
-/* Sums of the sample, taken at the start of this step. */
+/* Reduces the sums of the sample, which belong to the state at the start of this step, and judges
+ * each watch that is due. put_back and walls are rings over the last WATCH_STEPS steps.
+ * Collective. */
 static void judge_sample(struct sph *s, double t, struct diagnosis *d)
 {
     struct sph_watch *w = &s->watch;
@@ -366,6 +384,8 @@ static double keep(double **v, double x, bool load)
     return *at;
 }
 
+/* One list for both directions: what is saved is what is loaded, in one order. KEPT must match its
+ * length. */
 static void flatten(struct sph_watch *w, double *v, bool load)
 {
     w->work = keep(&v, w->work, load);
@@ -405,6 +425,8 @@ void sph_watch_save(const struct sph *s, struct h5 *f)
     h5_write_real(f, "watch", "-", KEPT, 1, v, false);
 }
 
+/* Sums of this rank come back as its own parts, also on another number of ranks (h5_read_parts);
+ * what is common comes from v. */
 bool sph_watch_load(struct sph *s, struct h5 *f)
 {
     double v[KEPT], parts[KEPT];

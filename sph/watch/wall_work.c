@@ -28,6 +28,7 @@ bool sph_watch_moves(const struct scene *c)
     return any || any_slides(c);
 }
 
+/* Keeps the momentum rates as the pairs left them, [n][dim], if some wall slides. */
 void sph_watch_before_walls(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
@@ -60,7 +61,8 @@ static bool mesh_slides(const struct sph *s, const struct wall_mesh *m, const do
     return tree_nearest(m->tree, own, s->R).triangle >= 0;
 }
 
-/* What walls that slide do to a particle at x with the force f. */
+/* Power, W, of the force f on a particle at x if a sliding wall exerts it: f.u of the first segment
+ * or mesh within R that slides. */
 static double power_at(const struct sph *s, const double *x, const double *f)
 {
     const struct walls *w = s->walls;
@@ -75,7 +77,8 @@ static double power_at(const struct sph *s, const double *x, const double *f)
     return 0.0;
 }
 
-/* Bodies: the force that the fluid really loses to them, see forces.h. */
+/* Bodies: the force that the fluid really loses to them, see forces.h. Force and moment of this
+ * stage are on the body, so that the fluid gets the opposite work. */
 static double power_of_bodies(const struct walls *w)
 {
     double sum = 0.0;
@@ -88,6 +91,7 @@ static double power_of_bodies(const struct walls *w)
     return sum;
 }
 
+/* The walls' part of the rates is the difference to what was kept. */
 void sph_watch_after_walls(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
