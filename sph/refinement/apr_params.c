@@ -1,4 +1,6 @@
-/* apr_params.c - parameter table of group apr. SPDX-License-Identifier: BSD-3-Clause */
+/* apr_params.c - parameter table of group apr, and the parameters as a run uses them. Rows fill
+ * apr_given; apr_params_of fills in levels that the case leaves out.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "apr_params.h"
 
 #include "../../common/run/run.h"
@@ -56,6 +58,7 @@ const struct param apr_rows[APR_ROWS] = {
 #undef P
 /* clang-format on */
 
+/* The finest level that any region or criterion names, at least 1. */
 static int largest_level(const struct apr_params *p)
 {
     int n = 1;
@@ -66,6 +69,7 @@ static int largest_level(const struct apr_params *p)
     return n;
 }
 
+/* Cheap, but it writes a static struct: callers borrow it and must not expect two. */
 const struct apr_params *apr_params_of(const struct run *r)
 {
     static struct apr_params used;

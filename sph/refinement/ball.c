@@ -1,5 +1,8 @@
 /* ball.c - the nearest point of the part of a sphere within a box is the foot of the radius or lies
  * where a face cuts the sphere, which is a sphere of one dimension less: the same again there.
+ * Needed where walls cut a spherical region: beyond a wall there is no edge, so the nearest point
+ * of the whole sphere may not count. At most 19 sections are tried in 3D, 5 in 2D; called for every
+ * particle near such a region.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "ball.h"
 
@@ -9,6 +12,7 @@
 
 #include "box_union.h"
 
+/* Whether x lies in the room, faces included. */
 static bool holds(const struct box *room, int dim, const double *x)
 {
     bool in = true;
@@ -17,6 +21,7 @@ static bool holds(const struct box *room, int dim, const double *x)
     return in;
 }
 
+/* Distance of two points, m. */
 static double distance(int dim, const double *a, const double *b)
 {
     double sum = 0.0;
@@ -34,8 +39,9 @@ struct section {
     double foot[3];
 };
 
-/* Feet on it, nearest and, of the two points that are a sphere of one dimension, the farther one.
- */
+/* Feet on it, nearest and, of the two points that are a sphere of one dimension, the farther one. /
+ * The foot is the point of the sphere along x - centre, in the free axes. At the centre itself any
+ * direction will do, and the first free axis is taken. INFINITY if no foot lies in the room. */
 static double nearest_foot(struct section *s, double radius, int nfree)
 {
     double along[3] = {0.0, 0.0, 0.0}, length = 0.0, best = INFINITY;
@@ -58,7 +64,8 @@ static double nearest_foot(struct section *s, double radius, int nfree)
 }
 
 /* Least distance of x to the sphere of squared radius r2 within room; axes before `next' were tried
- * before. */
+ * before. A face at `at' along axis a leaves a sphere of squared radius r2 - (at - centre_a)^2, of
+ * one axis less; axes are fixed in ascending order only, so that each section is tried once. */
 static double section_distance(struct section *s, double r2, int nfree, int next)
 {
     double best = nearest_foot(s, sqrt(r2), nfree);
@@ -76,6 +83,8 @@ static double section_distance(struct section *s, double r2, int nfree, int next
     return best;
 }
 
+/* Outside of the ball the plain distance is right, since x and the ball's nearest part are on one
+ * side of the walls. */
 double ball_distance(const struct ball *b, int dim, const struct box *room, const double *x)
 {
     const double d = b->radius - distance(dim, x, b->centre);

@@ -1,7 +1,16 @@
-/* counts.c - see counts.h. The gap at a parent is the kernel sum, at her place, of the children
- * that all parents would have if they gave birth now, less that of the children there are: 0 beside
- * walls, surfaces and edges as well. It is averaged over the parents that flow in her support, for
- * families are no lattice. SPDX-License-Identifier: BSD-3-Clause */
+/* counts.c - how many guards there should be, and where one is missing or too many. The gap at a
+ * parent that flows is the kernel sum, at its position, of the children that all parents would have
+ * if they were split now, less that of the children there are,
+ *   gap(x) = sum over parents and their 2^D children c of W(x - x_c)/W(0)
+ *            - sum over the finer level's particles j of W(x - x_j)/W(0),
+ * with the support R of the finer level: 0 beside walls, surfaces and edges as well. It is averaged
+ * over the parents that flow in its support, for single families are no lattice.
+ *
+ * Every EVERY steps, from integrate.c after the lists of guards are made: look_at_flowing adds
+ * guards where parents lack children, look_at_children (rarer) marks guards that are too many. Of
+ * all within R/2 or 2 dx of each other one wish is granted a round, so that one gap is not filled
+ * twice.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "counts.h"
 
 #include <math.h>
@@ -16,12 +25,12 @@
 #include "refinement.h"
 #include "regions.h"
 
-/* What gaps, in children, ask for: of mothers that flow, averaged, in units of what one child
- * changes, one is born beyond few; at a single place, where means say little of sheets and drops,
- * a child that is so many too many dies. Both give way to what the mass of the fluid is short of:
- * they would not be even by themselves. Of all within R/2 (2 dx) of each other, who feel the same
- * gap, one gets its way: that which asks for most, whatever the order of the particles, the side or
- * the rank. */
+/* What gaps, in children, ask for. Of parents that flow, averaged, in units of what one child
+ * changes, one is created beyond `few'. At a single place, where means say little of sheets and
+ * drops, a child is removed where there are more than `many' too many. Both give way to the deficit
+ * or surplus of the fluid's mass, for they would not balance by themselves. Of all within R/2 (2
+ * dx) of each other, which have the same gap, one is granted: the one with the largest wish,
+ * whatever the order of the particles, the side or the rank. */
 static const double few = 0.4, many = 1.2;
 static const double most_off = 1e-3; /* of the mass: beyond this they give way no further */
 static const double hole = 0.6;      /* spacings from the next one: room for one more */
@@ -39,7 +48,8 @@ struct found {
     int *j;
 };
 
-/* One look at both levels; gap: of the mothers, then of their ghosts; hole: places near mothers. */
+/* One pass over two levels; gap: of the parents, then of their ghosts; hole: positions near
+ * parents. */
 struct census {
     struct sph *s, *fine;
     const struct regions *regions;
@@ -48,11 +58,13 @@ struct census {
     struct found found; /* a list to reuse */
 };
 
+/* Role of a local or a ghost. */
 static int role_of(const struct sph *s, int i)
 {
     return i < s->p.n ? s->p.role[i] : s->guards->ghost[i - s->p.n];
 }
 
+/* Distance of two positions, m. */
 static double distance(int dim, const double *x, const double *y)
 {
     double r2 = 0.0;
@@ -61,14 +73,14 @@ static double distance(int dim, const double *x, const double *y)
     return sqrt(r2);
 }
 
-/* Of one at the same place: 1. */
+/* W(r)/W(0): 1 for a particle at the same place. */
 static double weight(double r, double R)
 {
     const double q = r / R, t = q < 1.0 ? 1.0 - q : 0.0;
     return t * t * t * t * (1.0 + 4.0 * q);
 }
 
-/* The children that a mother at y would have, seen from x. */
+/* Kernel sum at x over the children that a parent at y would have. */
 static double family(const struct sph *s, const double *x, const double *y, double R)
 {
     double sum = 0.0;
@@ -83,12 +95,14 @@ static double family(const struct sph *s, const double *x, const double *y, doub
     return sum;
 }
 
+/* Particles of level `at' within reach of x, guards included, into `to'. */
 static void look_around(struct sph *at, const double *x, double reach, struct found *to)
 {
     neighbours_gather(at, x, x, reach, at->guards->ghost, 0);
     to->n = neighbours_pick(at, x, reach, 0, &to->j, &to->capacity);
 }
 
+/* The gap at x in children; positive: some are missing. */
 static double gap_at(struct census *c, const double *x)
 {
     struct sph *s = c->s, *fine = c->fine;
@@ -103,7 +117,8 @@ static double gap_at(struct census *c, const double *x)
     return gap;
 }
 
-/* Gaps of the mothers that flow, but those on the very edge. */
+/* Gaps of the mothers that flow, but those on the very edge. depth is the distance from the
+ * region's edge, m. Ghosts of other ranks get the gaps of their owners. Collective. */
 static void find_gaps(struct census *c)
 {
     struct sph *s = c->s;
@@ -124,7 +139,9 @@ static void find_gaps(struct census *c)
     domain_share(s, c->gap, 1, c->ghost_gap);
 }
 
-/* Mean gap around mother i; one: what one child at her place changes of it. */
+/* Mean gap around mother i; one: what one child at her place changes of it. A kernel-weighted mean
+ * over the parents whose gap is known; `one' is the same mean of the change that a child at parent
+ * i makes to all these gaps. */
 static double mean_gap(const struct census *c, int i, double *one)
 {
     const struct sph *s = c->s;
@@ -147,7 +164,7 @@ static double mean_gap(const struct census *c, int i, double *one)
     return sum / total;
 }
 
-/* Distance from x to the next one of those found. */
+/* Distance from x to the next one of those found. INFINITY if none were found. */
 static double room_at(const struct sph *at, const struct found *near, const double *x)
 {
     double least = INFINITY;
@@ -156,7 +173,8 @@ static double room_at(const struct sph *at, const struct found *near, const doub
     return least;
 }
 
-/* The widest hole among the particles of a level within half the width `wide' of x, in spacings. */
+/* The widest hole among the particles of a level within half the width `wide' of x, in spacings.
+ * Tries a grid of PLACES positions along each axis and sets hole_x to the best one. */
 static double find_hole(const struct sph *at, const struct found *near, const double *x,
                         double wide, double *hole_x)
 {
@@ -174,7 +192,8 @@ static double find_hole(const struct sph *at, const struct found *near, const do
     return most;
 }
 
-/* One of level `at' with the fields of particle i of `from'. */
+/* Adds to level `at' a guard to be created at x at the end of the step, with the fields of particle
+ * i of `from' and its share of the volume. */
 static void conceive(struct sph *at, const double *x, const struct sph *from, int i)
 {
     struct guards *g = at->guards;
@@ -194,7 +213,8 @@ static void conceive(struct sph *at, const double *x, const struct sph *from, in
     memcpy(to->slope, slope_line(&from->p, i), (size_t)from->p.nslope * sizeof(double));
 }
 
-/* Whether there is a hole near mother i that flows, in sight of her. */
+/* Whether there is a hole near parent i that flows, with no wall between; sets c->hole[i]. In 3D
+ * the widest holes of a lattice are wider, by sqrt(3/2) = 1.22. */
 static bool has_hole(struct census *c, int i)
 {
     struct sph *s = c->s, *fine = c->fine;
@@ -220,7 +240,8 @@ static bool is_before(const struct sph *s, int i, int j)
 
 enum { GRANTED = -1 }; /* instead of a wish */
 
-/* Whether nobody within R/2 of i wishes for more or has been granted what it wished for. */
+/* Whether nobody within R/2 of i wishes for more or has been granted what it wished for. Ties go by
+ * position, so that both particles of a pair, whichever rank looks, agree. */
 static bool leads(const struct sph *s, int i, const double *wish, const double *ghost_wish)
 {
     const double same = 1e-9 * wish[i];
@@ -239,7 +260,8 @@ static bool leads(const struct sph *s, int i, const double *wish, const double *
 }
 
 /* Does what is asked for, of one level, where it is asked for most; then where nobody near has been
- * granted anything, and so on. Collective. */
+ * granted anything, and so on. Collective. act(c, i) carries the wish out; wish[i] = GRANTED bars
+ * the neighbours. */
 static void grant(struct census *c, struct sph *s, double *wish,
                   void (*act)(struct census *c, int i))
 {
@@ -259,8 +281,11 @@ static void grant(struct census *c, struct sph *s, double *wish,
     mem_free(ghosts);
 }
 
+/* Creates the child in the hole found for parent i. */
 static void give_child(struct census *c, int i) { conceive(c->fine, c->hole[i], c->s, i); }
 
+/* Parents that flow, but those as deep as R - dx, where guards of the finer level end: each wishes
+ * for a child as far as its mean gap goes beyond the bound. Collective. */
 static void look_at_flowing(struct census *c)
 {
     struct sph *s = c->s;
@@ -280,15 +305,17 @@ static void look_at_flowing(struct census *c)
     mem_free(wish);
 }
 
-/* Of one level: its guards where it does not flow itself. */
+/* Whether i is a guard of its level because another one, coarser, flows there. */
 static bool is_outside(const struct sph *s, int i)
 {
     return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
 }
 
+/* It is removed at the end of the step (life.c). */
 static void mark_surplus(struct census *c, int i) { c->fine->p.role[i] |= ROLE_SURPLUS; }
 
-/* Guards of the finer level outside of where it flows. */
+/* Guards of the finer level outside of where it flows wish to be removed as far as their surplus
+ * goes beyond the bound. Collective. */
 static void look_at_children(struct census *c)
 {
     struct sph *fine = c->fine;
@@ -303,6 +330,8 @@ static void look_at_children(struct census *c)
     mem_free(wish);
 }
 
+/* Both looks at the pair of levels s and s->finer; off says how far the mass of all has drifted, as
+ * a fraction of most_off. */
 static void mark_level(struct sph *s, const struct refinement *r)
 {
     struct census c = {.s = s, .fine = s->finer, .regions = r->regions};
@@ -317,6 +346,7 @@ static void mark_level(struct sph *s, const struct refinement *r)
     mem_free(c.found.j);
 }
 
+/* s may be any level: with local steps the finer ones alone are at one time. */
 void counts_mark(struct sph *s)
 {
     const struct sph *coarsest = s;

@@ -34,6 +34,9 @@ static void point_of(const struct body *b, int i, double *x)
     body_place(b, at, x);
 }
 
+/* How much of a body's surface lies where `level' flows, i.e. at least R of the coarser level
+ * inside the region, by at most VERTICES samples; of those that do not, `best' and `at' give the
+ * one nearest to it. */
 static struct held count(const struct sph *s, const struct body *b, int level)
 {
     const double R = ldexp(s->R, 1 - level);
@@ -62,6 +65,7 @@ static void say_left(const struct sph *s, const struct body *b, int level, const
              b->is->name);
 }
 
+/* At the start: an edge that cuts a body leaves its force to two levels. */
 static void say_cut(const struct sph *s, const struct body *b, int level, const struct held *is)
 {
     const double R = ldexp(s->R, 1 - level);
@@ -72,7 +76,9 @@ static void say_cut(const struct sph *s, const struct body *b, int level, const 
              level, b->is->name, is->at[0], is->at[1], is->at[2], R);
 }
 
-/* Reported once for each body and level. */
+/* Reported once for each body and level. The first call takes the state at the start as the
+ * reference, later ones, every LOOK_EVERY steps, compare moving bodies with it. Every rank has all
+ * bodies and regions, so nothing is exchanged. */
 void refinement_watch_bodies(struct sph *s)
 {
     struct refinement *r = s->refinement;

@@ -1,5 +1,10 @@
 /* criteria.c - see criteria.h. Indicators of level n are made with dx of level n - 1 wherever they
- * are read, so that they do not depend on how fine a place is already.
+ * are read, so that they do not depend on how fine a place is already. Order of an evaluation:
+ * criteria_begin clears the cells, criteria_add enters particles (this rank), criteria_end reduces
+ * over ranks and decides. With r = indicator/bound in a cell, it is refined if r > factor, and once
+ * refined stays while 3 r > factor or 20 R/c0 have not passed. factor >= 1 is found by bisection so
+ * that the forecast of particles stays within the budget; each trial marks all levels anew,
+ * O(cells).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "criteria.h"
 
@@ -12,7 +17,8 @@
 #include "../../common/files/h5.h"
 #include "regions_parts.h"
 
-/* 2^30 cells of 20 bytes are more than a rank can hold; 2^25 are 700 MB. */
+/* Mark, depth, value, until, surface, seed, units and allowed are 29 bytes a cell: 2^25 cells are 1
+ * GB on every rank, 2^30 would be more than a rank can hold. */
 #define CELLS_MOST 33554432.0
 
 struct criteria_grid {
@@ -38,6 +44,7 @@ struct criteria {
     int64_t fluid, fixed[APR_LEVELS_MAX + 1]; /* units: all; within fixed regions of a level */
 };
 
+/* Volume, m^dim, of a unit of fluid: 1/UNITS of a particle of the finest level. */
 static double unit(const struct regions *g)
 {
     return pow(ldexp(g->dx, -g->prm->levels), g->dim) / UNITS;
@@ -51,7 +58,8 @@ static double particles_of(const struct regions *g, int n, double units)
 
 /* --- life --- */
 
-/* Cells whose guards would come into the zones at open sides are not marked. */
+/* Cells whose guards would come into the zones at open sides are not marked. A cell is allowed if
+ * it ends before the depth that the level may reach (regions_allowed). */
 static void allow(struct regions *g, int n)
 {
     struct criteria_grid *q = g->criteria->grid + n;
@@ -69,6 +77,7 @@ static void allow(struct regions *g, int n)
     }
 }
 
+/* Cells are as wide as R of the level outside, in which guards lie at the edge. */
 struct criteria *criteria_create(struct regions *g)
 {
     int levels = 0;
@@ -98,6 +107,7 @@ struct criteria *criteria_create(struct regions *g)
     return c;
 }
 
+/* Also unsets g->criteria. */
 void criteria_free(struct regions *g)
 {
     for (int n = 1; g->criteria && n <= g->criteria->levels; n++) {
@@ -135,6 +145,8 @@ double criteria_forecast(const struct regions *g)
     return g->criteria ? g->criteria->forecast : 0;
 }
 
+/* speed is the largest so far, so that criteria do not refine everything as a flow comes to
+ * rest. */
 void criteria_begin(struct regions *g, double speed, double gravity)
 {
     struct criteria *c = g->criteria;
@@ -151,7 +163,8 @@ void criteria_begin(struct regions *g, double speed, double gravity)
     }
 }
 
-/* Indicator over its bound; dx: m, of the level below. */
+/* Indicator over its bound; dx: m, of the level below. vorticity: |curl u| dx/(U above); pressure:
+ * |grad p| dx/(rho max(u^2, g dx) above); jump: dp/(the same). 0 where there is no scale. */
 static double ratio(const struct criteria *c, const struct apr_criterion *is, double dx,
                     const struct flow_sample *s)
 {
@@ -168,6 +181,8 @@ static double ratio(const struct criteria *c, const struct apr_criterion *is, do
     }
 }
 
+/* Enters particle at x, of `units' of fluid, for level n: criteria of finer levels ask for this one
+ * too. */
 static void add_to_level(struct regions *g, int n, const double *x, const struct flow_sample *is,
                          int64_t units)
 {
@@ -187,6 +202,7 @@ static void add_to_level(struct regions *g, int n, const double *x, const struct
         q->units[cell] += units;
 }
 
+/* Fluid within fixed regions is counted apart, since it is refined in any case. */
 void criteria_add(struct regions *g, const double *x, const struct flow_sample *is)
 {
     const int64_t units = llround(is->volume / unit(g));
@@ -212,7 +228,9 @@ static double surface_distance(const struct regions *g, int n)
     return d;
 }
 
-/* Cells near the surface count as much above their bound as they are nearer than it asks for. */
+/* Cells near the surface count as much above their bound as they are nearer than it asks for. k = 0
+ * is the cell with the surface itself; each dilation is one cell, R of the coarser level, further
+ * away. */
 static void add_surface(const struct regions *g, int n)
 {
     struct criteria_grid *q = g->criteria->grid + n;
@@ -229,6 +247,8 @@ static void add_surface(const struct regions *g, int n)
     }
 }
 
+/* Whether a cell is refined for itself at this factor: above the bound, or, with patience, refined
+ * before and not yet released. */
 static bool is_kept(const struct criteria_grid *q, size_t i, double factor, double t, bool patient)
 {
     if (q->value[i] > factor)
@@ -236,7 +256,9 @@ static bool is_kept(const struct criteria_grid *q, size_t i, double factor, doub
     return patient && q->seed[i] && (3.0 * q->value[i] > factor || t < q->until[i]);
 }
 
-/* Marks of all levels for this factor on the bounds, from the finest; returns the particles. */
+/* Marks of all levels for this factor on the bounds, from the finest; returns the particles.
+ * Coarser levels cover the finer ones with the margin, so that levels stay nested. The forecast
+ * counts parents that stay as guards as well: every level holds all fluid of its region. */
 static double mark_all(struct regions *g, double factor, double t, bool patient)
 {
     struct criteria *c = g->criteria;
@@ -262,7 +284,8 @@ static double mark_all(struct regions *g, double factor, double t, bool patient)
 }
 
 /* The least factor >= 1 that keeps the budget; without patience what was refined is kept no longer
- * than it is asked for. */
+ * than it is asked for. Quadruples until it fits, then halves the interval 12 times in the
+ * logarithm, to 0.03 %. INFINITY: not even 1e6 does. */
 static double find_factor(struct regions *g, double t, bool patient)
 {
     const double budget = CRITERIA_SHARE * g->prm->particles;
@@ -287,7 +310,8 @@ static double find_factor(struct regions *g, double t, bool patient)
     return high;
 }
 
-/* Largest of the indicators and sums of all ranks. */
+/* Largest of the indicators and sums of all ranks. Sums are of integers, so that all ranks decide
+ * alike whatever their number. */
 static void reduce(struct regions *g)
 {
     struct criteria *c = g->criteria;
@@ -303,7 +327,8 @@ static void reduce(struct regions *g)
     }
 }
 
-/* Seeds of this evaluation, and how long they stay. */
+/* Seeds of this evaluation, and how long they stay. 20 R/c0 is the time that sound takes across 20
+ * supports of the coarser level. */
 static void remember(struct regions *g, double t, double sound, bool patient)
 {
     struct criteria *c = g->criteria;
@@ -328,7 +353,7 @@ static bool any_cell(const struct criteria_grid *q, bool asks)
     return any;
 }
 
-/* Once: criteria that a budget keeps from everything are as good as none. */
+/* Warns once if the budget keeps criteria from refining anything at all. */
 static void tell_budget(struct regions *g, double t, double wanted)
 {
     struct criteria *c = g->criteria;
@@ -341,6 +366,8 @@ static void tell_budget(struct regions *g, double t, double wanted)
              t, wanted, g->prm->particles);
 }
 
+/* With patience first; if the budget then cannot be kept at all, cells that were refined before are
+ * given up at once. The next evaluation is due after half the time that sound takes across R. */
 void criteria_end(struct regions *g, double t, double sound)
 {
     struct criteria *c = g->criteria;
@@ -387,6 +414,7 @@ void criteria_save(const struct regions *g, struct h5 *f)
     }
 }
 
+/* false: the file has none for this grid. */
 static bool load_level(struct criteria_grid *q, int n, struct h5 *f)
 {
     int64_t rows = 0;
@@ -404,6 +432,7 @@ static bool load_level(struct criteria_grid *q, int n, struct h5 *f)
     return fits;
 }
 
+/* The forecast is not saved; it comes with the next evaluation. */
 bool criteria_load(struct regions *g, struct h5 *f)
 {
     struct criteria *c = g->criteria;

@@ -1,7 +1,9 @@
 /* graded.c - first particles whose spacing grows away from a box, by less than 3 % from one layer
  * to the next: the finest lattice in the box, then frames of cells around it, each as thick as the
  * one before times a constant, up to the case's dx; the cells tile the plane, so volumes are exact.
- * Each particle keeps the R of its layer. SPDX-License-Identifier: BSD-3-Clause */
+ * Each particle keeps the R of its layer. Called once at the start, instead of the lattice of
+ * fill.c; on one rank, in 2D (mixed.h).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
 #include <math.h>
@@ -20,7 +22,8 @@ struct filler {
     struct exact exact;
 };
 
-/* The particle of one cell of a layer of this spacing, if there is fluid at its centre. */
+/* The particle of one cell of a layer of this spacing, if there is fluid at its centre. Its state
+ * is the exact field's at the centre and t = 0, with the density that p asks for. */
 static void add_cell(struct filler *f, double x0, double x1, double y0, double y1, double dx)
 {
     struct sph *s = f->s;
@@ -52,6 +55,7 @@ static void add_cells(struct filler *f, const double lo[2], const double hi[2], 
                      lo[1] + length[1] * j / ny, lo[1] + length[1] * (j + 1) / ny, dx);
 }
 
+/* Thickness of layer k around the core: finest (1 + growth)^(k+1), at most the case's dx. */
 static double thickness(double finest, double most, int k)
 {
     return fmin(finest * pow(1.0 + growth, k + 1), most);
@@ -63,6 +67,8 @@ struct layers {
     double scale;
 };
 
+/* How many layers fit into `length' and by what factor they are stretched or shrunk to fill it; one
+ * more or less is taken, whichever comes nearer. */
 static struct layers lay(double length, double finest, double most)
 {
     struct layers l = {0, 1.0};
@@ -80,7 +86,8 @@ static struct layers lay(double length, double finest, double most)
 }
 
 /* The frame around the rectangle with these thicknesses at its sides x low, x high, y low, y high;
- * the rectangle grows by it. */
+ * the rectangle grows by it. Eight rectangles: four sides, and the four corners, which have a
+ * thickness of their own in either direction. */
 static void add_frame(struct filler *f, double lo[2], double hi[2], const double t[4], double dx)
 {
     for (int i = -1; i <= 1; i++)
@@ -108,7 +115,8 @@ static void add_frame(struct filler *f, double lo[2], double hi[2], const double
 }
 
 /* The box of the finest level, less the belt R wide that guards would have at its edges, in whole
- * cells from a side of the domain where it reaches one. */
+ * cells from a side of the domain where it reaches one. belt is R of the level outside of the
+ * finest, 2 R_dx finest. */
 static void find_core(const struct sph *s, const struct apr_params *prm, double finest,
                       double lo[2], double hi[2])
 {
@@ -130,6 +138,8 @@ static void find_core(const struct sph *s, const struct apr_params *prm, double 
     }
 }
 
+/* The core first, then frames outwards; a side whose layers are all laid gets frames of thickness 0
+ * from then on. */
 void graded_fill(struct sph *s)
 {
     const struct apr_params *prm = apr_params_of(s->run);

@@ -3,7 +3,10 @@
  * to x by the trapezoidal rule,
  *   f_j + (grad f_j + grad f).(x - x_j)/2,
  * grad f being the mean of the sources' gradients. With gradients of second order this is of third
- * order on any set.
+ * order on any set. Order in a step: guards_list lists the sources when lists are new, once a step;
+ * guards_update sets the fields in every stage, before the first pass; after it guards_hold_edge
+ * unshifts those at edges, and guards_rates moves them. Sources are particles that flow, of the two
+ * levels that meet at the place.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "guards.h"
 
@@ -23,9 +26,9 @@
 static const double thin = 1e-3;               /* sum of w W: nobody is there */
 static const double narrow = 0.8, least = 2.4; /* of R; finer dx: supports of guards */
 
-/* Within which guards take from what flows, `fine' the finer of their two sources. All of R takes
- * energy out of vortices at each edge, 0.65 R puts some in; near a free surface what levels have
- * at rest (excess) was measured with R. */
+/* The radius within which guards take from what flows, m; `fine': the finer of their two sources.
+ * All of R takes energy out of vortices at each edge, 0.65 R puts some in; near a free surface what
+ * levels have at rest (excess) was measured with R. */
 static double reach_of(const struct sph *fine)
 {
     return fine->surface || fine->guards->mean
@@ -83,6 +86,7 @@ static void share_roles(struct sph *s)
     mem_free(ghosts);
 }
 
+/* Room for n guards; contents are kept. */
 static void make_room(struct guards *g, int n)
 {
     if (n <= g->capacity)
@@ -96,8 +100,7 @@ static void make_room(struct guards *g, int n)
     g->capacity = more;
 }
 
-/* In which place they are listed: guards outside of where their level flows, guards within, deep
- * ones. */
+/* The order in which guards are listed: 0 outside of where their level flows, 1 within, 2 deep. */
 static int kind_of(const struct sph *s, int i)
 {
     if (s->p.role[i] & ROLE_DEEP)
@@ -105,7 +108,7 @@ static int kind_of(const struct sph *s, int i)
     return s->p.role[i] >> ROLE_SOURCE == s->level ? 0 : 1;
 }
 
-/* Who they are, by kind. */
+/* Lists the guards of a level by kind, with their sources. */
 static void find(struct sph *s)
 {
     struct guards *g = s->guards;
@@ -127,7 +130,7 @@ static void find(struct sph *s)
 }
 
 /* How many guards from k on have the same sources and lie together, as those of a cell do; lo, hi:
- * gets their box. */
+ * gets their box. A group shares one search; its box is at most R + skin wide. */
 static int find_group(const struct sph *s, int k, double *lo, double *hi)
 {
     const struct guards *g = s->guards;
@@ -150,6 +153,7 @@ static int find_group(const struct sph *s, int k, double *lo, double *hi)
     return n;
 }
 
+/* Whether one of the particles j[n] of `from' is near the free surface. */
 static bool any_on_surface(const struct sph *from, const int *j, int n)
 {
     bool any = false;
@@ -161,7 +165,7 @@ static bool any_on_surface(const struct sph *from, const int *j, int n)
 }
 
 /* Rows of the guards k .. end-1 from one of their sources, each padded; returns the next free place
- * in j. */
+ * in j. m: 0 for the coarser source, 1 for the finer. */
 static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end, double reach,
                     int at)
 {
@@ -180,7 +184,8 @@ static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end
     return at;
 }
 
-/* What the partition over ranks wants to know. */
+/* Writes how many sources each guard has, which is work that the partition over ranks should
+ * count. */
 static void count_taken(struct sph *s)
 {
     struct neighbours *l = s->list;
@@ -195,6 +200,8 @@ static void count_taken(struct sph *s)
         l->taken[s->guards->who[k]] = s->guards->count[k][0] + s->guards->count[k][1];
 }
 
+/* Makes both rows of every guard of the level s anew; all[] are the levels by number. Sources with
+ * ROLE_GUARD are left out, so a guard never takes from guards. */
 static void list_level(struct sph *const *all, struct sph *s)
 {
     struct guards *g = s->guards;
@@ -239,6 +246,8 @@ struct guard_sums {
     vec W, r[3], f[4], grad[4][3]; /* rho, u */
 };
 
+/* A record has rho at 5 (2D) or 7, f[0]; u follows in f[1..dim]. Padding has volume 0 and adds
+ * nothing. */
 INLINE void add_sources(const struct sph *from, const double *x, double R_1, const int *j, int n,
                         struct guard_sums *to, const int dim, const bool slopes)
 {
@@ -292,7 +301,8 @@ INLINE double mean_of(const struct guard_sums *sum, double f[4], const int dim)
 
 /* Pressure of water at rest beyond its weight near the surface, where the momentum equation sums
  * over half a support: of P = p/(rho g R), in the same unit, linear between the rows of a tank at
- * rest with R/dx 4 (means of two spacings); none in what does not press. */
+ * rest with R/dx 4 (means of two spacings); none in what does not press. The unit is rho g R of the
+ * level. */
 static double excess(double P)
 {
     static const double of[][2] = {{0.0, 0.0},    {0.24, 0.118},  {0.40, 0.049},
@@ -308,7 +318,8 @@ static double excess(double P)
 }
 
 /* The density at which a level with the weight `to' = rho g R has, near the surface at rest, the
- * pressure that one of weight `from' has at rho in the same depth. */
+ * pressure that one of weight `from' has at rho in the same depth. The fixed point P = head/to +
+ * excess(P) is found by iteration, then the density by linearising p about rho. */
 static double matched_density(const struct sph *s, double rho, double from, double to)
 {
     const double p = eos_p(rho, s->rho0, s->c0, s->gamma), head = p - from * excess(p / from);
@@ -343,6 +354,7 @@ INLINE double take_near(struct sph *s, const struct guard_sums sum[2], const str
     return W;
 }
 
+/* Away from the surface both levels are one set of sources. */
 static void join_sums(struct guard_sums *to, const struct guard_sums *more, int dim)
 {
     to->W += more->W;
@@ -355,6 +367,8 @@ static void join_sums(struct guard_sums *to, const struct guard_sums *more, int 
     }
 }
 
+/* Sets state and record of guard i from the sums, or leaves it as it is where nobody is there. Mass
+ * stays, volume = m/rho. */
 INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct sph *fine, bool near,
                  const int dim)
 {
@@ -380,6 +394,7 @@ INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct sp
     }
 }
 
+/* The first n guards of level s; dim and slopes are constants in each instance. */
 INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim, const bool slopes)
 {
     const struct guards *g = s->guards;
@@ -394,7 +409,7 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim, 
     }
 }
 
-/* The first n guards of a level. */
+/* Updates the first n guards of a level, by slopes or by the mean alone. */
 static void give(struct sph *const *all, struct sph *s, int n)
 {
     if (s->guards->mean)
@@ -405,7 +420,8 @@ static void give(struct sph *const *all, struct sph *s, int n)
         update(all, s, n, 3, true);
 }
 
-/* What deep guards are given in the first stage holds for all of the step, which starts from y0. */
+/* What deep guards are given in the first stage holds for all of the step, which starts from y0. So
+ * y0 must hold it too. */
 static void keep_deep(struct sph *s)
 {
     const struct guards *g = s->guards;
@@ -414,6 +430,7 @@ static void keep_deep(struct sph *s)
         memcpy(state_row(&s->p, s->p.y0, g->who[k]), state_row(&s->p, s->p.y, g->who[k]), size);
 }
 
+/* Deep guards are updated in the first stage alone (fresh). */
 static void update_level(struct sph *const *all, struct sph *s)
 {
     struct guards *g = s->guards;
@@ -434,6 +451,8 @@ void guards_share(struct sph *s, bool slopes)
     timer_stop(&s->run->timers, "halo");
 }
 
+/* Records of all levels must be packed; slopes are those of the stage before, since guards are
+ * needed for the next ones. */
 void guards_update(struct sph *s)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
@@ -459,6 +478,7 @@ void guards_update_edge(struct sph *s)
     timer_stop(&s->run->timers, "guards");
 }
 
+/* A second output at the same time keeps the first copy. */
 void guards_remember(struct sph *s)
 {
     for (; s; s = s->finer) {
@@ -502,7 +522,8 @@ void guards_hold_edge(struct sph *s)
     }
 }
 
-/* u and rho go on as the rates have it, the mass stays. */
+/* Takes the part of the rates that changes mass out of all of them alike, so that u and rho go on
+ * as the rates have it. */
 static void keep_mass(const struct sph *s, int i, double *rate)
 {
     const double *y = state_row(&s->p, s->p.y, i);
@@ -511,6 +532,8 @@ static void keep_mass(const struct sph *s, int i, double *rate)
         rate[k] -= share * y[k];
 }
 
+/* Overwrites the rates of guards: they move at u0 and keep their state, or with own_rates go on by
+ * their own. */
 void guards_rates(struct sph *s)
 {
     const struct guards *g = s->guards;

@@ -1,8 +1,12 @@
-/* life.c - births, removals and roles of the particles of all levels (Chiron 2017, 5.3); see
- * refinement.h. A particle that enters the region of the next level gives birth to 2^D of half its
- * spacing, of equal mass, at +-1/4 of it, with its fields and their slopes [5.20-5.22]; it stays,
- * and no link is kept. What leaves its region is removed. Roles follow from places alone; births
- * and removals have a hysteresis of half the coarser spacing, so that nobody is born to be removed.
+/* life.c - creation, removal and roles of the particles of all levels (Chiron 2017, 5.3). A
+ * particle that enters the region of the next level gets 2^D children of half its spacing, of equal
+ * mass, at +-1/4 of it, with its fields and their slopes [5.20-5.22]; it stays as a guard, and no
+ * link is kept. What leaves its region is removed. Roles follow from positions alone; creation and
+ * removal have a hysteresis of half the coarser spacing, so that none is created to be removed.
+ *
+ * refinement_adapt runs at the end of a step, level by level from the coarsest: children of one
+ * level are there when the next is looked at. Then refinement_repay restores the mass of the fluid,
+ * slowly, where levels take over from each other with unequal numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "guards.h"
 #include "refinement.h"
@@ -26,6 +30,7 @@ struct depths {
     double *own, *next;
 };
 
+/* Distance of every particle from the edge of a level's region, m; freed by depths_free. */
 static double *measure(const struct regions *g, const struct sph *s, int level)
 {
     double *d = NEW(double, s->p.n);
@@ -34,20 +39,23 @@ static double *measure(const struct regions *g, const struct sph *s, int level)
     return d;
 }
 
-/* held: what particles are with respect to the region of their own level stays. */
+/* held: what particles are with respect to the region of their own level stays. With held, own is
+ * NULL. */
 static struct depths depths_of(const struct regions *g, const struct sph *s, bool held)
 {
     return (struct depths){s->coarser && !held ? measure(g, s, s->level) : NULL,
                            s->finer ? measure(g, s, s->level + 1) : NULL};
 }
 
+/* Frees both arrays. */
 static void depths_free(struct depths *is)
 {
     mem_free(is->own);
     mem_free(is->next);
 }
 
-/* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. */
+/* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. Runs through the finer
+ * levels until one does not flow at the particle; the last that does is the source. */
 static int role_of(const struct regions *g, const struct sph *s, const struct depths *is, int i)
 {
     int role = 0, source = s->level;
@@ -84,7 +92,7 @@ bool refinement_flows_at(const struct sph *s, const double *x)
            !(s->finer && regions_distance(g, s->level + 1, x) >= s->R);
 }
 
-/* Sum over what flows of a number of the state; this rank. */
+/* Sum over particles that flow, s and finer levels, of member `at' of the state; this rank. */
 static double sum_of(const struct sph *s, int at)
 {
     double sum = 0.0;
@@ -95,10 +103,12 @@ static double sum_of(const struct sph *s, int at)
     return sum;
 }
 
-/* What flows, kg; this rank. */
+/* Mass of what flows, kg; this rank. */
 static double flowing(const struct sph *s) { return sum_of(s, at_mass(s->dim)); }
 
-/* Share of a particle's mass that counts: 1 where its level flows, 0 where another does. */
+/* Share of a particle's mass that counts: 1 where its level flows, 0 where another does. Ramps one
+ * spacing of the coarser level wide make the sum continuous as a layer of particles crosses the
+ * switch. */
 static double share_of(const struct sph *s, const struct depths *is, int i)
 {
     double share = 1.0;
@@ -109,6 +119,7 @@ static double share_of(const struct sph *s, const struct depths *is, int i)
     return share;
 }
 
+/* Mass of a level's particles by these shares, kg; this rank. */
 static double mass_of_level(const struct sph *s, const struct depths *is)
 {
     double sum = 0.0;
@@ -117,6 +128,7 @@ static double mass_of_level(const struct sph *s, const struct depths *is)
     return sum;
 }
 
+/* Called at the start and where something else has changed the mass on purpose. */
 void refinement_remember(struct sph *s)
 {
     struct refinement *r = s->refinement;
@@ -140,6 +152,7 @@ void refinement_removed(struct sph *s, int i)
         s->refinement->gone += isfinite(m) ? m : 0.0;
 }
 
+/* next_id goes up by the number of ranks, so that ids stay unique without communication. */
 int refinement_child(const struct sph *s, struct sph *to, int i, const double *d)
 {
     const int dim = s->dim;
@@ -162,10 +175,11 @@ int refinement_child(const struct sph *s, struct sph *to, int i, const double *d
     return k;
 }
 
-/* Changes the way d from a mother at x, h from a wall, less than the half spacing that she fills,
- * to a child such that both are as far from that wall, each in its own spacings, and so from the
- * next wall in a corner: a layer that packing or the flow has put there becomes two, with nobody
- * behind walls, at any number of levels. A way that meets a wall yet ends halfway before it. */
+/* Changes the displacement d of a child, from a parent at x that has a wall at the distance h <
+ * dx/2 along `way', such that parent and child are as far from that wall, each in its own spacings,
+ * and so from the next wall in a corner: a layer that packing or the flow has put there becomes
+ * two, with nobody behind walls, at any number of levels. A displacement that meets a wall yet ends
+ * halfway before it. */
 static void heed_walls(const struct sph *s, const double *x, double h, const double *way, double *d)
 {
     const int dim = s->dim;
@@ -182,6 +196,7 @@ static void heed_walls(const struct sph *s, const double *x, double h, const dou
         d[a] *= 0.5 * share;
 }
 
+/* Creates the 2^D children of particle i in the next level. */
 static void give_birth(struct sph *s, int i)
 {
     const double *x = state_row(&s->p, s->p.y, i);
@@ -199,7 +214,8 @@ static void give_birth(struct sph *s, int i)
     s->p.role[i] |= ROLE_MOTHER;
 }
 
-/* Mothers of one level. */
+/* Particles of a level that have entered the region of the next one (next: their distances) get
+ * children; those that have left it may get new ones later. */
 static void enter(struct sph *s, const double *next)
 {
     s->finer->p.nghost = 0;
@@ -217,6 +233,8 @@ static bool is_removed(const struct sph *s, double depth, int i)
            ((s->p.role[i] & ROLE_SURPLUS) != 0 && depth < 2.0 * s->R);
 }
 
+/* Removes particles that have left their region and surplus guards; the last one fills the place,
+ * distances with it. */
 static void leave(struct sph *s, struct depths *is)
 {
     for (int i = 0; i < s->p.n;)
@@ -236,8 +254,8 @@ static bool is_outside(const struct sph *s, int i)
     return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
 }
 
-/* What flows has gained so much energy without work: the watch is not to take it for made of
- * nothing. */
+/* Adds energy to the watch's account that the flow has gained without work, J: guards that begin to
+ * flow bring theirs along. */
 static void book_energy(struct sph *s, double gained)
 {
     while (s->coarser)
@@ -245,6 +263,8 @@ static void book_energy(struct sph *s, double gained)
     s->watch.removed -= isfinite(gained) ? gained : 0.0;
 }
 
+/* held: the guards of the level outside stay as they are, since its fields are those of the end of
+ * its step. */
 static void give_roles(const struct regions *g, struct sph *s, const struct depths *is, bool held)
 {
     const int kept = ROLE_MOTHER | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0);
@@ -261,6 +281,7 @@ static void give_roles(const struct regions *g, struct sph *s, const struct dept
     book_energy(s, woken);
 }
 
+/* Creates the guards that counts.c has listed, moved on from the time when they were. */
 static void add_newborn(struct sph *s)
 {
     struct guards *g = s->guards;
@@ -280,7 +301,8 @@ static void add_newborn(struct sph *s)
     g->nnewborn = 0;
 }
 
-/* Returns its share of the mass of the fluid, kg, this rank. */
+/* All changes of one level at the end of its step. Returns its share of the mass of the fluid, kg,
+ * this rank. */
 static double adapt_level(const struct regions *g, struct sph *s, bool held)
 {
     if (!held)
@@ -297,7 +319,8 @@ static double adapt_level(const struct regions *g, struct sph *s, bool held)
     return mass;
 }
 
-/* Once, of regions that do not go as the box does. */
+/* Warns once when a region that does not move with the box has come to the zones at an open
+ * side. */
 static void watch_zones(struct sph *s)
 {
     enum { EVERY = 50 };
@@ -314,6 +337,7 @@ static void watch_zones(struct sph *s)
     }
 }
 
+/* added collects the mass by which changes of level alone change what flows. */
 void refinement_adapt(struct sph *s)
 {
     struct refinement *r = s->refinement;
@@ -343,6 +367,7 @@ static void warn_of_idle(const struct sph *q)
                  q->level, (long long)count[1], q->R);
 }
 
+/* Levels are made from the coarsest on; settle needs roles, hence give_roles before it. */
 void refinement_begin(struct sph *s, void (*settle)(struct sph *level))
 {
     const struct regions *g = s->refinement->regions;
@@ -360,6 +385,7 @@ void refinement_begin(struct sph *s, void (*settle)(struct sph *level))
     }
 }
 
+/* `outside' has just ended its step. Volumes count as well, for the closed room's account. */
 void refinement_adapt_finer(struct sph *s, struct sph *outside)
 {
     struct refinement *r = s->refinement;
@@ -374,6 +400,7 @@ void refinement_adapt_finer(struct sph *s, struct sph *outside)
     timer_stop(&s->run->timers, "levels");
 }
 
+/* Only ALE has mass fluxes; with zones the room is open and its mass not conserved anyway. */
 void refinement_spread_mass(struct sph *s, double gained)
 {
     double sums[2] = {gained, flowing(s)};
@@ -387,6 +414,7 @@ void refinement_spread_mass(struct sph *s, double gained)
                 state_row(&q->p, q->p.y, i)[at_mass(q->dim)] *= 1.0 - share;
 }
 
+/* Each stage; one reduction. */
 void refinement_keep_mass(struct sph *s)
 {
     double sums[2] = {0.0, 0.0};
@@ -417,6 +445,9 @@ void refinement_free(struct sph *s)
     s->refinement = NULL;
 }
 
+/* A closed room restores 3 % of its surplus of mass in each step, at most 2e-4 of the mass, by one
+ * factor on momentum, volume and mass of all that flows. Energy goes along and is entered in the
+ * watch's account. */
 void refinement_repay(struct sph *s)
 {
     struct refinement *r = s->refinement;

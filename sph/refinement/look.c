@@ -1,5 +1,8 @@
-/* look.c - what regions learn of the flow: where bodies are, the largest pressure, the indicators
- * of criteria. Read from the lines and slopes of the last stage.
+/* look.c - what regions follow: positions of bodies, the largest pressure, the criteria's
+ * indicators. Called at the end of a step's stages, from integrate.c, with the packed records and
+ * slopes of the last stage, or from life.c with local steps. Regions move by what is set here
+ * (regions_move). Sums and maxima are over all ranks, so every rank moves its copy of the regions
+ * alike.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
@@ -14,6 +17,7 @@
 #include "criteria.h"
 #include "refinement.h"
 
+/* Pressure of particle i with the linear part that the particles leave out, Pa. */
 static double pressure(const struct sph *s, int i)
 {
     const double *q = prim_line(&s->p, i);
@@ -21,7 +25,8 @@ static double pressure(const struct sph *s, int i)
            eos_p(q[at_rho(s->dim)], s->rho0, s->c0, s->gamma);
 }
 
-/* Place of the largest pressure of all that flows; of equal ones the first rank's. */
+/* Sets the position of the largest pressure among all flowing particles from s on; of equal ones
+ * the lowest rank's. Collective. */
 static void find_peak(struct regions *g, const struct sph *s)
 {
     struct {
@@ -42,7 +47,7 @@ static void find_peak(struct regions *g, const struct sph *s)
 }
 
 /* Largest jump of p between i and its neighbours when both are continued to the middle with their
- * slopes, Pa. */
+ * slopes, Pa. c^2 drho stands for dp. Padding is not read, for the loop ends at count. */
 static double largest_jump(const struct sph *s, int i, double c)
 {
     const struct neighbours *l = s->list;
@@ -62,6 +67,8 @@ static double largest_jump(const struct sph *s, int i, double c)
     return most * c * c;
 }
 
+/* The indicators of particle i: |u|, |curl u|, |grad p| = c^2 |grad rho|, the jump if `jumps', and
+ * whether it is on the surface. */
 static struct flow_sample sample(const struct sph *s, int i, bool jumps)
 {
     const double *q = prim_line(&s->p, i), *slope = slope_line(&s->p, i);
@@ -83,7 +90,8 @@ static struct flow_sample sample(const struct sph *s, int i, bool jumps)
     return to;
 }
 
-/* Indicators of all that flows. */
+/* Enters the indicators of all flowing particles of all levels and has the criteria evaluated.
+ * Collective. */
 static void ask_criteria(struct sph *s)
 {
     struct regions *g = s->refinement->regions;
@@ -113,7 +121,8 @@ static void mark_surface(struct sph *s)
     }
 }
 
-/* Regions know a body by the centre that the case has; a free one turns about that of its mass. */
+/* Reports where body k is. Regions refer to the centre that the case has, while a free body moves
+ * about its centre of mass, so the displacement is that of the former. */
 static void tell_place(struct regions *g, const struct body *b, int k)
 {
     struct body_motion now = b->now;
@@ -124,6 +133,8 @@ static void tell_place(struct regions *g, const struct body *b, int k)
     regions_set_body(g, k, &now);
 }
 
+/* `outside' is the coarsest level whose regions may move now; it and the finer ones are at one
+ * time. */
 void refinement_follow(struct sph *s, struct sph *outside)
 {
     struct regions *g = s->refinement->regions;
@@ -137,6 +148,7 @@ void refinement_follow(struct sph *s, struct sph *outside)
         find_peak(g, outside);
 }
 
+/* Criteria are evaluated when they are due, which is less often than once a step. */
 void refinement_look(struct sph *s)
 {
     struct regions *g = s->refinement->regions;

@@ -1,4 +1,8 @@
-/* marks.c - see marks.h. SPDX-License-Identifier: BSD-3-Clause */
+/* marks.c - a region of marked cells: dilation by cells, and the distance to its edge. Used by
+ * criteria.c. All operations go axis by axis over the whole grid (O(cells)), the distance of one
+ * position looks at the cells at most two off: depth[], found beforehand by peeling layers, tells
+ * when no more is needed.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "marks.h"
 
 #include <math.h>
@@ -6,6 +10,8 @@
 
 #include "../../common/base/mem.h"
 
+/* The number of cells along an axis is the largest at which they are at least `width' wide; 1e-12
+ * keeps a length that is a multiple of it from losing one to rounding. */
 bool marks_create(struct marks *c, int dim, const double lo[3], const double hi[3],
                   const bool periodic[3], const bool open[6], double width, double most)
 {
@@ -41,11 +47,13 @@ size_t marks_count(const struct marks *c)
     return (size_t)c->n[0] * (size_t)c->n[1] * (size_t)c->n[2];
 }
 
+/* Number of the cell with these indices. */
 static size_t number(const struct marks *c, const int *at)
 {
     return (size_t)at[0] + (size_t)c->n[0] * ((size_t)at[1] + (size_t)c->n[1] * (size_t)at[2]);
 }
 
+/* Indices of the cell that holds x, clamped into the grid. */
 static void place(const struct marks *c, const double *x, int *at)
 {
     for (int a = 0; a < 3; a++) {
@@ -69,6 +77,7 @@ struct sweep {
     size_t stride, lines;
 };
 
+/* How to run through all lines of cells along an axis. */
 static struct sweep sweep_of(const struct marks *c, int axis)
 {
     struct sweep s = {.axis = axis, .n = c->n[axis], .stride = 1};
@@ -78,6 +87,8 @@ static struct sweep sweep_of(const struct marks *c, int axis)
     return s;
 }
 
+/* Number of the first cell of a line; lines are counted over the other axes in the order of the
+ * cells. */
 static size_t first_of(const struct sweep *s, size_t line)
 {
     return line / s->stride * s->stride * (size_t)s->n + line % s->stride;
@@ -96,7 +107,8 @@ static unsigned char beside(const struct marks *c, const struct sweep *s, const 
     return c->open[2 * s->axis + (step > 0)] ? 0 : line[i];
 }
 
-/* Grows marks by one cell (or, grow = false, what is not marked) along one axis. */
+/* Grows marks by one cell (or, grow = false, what is not marked) along one axis. A copy of the line
+ * is read, so that marks do not run along it. */
 static void step_axis(const struct marks *c, unsigned char *bits, int axis, bool grow)
 {
     const struct sweep s = sweep_of(c, axis);
@@ -113,6 +125,8 @@ static void step_axis(const struct marks *c, unsigned char *bits, int axis, bool
     mem_free(line);
 }
 
+/* One cell in all directions: after one axis the next one carries on what has grown, hence
+ * diagonals. */
 static void step_all(const struct marks *c, unsigned char *bits, bool grow)
 {
     for (int a = 0; a < c->dim; a++)
@@ -135,6 +149,7 @@ static void meets(const struct marks *c, const struct marks *fine, int axis, int
     *last = (int)fmin(floor(hi / c->h[axis]), c->n[axis] - 1);
 }
 
+/* Cells of both grids start at the same corner, but their widths are no multiples of each other. */
 void marks_cover(struct marks *c, const struct marks *fine, int by)
 {
     unsigned char *bits = NEW(unsigned char, marks_count(c));
@@ -160,6 +175,8 @@ void marks_cover(struct marks *c, const struct marks *fine, int by)
 
 /* --- distance --- */
 
+/* depth: 1 for marked cells, plus one for each of the MARKS_DEEP - 1 layers that can be peeled off
+ * before the cell goes; -1 and -2 for others, beside a marked one or not. */
 void marks_measure(struct marks *c)
 {
     const size_t n = marks_count(c);
@@ -189,6 +206,8 @@ struct marks_row {
     int at[NEAR];
 };
 
+/* home is the cell of x; beyond a closed end the last cell's mark continues, beyond an open one
+ * nothing is marked. */
 static struct marks_row row_of(const struct marks *c, int a, int home, double x)
 {
     static const int step[NEAR] = {0, -1, 1, -2, 2};
@@ -211,7 +230,9 @@ static struct marks_row row_of(const struct marks *c, int a, int home, double x)
     return r;
 }
 
-/* Least distance of x, in cell `home', from cells with this mark; found at most two cells off. */
+/* Least distance of x, in cell `home', from cells with this mark; found at most two cells off. Runs
+ * through up to 5^dim cells, nearest first along each axis, and stops where nothing nearer can
+ * come. */
 static double nearest(const struct marks *c, const int *home, const double *x, bool mark)
 {
     const bool solid = c->dim == 3;
@@ -246,6 +267,9 @@ static double to_face(const struct marks *c, const int *home, const double *x)
     return d > 0.0 ? d : 0.0;
 }
 
+/* Cells with depth 1 and -1 are searched; with depth 2 the search may miss what is beyond two
+ * cells, so that it is bounded by 2 h plus the way out of the cell; deeper cells get the lower
+ * bound (depth - 1) h plus that way. */
 double marks_distance(const struct marks *c, const double *x)
 {
     if (!c->any)

@@ -1,4 +1,9 @@
-/* mixed.c - see mixed.h: sizes, list of pairs. SPDX-License-Identifier: BSD-3-Clause */
+/* mixed.c - particles of different sizes in one set: their sizes, order and list of pairs. Replaces
+ * neighbours_sort and neighbours_build in level_prepare. Pairs interact within the mean of both R.
+ * Particles are put into classes by R, each a factor of sqrt 2 wide and with a grid of cells as
+ * wide as its largest R; a particle looks for partners in its own class and in those of larger
+ * sizes, so that a coarse neighbourhood costs a fine particle little. In 2D, on one rank.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
 #include <math.h>
@@ -38,6 +43,7 @@ struct mixed {
     int since_sorted;
 };
 
+/* The smallest R, on which the step depends (level_dt). */
 static void find_least(struct sph *s)
 {
     double least = s->R;
@@ -46,6 +52,7 @@ static void find_least(struct sph *s)
     s->mixed->least = least;
 }
 
+/* From here on the passes are those of mixed_pairs.c. */
 static void begin(struct sph *s)
 {
     s->mixed = NEW(struct mixed, 1);
@@ -91,6 +98,8 @@ void mixed_free(struct sph *s)
 
 double mixed_least(const struct sph *s) { return s->mixed->least; }
 
+/* Creations and removals at the end of a step, then lists anew; with graded particles only the
+ * regions move. */
 void mixed_adapt(struct sph *s)
 {
     const int method = apr_params_of(s->run)->method;
@@ -105,6 +114,7 @@ void mixed_adapt(struct sph *s)
     timer_stop(&s->run->timers, "levels");
 }
 
+/* The child keeps the weight 1 until the method sets another. */
 int mixed_bear(struct sph *s, int i, const double *d, double R)
 {
     const int k = refinement_child(s, s, i, d);
@@ -135,7 +145,8 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->i - y->i;
 }
 
-/* Now and then: nothing but speed depends on the order. */
+/* Now and then: nothing but speed depends on the order. Morton order of positions in units of the
+ * least R/2, every SORT_EVERY steps; ties keep their order. */
 void mixed_sort(struct sph *s)
 {
     const double scale = 2.0 / s->mixed->least;
@@ -158,6 +169,8 @@ void mixed_sort(struct sph *s)
     mem_free(order);
 }
 
+/* Periodic images take the sizes of their originals; they have been made before, and domain_share
+ * serves. */
 void mixed_images(struct sph *s)
 {
     double *ghosts = NEW(double, 2 * (size_t)s->p.nghost);
@@ -169,6 +182,7 @@ void mixed_images(struct sph *s)
 
 /* --- list of pairs --- */
 
+/* Appends particle or ghost i to a class and widens the class's R. */
 static void put_into_class(struct size_class *c, int i, double R)
 {
     if (c->n == c->capacity) {
@@ -183,17 +197,21 @@ static void put_into_class(struct size_class *c, int i, double R)
     c->R = fmax(c->R, R);
 }
 
+/* Index of the cell along axis a, clamped to the grid. */
 static int cell_of(const struct size_class *c, int a, double x)
 {
     const double k = (x - c->lo[a]) * c->edge_1;
     return k > 0.0 ? k < c->cells[a] - 1 ? (int)k : c->cells[a] - 1 : 0;
 }
 
+/* Number of the cell at x. */
 static int cell_at(const struct size_class *c, const double *x)
 {
     return cell_of(c, 0, x[0]) + c->cells[0] * cell_of(c, 1, x[1]);
 }
 
+/* Box and cells of a class, as wide as its largest R and the skin, or wider if there would be more
+ * than four cells a particle. */
 static void lay_cells(struct size_class *c, const struct sph *s)
 {
     double hi[2] = {-INFINITY, -INFINITY}, edge = (1.0 + 1e-9) * (c->R + s->lists.skin);
@@ -211,7 +229,9 @@ static void lay_cells(struct size_class *c, const struct sph *s)
         c->cells[a] = (int)((hi[a] - c->lo[a]) * c->edge_1) + 1;
 }
 
-/* By cells, in the order they were in. */
+/* By cells, in the order they were in. first is shifted by two entries while counting, so that
+ * filling leaves it as it must be. x, y and half are copied side by side: finding pairs reads
+ * nothing else. */
 static void sort_class(struct mixed *m, struct size_class *c, const struct sph *s)
 {
     lay_cells(c, s);
@@ -252,7 +272,9 @@ static void add_pair(struct mixed *m, int i, int j)
 }
 
 /* Partners of number `at' of a class in one of its own or larger sizes: the cells around it hold
- * them; in its own those behind it. Two that count for nobody are none, nor are two ghosts. */
+ * them; in its own those behind it. Two that count for nobody are none, nor are two ghosts. In
+ * cells of its own class positions up to `at' are left out: these pairs have been found from the
+ * other side. Cells of a row are contiguous in x, hence one run for each row of cells. */
 static void pair_with_class(const struct sph *s, const struct size_class *of, int at,
                             const struct size_class *c)
 {
@@ -277,6 +299,8 @@ static void pair_with_class(const struct sph *s, const struct size_class *of, in
     }
 }
 
+/* Class k holds R from least 2^(k/2) on; 0.01 keeps sizes that are exact powers of two in one class
+ * whatever the rounding. */
 static void find_pairs(struct sph *s)
 {
     struct mixed *m = s->mixed;
@@ -298,6 +322,7 @@ static void find_pairs(struct sph *s)
                     pair_with_class(s, m->of + k, i, m->of + l);
 }
 
+/* Grows the arrays of the list to n rows and this many entries. */
 static void make_room(struct neighbours *l, int n, int64_t entries)
 {
     if (n + 1 > l->rows_capacity) {
@@ -314,7 +339,9 @@ static void make_room(struct neighbours *l, int n, int64_t entries)
     }
 }
 
-/* Rows of the list from the pairs: those before the particle, then those behind, then dummies. */
+/* Rows of the list from the pairs: those before the particle, then those behind, then dummies. tail
+ * holds the number of earlier partners while count counts all; both are then used as places to
+ * fill. Surface detection by the number of neighbours (whole) is off. */
 void mixed_list(struct sph *s)
 {
     struct neighbours *l = s->list;
@@ -353,6 +380,7 @@ void mixed_list(struct sph *s)
 
 /* --- check --- */
 
+/* Adds a fault about `key' that names the method without these restrictions. */
 static void refuse(const struct run *r, struct faults *f, bool bad, const char *key,
                    const char *why)
 {
@@ -361,6 +389,7 @@ static void refuse(const struct run *r, struct faults *f, bool bad, const char *
                      why);
 }
 
+/* Everything that these methods were not written for; the tests are cheap and made at the start. */
 void mixed_check(const struct run *r, const struct sph_params *used, const struct apr_params *prm,
                  struct faults *f)
 {

@@ -18,14 +18,16 @@ static const double hysteresis = 0.5; /* coarser dx */
 static const double fewest = 0.75;    /* of R_dx: below it supports hold too few particles, which
                                          [5.11] alone comes to after some cycles */
 
-/* Halvings of the spacing that the mass stands for: half a level between two merges. */
+/* Halvings of the spacing that the mass stands for: half a level between two merges. A particle of
+ * mass m has level 0.5 log2(rho0 dx^2/m): 0 for the coarsest, 1 for a quarter of its mass. */
 static double level_of(const struct sph *s, int i)
 {
     const double m = state_row(&s->p, s->p.y, i)[at_mass(2)];
     return 0.5 * log2(s->rho0 * s->dxD / m);
 }
 
-/* The finest level whose region, wider by this, holds particle i. */
+/* The finest level whose region holds particle i, edges moved outwards by `wider' spacings of the
+ * coarser level, so that what has just split is not merged at once. */
 static int level_at(const struct sph *s, int i, double wider)
 {
     const struct regions *g = s->refinement->regions;
@@ -36,7 +38,9 @@ static int level_at(const struct sph *s, int i, double wider)
     return n;
 }
 
-/* Children come at the end and split in turn; the mother's place is taken by the last. */
+/* Splits every particle that is more than 0.75 levels coarser than its place asks for: four
+ * children at the corners of a square, +-1/4 of the particle's width from its centre. Children come
+ * at the end and are looked at in turn; the last particle takes the parent's index. */
 static void split(struct sph *s)
 {
     for (int i = 0; i < s->p.n; i++)
@@ -51,7 +55,7 @@ static void split(struct sph *s)
         }
 }
 
-/* One that may merge, to that level. */
+/* A particle that may merge, and the level that its place asks for. */
 struct candidate {
     double x[2], level;
     int i, to;
@@ -64,6 +68,8 @@ static int by_x(const void *a, const void *b)
     return p->x[0] < q->x[0] ? -1 : p->x[0] > q->x[0] ? 1 : p->i - q->i;
 }
 
+/* Lists the particles that are finer than their place asks for by more than a quarter of a level,
+ * in order of x. */
 static int find_candidates(const struct sph *s, struct candidate *c)
 {
     int n = 0;
@@ -79,7 +85,8 @@ static int find_candidates(const struct sph *s, struct candidate *c)
     return n;
 }
 
-/* R at which the density at x is what both made there [5.11]. */
+/* R at which the density at x is what both made there [5.11]. From m W(0; R) = sum of m_k W(x -
+ * x_k; R_k) with W(0) ~ 1/R^2, bounded below by `fewest' and above by the coarsest R. */
 static double merged_R(const struct sph *s, const double *x, const int who[2], double m, double w)
 {
     double sum = 0.0;
@@ -91,7 +98,8 @@ static double merged_R(const struct sph *s, const double *x, const int who[2], d
     return fmax(fewest * s->prm.R_dx * sqrt(w), fmin(R, s->R));
 }
 
-/* i becomes both; j is left to be removed, without mass. */
+/* i becomes both; j is left to be removed, without mass. Sums of mass, momentum and volume are
+ * conserved, and the centre of mass. */
 static void merge(struct sph *s, int i, int j)
 {
     double *a = state_row(&s->p, s->p.y, i), *b = state_row(&s->p, s->p.y, j), x[2];
@@ -105,7 +113,9 @@ static void merge(struct sph *s, int i, int j)
     memset(b, 0, (size_t)s->p.nstate * sizeof *b);
 }
 
-/* The nearest behind c in order of x that is like it; NULL: none within reach. */
+/* The nearest candidate behind c in order of x, within twice its spacing, that is to merge to the
+ * same level and has about its size; NULL: none. Candidates are sorted by x, so that the search
+ * ends at the reach. */
 static struct candidate *partner(const struct sph *s, struct candidate *c,
                                  const struct candidate *end)
 {
@@ -122,6 +132,8 @@ static struct candidate *partner(const struct sph *s, struct candidate *c,
     return best;
 }
 
+/* Each particle merges once a step at most; those left without mass are removed at the end. O(n log
+ * n). */
 static void coalesce(struct sph *s)
 {
     struct candidate *c = NEW(struct candidate, s->p.n);
@@ -141,6 +153,7 @@ static void coalesce(struct sph *s)
             i++;
 }
 
+/* Ghosts are dropped first, since particles are added and removed. */
 void mixed_split(struct sph *s)
 {
     s->p.nghost = 0;

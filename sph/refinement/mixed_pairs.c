@@ -1,6 +1,8 @@
 /* mixed_pairs.c - both passes over the pairs of particles of different sizes, in 2D: as
  * scheme_gradients.c and riemann_rows.h, but with the mean R of each pair and with weights of the
- * sources [5.12-5.13], which lie where lines have pressure and speed of sound.
+ * sources [5.12-5.13], which lie where lines have pressure and speed of sound. Columns 6 and 7 of a
+ * packed record hold weight and R here; mixed_gradients writes them before every first pass, so
+ * pressure and speed of sound must be computed from rho instead.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
@@ -36,6 +38,8 @@ struct mixed_moments {
     vec M[3], rho[2], u[2][2], n[2];
 };
 
+/* Adds the neighbours of one particle to the moments: gradients with the mean R of each pair, the
+ * crowding vector with the particle's own R. */
 INLINE void add_moments(const double *prim, const double *own, const int *j, int count,
                         double Wdx_1, struct mixed_moments *to)
 {
@@ -72,6 +76,7 @@ INLINE void add_moments(const double *prim, const double *own, const int *j, int
     }
 }
 
+/* Of the symmetric matrix M00, M01, M11. */
 static double smallest_eigenvalue(const double *M)
 {
     const double mean = 0.5 * (M[0] + M[2]), half = 0.5 * (M[0] - M[2]);
@@ -92,6 +97,8 @@ static void shift(const struct sph *s, int i, const double *n, double R, double 
             delta[a] *= 0.25 * U / sqrt(size2);
 }
 
+/* Writes renormalised gradients and u0 to the slope record, and the surface's class by the
+ * eigenvalue alone. */
 static void write_slopes(struct sph *s, int i, const struct mixed_moments *sum)
 {
     const double *own = prim_line(&s->p, i), R = own[LINE_R];
@@ -122,6 +129,7 @@ static void write_slopes(struct sph *s, int i, const struct mixed_moments *sum)
     }
 }
 
+/* W/W(dx) depends on R/dx alone, which all particles share; Wdx_1 is its constant. */
 void mixed_gradients(struct sph *s)
 {
     const struct neighbours *l = s->list;
@@ -144,6 +152,8 @@ struct mixed_batch {
     vec R[BATCH], weight[BATCH];
 };
 
+/* As in riemann_rows.h, but with R of each pair: |W'|/r = slope_of_kernel (1 - r/R)^3/R^4, which
+ * needs a division per vector. */
 INLINE void geometry(const struct riemann_constants *c, const struct riemann_own *i, double Ri,
                      const double *prim, const int *j, struct riemann_batch *t,
                      struct mixed_batch *m)
@@ -167,7 +177,8 @@ INLINE void geometry(const struct riemann_constants *c, const struct riemann_own
     }
 }
 
-/* The acoustic damper, as wide as the pair: beta rho0 c0 R div u is taken from either pressure. */
+/* The acoustic damper, as wide as the pair: beta rho0 c0 R div u is taken from either pressure.
+ * constants_of would take the coarsest R for all, so its damper is off. */
 INLINE void damp(const double *slope, const double *own, const int *j, double beta,
                  struct riemann_batch *t, const struct mixed_batch *m)
 {
@@ -180,7 +191,8 @@ INLINE void damp(const double *slope, const double *own, const int *j, double be
     }
 }
 
-/* To j with the weight of i, to i with that of j. */
+/* To j with the weight of i, to i with that of j. With unequal weights pairs are not symmetric: the
+ * method conserves momentum only where weights are equal. */
 INLINE void fluxes(const int *j, const struct riemann_batch *t, const struct mixed_batch *m,
                    double chi, double *sums, struct riemann_sums *to,
                    const struct riemann_variant v)
@@ -207,6 +219,7 @@ INLINE void fluxes(const int *j, const struct riemann_batch *t, const struct mix
     }
 }
 
+/* Row i of the list from the first neighbour beyond i on, as in riemann_rows.h. */
 INLINE void add_row(const struct sph *s, const struct riemann_constants *c, double beta,
                     double *sums, int i, const struct riemann_variant v)
 {

@@ -12,19 +12,23 @@
 
 static const double hysteresis = 0.5; /* coarser dx */
 
+/* Level of a particle by its R. */
 static int level_of(const struct sph *s, int i) { return (int)lround(log2(s->R / *mixed_R(s, i))); }
 
+/* Distance of particle i from the edge of a level's region, m, positive inside. */
 static double distance(const struct sph *s, int level, int i)
 {
     return regions_distance(s->refinement->regions, level, state_row(&s->p, s->p.y, i));
 }
 
-/* Weight of a level's particles at the distance d from the edge of its region. */
+/* Weight of a level's particles at the distance d from the edge of its region. 0 at the edge, 1
+ * from R of the coarser level on; `level' itself gets it, the coarser one the rest. */
 static double ramp(const struct sph *s, int level, double d)
 {
     return fmax(0.0, fmin(d / ldexp(s->R, 1 - level), 1.0));
 }
 
+/* Four children at +-1/4 of the spacing, with half of its R; the parent stays. */
 static void give_birth(struct sph *s, int i, int level)
 {
     const double quarter = 0.25 * ldexp(s->dx, -level), R = 0.5 * *mixed_R(s, i);
@@ -35,6 +39,8 @@ static void give_birth(struct sph *s, int i, int level)
     s->p.role[i] |= ROLE_MOTHER;
 }
 
+/* Sets the weight chi = ramp at its own region's edge times what the next finer level leaves.
+ * Particles that count for less than half are left out of sums over the fluid, as guards are. */
 static void weigh(struct sph *s, int i, int level, double own, double next)
 {
     const bool has_finer = level < regions_levels(s->refinement->regions);
@@ -47,7 +53,9 @@ static void weigh(struct sph *s, int i, int level, double own, double next)
         s->p.role[i] &= (unsigned short)~ROLE_GUARD;
 }
 
-/* Children come behind the others and are looked at in turn. */
+/* Children come behind the others and are looked at in turn. A level's particles are removed when
+ * they are one coarser spacing outside of their region; parents forget their children half a
+ * spacing outside, so that one that comes back has new ones. */
 void mixed_weights(struct sph *s)
 {
     const int levels = regions_levels(s->refinement->regions);

@@ -30,6 +30,7 @@ int region_axes(const char *along, int dim)
     return axes ? axes : (1 << dim) - 1;
 }
 
+/* Whether two regions of the case move alike, and so can share one set. */
 static bool alike(const struct apr_region *a, const struct apr_region *b)
 {
     bool same = a->motion.n == b->motion.n && a->pressure == b->pressure &&
@@ -40,12 +41,15 @@ static bool alike(const struct apr_region *a, const struct apr_region *b)
     return same;
 }
 
+/* The centre of a box or sphere as the case has it, m. */
 static void centre_of(const struct apr_region *is, double *x)
 {
     for (int a = 0; a < 3; a++)
         x[a] = is->shape == REGION_BOX ? 0.5 * (is->min[a] + is->max[a]) : is->centre[a];
 }
 
+/* Begins a set of regions that move like `is': with the box, the peak, a body, or by a motion of
+ * their own, which is read as that of a body; speed is its largest, m/s. */
 static void start_set(struct regions *g, struct region_set *s, const struct apr_region *is)
 {
     const struct run *r = g->run;
@@ -65,6 +69,8 @@ static void start_set(struct regions *g, struct region_set *s, const struct apr_
         s->along[a] = axes >> a & 1;
 }
 
+/* Puts every box and sphere into a set of those that move alike; shells move with their bodies. The
+ * centre of a set is that of its finest region. */
 void region_sets_create(struct regions *g)
 {
     for (int k = 0; k < g->prm->regions.n; k++) {
@@ -85,7 +91,8 @@ void region_sets_create(struct regions *g)
     }
 }
 
-/* Goes towards a place, at most half a spacing of the finest level. */
+/* Goes towards a place, at most half a spacing of the finest level. One step of particles later it
+ * goes on from there, so a fast target is followed with a lag. */
 static void follow(const struct regions *g, struct region_set *s, const double *to)
 {
     double way[3] = {0.0, 0.0, 0.0}, length = 0.0;
@@ -100,7 +107,8 @@ static void follow(const struct regions *g, struct region_set *s, const double *
         s->shift[a] += share * way[a];
 }
 
-/* A point of the body at the centre of the set. */
+/* Follows the point of the body that was at the set's centre at the start: centre + x + Q (c -
+ * centre). */
 static void follow_body(const struct regions *g, struct region_set *s)
 {
     const struct scene_body *b = g->run->scene.bodies + s->body;
@@ -114,7 +122,8 @@ static void follow_body(const struct regions *g, struct region_set *s)
     follow(g, s, to);
 }
 
-/* The peak jumps between particles: it is followed where it is farther from the centre than R. */
+/* The peak jumps between particles: it is followed where it is farther from the centre than R. The
+ * way is the shortest one across periods. */
 static void follow_peak(const struct regions *g, struct region_set *s)
 {
     double way[3] = {0.0, 0.0, 0.0}, to[3], length = 0.0;
@@ -133,6 +142,7 @@ static void follow_peak(const struct regions *g, struct region_set *s)
     follow(g, s, to);
 }
 
+/* All ranks have the same sets and call this with the same t. */
 bool region_sets_move(struct regions *g, double t)
 {
     bool moved = false;

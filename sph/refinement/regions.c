@@ -1,5 +1,9 @@
-/* regions.c - see regions.h. Each region of the case is a piece of its own level and, grown by the
- * margin from level to level, of those above; pieces of a level are united.
+/* regions.c - regions of the case as pieces of levels, and the distance to a level's edge. Each
+ * region of the case is a piece of its own level and, grown by the margin from level to level, of
+ * those above; pieces of a level are united. A level is a union of boxes, balls, layers around
+ * surfaces and cells that criteria mark; its distance is the largest of theirs. Boxes are united
+ * exactly (box_union.c), of different kinds the maximum is a lower bound inside and exact outside.
+ * All ranks hold all of it; nothing is exchanged.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "regions.h"
 
@@ -14,7 +18,8 @@
 #include "criteria.h"
 #include "regions_parts.h"
 
-/* How far region k is grown for level n, m; < 0: it has no part in this level. */
+/* How far region k is grown for level n, m; < 0: it has no part in this level. Regions around which
+ * the case has one of the level below itself are not grown. */
 static double growth(const struct regions *g, int k, int n)
 {
     double sum = 0.0;
@@ -26,7 +31,8 @@ static double growth(const struct regions *g, int k, int n)
     return sum;
 }
 
-/* Shifts to the images of periodic axes, the thing itself first. */
+/* Shifts to the images of periodic axes, the thing itself first. Up to 27, among them those along
+ * several periodic axes. */
 static void find_images(struct regions *g)
 {
     static const int step[3] = {0, -1, 1};
@@ -56,6 +62,7 @@ static void add_shift(const struct regions *g, const struct region_set *s, doubl
 /* Distances are exact up to this from the domain, m. */
 static double reach(const struct regions *g) { return 8.0 * g->R; }
 
+/* Whether a piece can matter for a distance within the domain. */
 static bool is_near(const struct regions *g, const double *lo, const double *hi)
 {
     bool near = true;
@@ -106,6 +113,7 @@ static bool face_is_solid(const struct regions *g, const struct box *b, int axis
     return true;
 }
 
+/* Whether any wall can have solid behind it, so that faces may lie in it. */
 static bool has_closed_walls(const struct regions *g)
 {
     const struct scene *c = &g->run->scene;
@@ -116,7 +124,8 @@ static bool has_closed_walls(const struct regions *g)
 }
 
 /* Faces on sides of the domain or beyond, and images' faces far from it, are none; those in the
- * solid of closed walls go so deep into it that no guard is before them. */
+ * solid of closed walls go so deep into it that no guard is before them. R is that of the level
+ * outside: guards lie up to R inside of the edge. */
 static void open_faces(const struct regions *g, struct box *b, double R)
 {
     const bool walls = has_closed_walls(g);
@@ -140,6 +149,8 @@ struct pieces {
     struct box *box;
 };
 
+/* Adds the images of box k, moved as its set has moved and grown by `grow', to the pieces of a
+ * level. */
 static void add_box(const struct regions *g, int k, double grow, struct pieces *to)
 {
     const struct apr_region *is = g->prm->regions.of + k;
@@ -160,6 +171,7 @@ static void add_box(const struct regions *g, int k, double grow, struct pieces *
     }
 }
 
+/* The same of a sphere. */
 static void add_ball(const struct regions *g, int k, double grow, struct level *l)
 {
     const struct apr_region *is = g->prm->regions.of + k;
@@ -180,6 +192,7 @@ static void add_ball(const struct regions *g, int k, double grow, struct level *
     }
 }
 
+/* Makes the pieces of level n anew from all regions that have a part in it. */
 static void make_level(struct regions *g, int n)
 {
     struct level *l = g->level + n;
@@ -212,7 +225,8 @@ void regions_make(struct regions *g)
 
 /* --- distances --- */
 
-/* Of a point from the surface, around periods, too. */
+/* Of a point from the surface, around periods, too. width minus the distance from the surface:
+ * positive inside the layer. */
 static double layer_distance(const struct regions *g, const struct layer *l, const double *x)
 {
     double best = INFINITY;
@@ -226,6 +240,8 @@ static double layer_distance(const struct regions *g, const struct layer *l, con
     return l->width - best;
 }
 
+/* O(pieces of the level) for each call; particles ask once a step for each level that concerns
+ * them. */
 double regions_fixed_distance(const struct regions *g, int level, const double *x)
 {
     const struct level *l = g->level + level;
@@ -248,6 +264,8 @@ int regions_levels(const struct regions *g) { return g->prm->levels; }
 
 /* --- life --- */
 
+/* domain is the region of the particles; room is what has no edge at walls and ends of it, hence
+ * infinite where it is periodic or open. */
 static void set_domain(struct regions *g, const struct run *r, const struct sph_params *prm)
 {
     double transition, buffer;
@@ -263,7 +281,7 @@ static void set_domain(struct regions *g, const struct run *r, const struct sph_
     }
 }
 
-/* Largest width that a region has at any level, m. */
+/* Largest distance from its surface that a layer of region k is asked for, m. */
 static double widest(const struct regions *g, int k)
 {
     double w = g->prm->regions.of[k].offset;
@@ -272,6 +290,7 @@ static double widest(const struct regions *g, int k)
     return w + 2.0 * g->R;
 }
 
+/* Surfaces of bodies and walls with their search trees, one for each region of that shape. */
 static void add_shells(struct regions *g)
 {
     const struct scene *c = &g->run->scene;
@@ -295,6 +314,7 @@ static void find_alone(struct regions *g)
         g->alone[k] = !regions_outer_given(g, k);
 }
 
+/* criteria_create comes last: it reads the fixed regions of all levels. */
 struct regions *regions_create(const struct run *r, const struct sph_params *prm)
 {
     const struct apr_params *used = apr_params_of(r);
@@ -341,6 +361,7 @@ void regions_free(struct regions **of)
     *of = NULL;
 }
 
+/* Cells of criteria move with the box: their marks stay with the flow around the box. */
 void regions_set_box(struct regions *g, const double way[3])
 {
     struct box *const both[2] = {&g->domain, &g->room};
@@ -364,6 +385,7 @@ static void move_shells(struct regions *g)
             shell_move(g->shells + n, g->bodies + g->body_of[n]);
 }
 
+/* Pieces are made anew only if something has moved. */
 void regions_move(struct regions *g, double t)
 {
     move_shells(g);
@@ -374,7 +396,7 @@ void regions_move(struct regions *g, double t)
 
 /* --- restart --- */
 
-/* A row: displacement and rotation. */
+/* Numbers saved of a body: displacement and rotation matrix. */
 enum { POSE = 12 };
 
 static void save_rows(const struct regions *g, struct h5 *f, const char *name, int n, int width,
@@ -383,6 +405,7 @@ static void save_rows(const struct regions *g, struct h5 *f, const char *name, i
     h5_write_real(f, name, "m", g->run->rank == 0 ? n : 0, width, rows, false);
 }
 
+/* Positions are saved as they are, not computed from t: what follows something has a history. */
 void regions_save(const struct regions *g, struct h5 *f)
 {
     double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift), pose[BODIES_MAX][POSE];
@@ -412,6 +435,7 @@ static bool load_rows(struct h5 *f, const char *name, int n, int width, double *
     return fits;
 }
 
+/* Marks of criteria come last, for they hold only in the region as it stands. */
 bool regions_load(struct regions *g, struct h5 *f)
 {
     double shift[REGIONS_MAX][3], pose[BODIES_MAX][POSE];

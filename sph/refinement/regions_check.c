@@ -1,4 +1,9 @@
-/* regions_check.c - see regions_check.h. SPDX-License-Identifier: BSD-3-Clause */
+/* regions_check.c - whether the group apr makes sense, before anything is created. In order: levels
+ * and criteria, then keys and extents of each region, from the parameters alone; then, if these
+ * have no fault, nesting, motion and open sides from the regions themselves, which are created for
+ * that and moved through the run's time. Each fault names the key of the region and a value that
+ * would do.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "regions_check.h"
 
 #include <math.h>
@@ -24,7 +29,8 @@ struct check {
     int k, dim;
 };
 
-/* A key of the region; one that is not given has no place in the file but that of the list. */
+/* The key of a region's member; if the case does not give it, the list itself, which has a place in
+ * the file. Static buffer. */
 static const char *key_of(const struct check *c, const char *name)
 {
     static char key[80];
@@ -32,11 +38,13 @@ static const char *key_of(const struct check *c, const char *name)
     return params_given(c->r->params, key) ? key : "apr.regions";
 }
 
+/* Whether the case gives this member of the region. */
 static bool is_given(const struct check *c, const char *name)
 {
     return strcmp(key_of(c, name), "apr.regions") != 0;
 }
 
+/* R of a level, m. */
 static double R_of(const struct check *c, int level)
 {
     return ldexp(c->used->R_dx * c->used->dx, -level);
@@ -44,6 +52,7 @@ static double R_of(const struct check *c, int level)
 
 /* --- keys of other shapes --- */
 
+/* Members that the region's shape does not read are faults. */
 static void check_unused(const struct check *c)
 {
     static const struct {
@@ -74,7 +83,7 @@ static void check_unused(const struct check *c)
 
 /* --- size and place --- */
 
-/* A component along an axis that the case does not have is a mistake. */
+/* In 2D a z component is a mistake. */
 static void check_flat(const struct check *c)
 {
     const struct {
@@ -100,6 +109,8 @@ static void bounds(const struct apr_region *is, double lo[3], double hi[3])
     }
 }
 
+/* Along axis a the region must meet that of the particles and be wide enough: guards fill R of the
+ * coarser level at each edge that is no wall, and two coarser spacings must be left between. */
 static void check_extent(const struct check *c, int a, double lo, double hi)
 {
     const struct scene_domain *d = &c->r->scene.domain;
@@ -125,6 +136,7 @@ static void check_extent(const struct check *c, int a, double lo, double hi)
                      digits_above(least, 4));
 }
 
+/* Size, then extent along each axis. */
 static void check_box_and_ball(const struct check *c)
 {
     double lo[3], hi[3];
@@ -144,6 +156,7 @@ static void check_box_and_ball(const struct check *c)
         check_extent(c, a, lo[a], hi[a]);
 }
 
+/* Shape body or wall: the name or number, and an offset that leaves room for more than guards. */
 static void check_shell(const struct check *c)
 {
     const struct scene *s = &c->r->scene;
@@ -167,6 +180,7 @@ static void check_shell(const struct check *c)
 
 /* --- levels --- */
 
+/* Levels up to apr.levels, and at least one region or criterion that reaches it. */
 static void check_levels(const struct run *r, const struct apr_params *prm, struct faults *f)
 {
     int most = 0;
@@ -190,6 +204,7 @@ static void check_levels(const struct run *r, const struct apr_params *prm, stru
                      "%d, but no region and no criterion asks for more than %d", prm->levels, most);
 }
 
+/* Whether it has a motion of its own. */
 static bool motion_is_told(const struct apr_region *is)
 {
     bool any = is->motion.n > 0;
@@ -200,6 +215,8 @@ static bool motion_is_told(const struct apr_region *is)
 
 static bool moves(const struct apr_region *is) { return motion_is_told(is) || *is->follow; }
 
+/* Whether two regions stay where they are relative to each other; -1 for both sets are shells,
+ * which move with their body or wall. */
 static bool same_motion(const struct regions *g, int a, int b)
 {
     if (g->set_of[a] >= 0 || g->set_of[b] >= 0)
@@ -208,6 +225,7 @@ static bool same_motion(const struct regions *g, int a, int b)
     return x->shape == y->shape && x->wall == y->wall && strcmp(x->body, y->body) == 0;
 }
 
+/* Whether x lies in a box or sphere. */
 static bool holds(const struct apr_region *is, const double *x, int dim)
 {
     bool in = true;
@@ -219,6 +237,8 @@ static bool holds(const struct apr_region *is, const double *x, int dim)
     return is->shape == REGION_BOX ? in : r2 <= is->radius * is->radius;
 }
 
+/* Whether the case itself has a region of the level below around region k's centre that moves
+ * alike: then none is made automatically. */
 bool regions_outer_given(const struct regions *g, int k)
 {
     const struct apr_regions *all = &g->prm->regions;
@@ -250,8 +270,8 @@ static void try_point(const struct regions *g, int level, const double *x, struc
     }
 }
 
-/* By samples on its surface: a grid on each face of a box; on a sphere the same grid drawn to it.
- */
+/* By samples on its surface: a grid on each face of a box; on a sphere the same grid drawn to it. /
+ * Faces of a box are cut at the domain's ends, since an edge beyond a wall does not count. */
 static struct least least_depth(const struct regions *g, const struct apr_region *is)
 {
     enum { SAMPLES = 32 };
@@ -279,6 +299,8 @@ static struct least least_depth(const struct regions *g, const struct apr_region
     return best;
 }
 
+/* At least 1.5 R of the level outside of both must lie between the edges, where the case gives
+ * both. */
 static void check_nesting(const struct check *c, const struct regions *g)
 {
     const int outer = c->is->level - 1;
@@ -310,6 +332,7 @@ static void check_nesting(const struct check *c, const struct regions *g)
 
 /* --- open sides --- */
 
+/* Zones and R at an open side, and for each outer level what is made around finer ones. */
 double regions_allowed(const struct regions *g, int level, int side)
 {
     const int a = side / 2, sign = side % 2 ? -1 : 1;
@@ -322,6 +345,7 @@ double regions_allowed(const struct regions *g, int level, int side)
     return (side % 2 ? g->domain.hi[a] : g->domain.lo[a]) + sign * depth;
 }
 
+/* Samples the plane at the allowed depth and four positions between it and the side. */
 bool regions_meet_zones(const struct regions *g, int side, double x[3])
 {
     enum { SAMPLES = 64 };
@@ -348,7 +372,8 @@ bool regions_meet_zones(const struct regions *g, int side, double x[3])
     return false;
 }
 
-/* Places of the bodies at t; false: one is free. */
+/* Places of the bodies at t; false: one is free. Bodies with a prescribed motion go where they will
+ * be; free ones stay at their start. */
 static bool set_bodies(const struct run *r, struct regions *g, double t)
 {
     bool told = true;
@@ -382,7 +407,8 @@ static void stand_at(const struct run *r, const struct sph_params *used, struct 
 }
 
 /* A region that comes into the zones at an open side, anywhere along it, as far as its way and that
- * of the box are known beforehand. */
+ * of the box are known beforehand. Without motion, or where it is not known beforehand, the start
+ * alone is looked at; otherwise 32 times in 2D and 4 in 3D, where distances to meshes cost more. */
 static void check_open_sides(const struct run *r, const struct sph_params *used, struct regions *g,
                              struct faults *f)
 {
@@ -416,6 +442,7 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
 
 /* --- motion --- */
 
+/* Returns false if it has added faults. */
 static bool check_motion_keys(const struct check *c)
 {
     const int before = c->f->n;
@@ -452,7 +479,8 @@ static bool check_motion_keys(const struct check *c)
     return c->f->n == before;
 }
 
-/* Too fast for its particles, or gone before the run is over. */
+/* Too fast for its particles, or gone before the run is over. Half a spacing of its finest level is
+ * the farthest a region may move in a step; 64 times in the run are looked at for its place. */
 static void check_motion(const struct check *c, const struct regions *g)
 {
     const struct region_set *s = g->set_of[c->k] < 0 ? NULL : g->sets + g->set_of[c->k];
@@ -493,6 +521,8 @@ static void check_motion(const struct check *c, const struct regions *g)
 
 /* --- criteria --- */
 
+/* Each kind reads one of the bounds `above' and `distance', and the number of cells must be one
+ * that a rank can hold (CELLS_MOST of criteria.c). */
 static void check_criteria(const struct run *r, const struct sph_params *used,
                            const struct apr_params *prm, struct faults *f)
 {
@@ -531,6 +561,7 @@ static void check_criteria(const struct run *r, const struct sph_params *used,
             ldexp(used->R_dx * used->dx, 1 - prm->levels));
 }
 
+/* n: particles that are there without criteria; the budget must leave them something. */
 void regions_check_budget(const struct run *r, double n, struct faults *f)
 {
     const struct apr_params *prm = apr_params_of(r);
@@ -544,6 +575,7 @@ void regions_check_budget(const struct run *r, double n, struct faults *f)
 
 /* --- all --- */
 
+/* Nesting and motion need the regions and are checked later. */
 static void check_region(struct check *c)
 {
     check_unused(c);
@@ -559,6 +591,7 @@ static void check_region(struct check *c)
 /* Whether any region or criterion goes beyond level 1: only then are outer ones made. */
 static bool has_outer(const struct apr_params *prm) { return prm->levels > 1; }
 
+/* Faults so far end the check early, since regions_create expects sound parameters. */
 void regions_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct apr_params *prm = apr_params_of(r);

@@ -1,4 +1,5 @@
-/* regions_describe.c - what --check says and draws of refinement.
+/* regions_describe.c - what --check says and draws of refinement. All of it makes the regions anew
+ * from the parameters and frees them again, for --check has no state.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -18,6 +19,7 @@ double regions_finest(const struct run *r, const struct sph_params *used)
     return prm ? ldexp(used->dx, -prm->levels) : used->dx;
 }
 
+/* Widens b by lo .. hi, grown by `by' and cut at the domain. */
 static void include(struct box *b, const struct regions *g, const double *lo, const double *hi,
                     double by)
 {
@@ -43,7 +45,8 @@ static struct box bounds_of(const struct regions *g, int n)
     return b;
 }
 
-/* Fluid deeper than this in the fixed regions of a level at the start, m^dim, by samples. */
+/* Volume of the fluid at the start that lies deeper than `depth' in the fixed regions of a level,
+ * m^dim, by 160^2 or 32^3 samples of the box around them: good to a few per cent. */
 static double volume_of(const struct run *r, const struct regions *g, int n, double depth)
 {
     const int m = g->dim == 2 ? 160 : 32;
@@ -66,11 +69,13 @@ static double volume_of(const struct run *r, const struct regions *g, int n, dou
     return in * volume;
 }
 
+/* The same as a number of particles of that level. */
 static double particles_of(const struct run *r, const struct regions *g, int n, double depth)
 {
     return volume_of(r, g, n, depth) / pow(ldexp(g->dx, -n), g->dim);
 }
 
+/* Sum over the levels, for the estimate of memory and time. */
 double regions_particles(const struct run *r, const struct sph_params *used)
 {
     struct regions *g = regions_create(r, used);
@@ -81,7 +86,8 @@ double regions_particles(const struct run *r, const struct sph_params *used)
     return sum;
 }
 
-/* Guards fill a region as deep as R of the level outside of it. */
+/* Guards fill a region as deep as R of the level outside of it. Where that is all of it, the level
+ * refines nothing. */
 static void describe_level(const struct run *r, const struct regions *g, int n)
 {
     const double R = regions_R(g, n - 1), all = particles_of(r, g, n, 0.0);
@@ -115,7 +121,7 @@ void regions_describe(const struct run *r, const struct sph_params *used)
 /* --- picture --- */
 
 /* The line where d_n = 0 crosses a square of four corners (marching squares; at a saddle the two
- * pairs as they come). */
+ * pairs as they come). d is linear along each side. */
 static void draw_square(struct picture *p, const double x[4][2], const double *d)
 {
     double cut[4][2];
@@ -133,7 +139,8 @@ static void draw_square(struct picture *p, const double x[4][2], const double *d
         picture_line(p, PICTURE_REGION, 2, (const double(*)[2])(cut + k), false, false, false);
 }
 
-/* The edge of level n in the plane of the picture, on a grid of the domain. */
+/* The edge of level n in the plane of the picture, on a grid of the domain. In 3D it is the plane y
+ * = middle of the domain. */
 static void draw_level(struct picture *p, const struct regions *g, int n)
 {
     enum { CELLS = 240 };

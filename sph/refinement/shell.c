@@ -1,4 +1,8 @@
-/* shell.c - see shell.h. SPDX-License-Identifier: BSD-3-Clause */
+/* shell.c - distance from the surface of a body or wall, by a search tree over triangles. A mesh of
+ * the scene is searched as it is; lines of 2D are made into a strip of triangles, so that one
+ * search serves 2D and 3D. The surface stays in the frame of the start and positions are brought
+ * into it.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "shell.h"
 
 #include <math.h>
@@ -8,6 +12,8 @@
 #include "../../common/geometry/body_math.h"
 #include "../../common/geometry/tree.h"
 
+/* Two triangles for each segment of the line, from z = -half to half. With half = 2 reach nothing
+ * within reach of z = 0 is nearest to a rim. */
 static void strip(struct trimesh *m, const struct param_points *p, bool closed, double half)
 {
     const int n = p->n, segments = closed ? n : n - 1;
@@ -27,6 +33,7 @@ static void strip(struct trimesh *m, const struct param_points *p, bool closed, 
     trimesh_connect(m);
 }
 
+/* A scene's mesh and its tree are borrowed, a strip is owned. */
 struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index, double reach)
 {
     const bool body = owner == MESH_OF_BODY;
@@ -59,6 +66,7 @@ void shell_free(struct shell *s)
     *s = (struct shell){0};
 }
 
+/* Sets displacement and rotation; NULL: as at the start. */
 void shell_move(struct shell *s, const struct body_motion *now)
 {
     for (int a = 0; a < 3; a++)
@@ -68,6 +76,7 @@ void shell_move(struct shell *s, const struct body_motion *now)
         s->x[a] = now ? now->x[a] : 0.0;
 }
 
+/* The box around the surface spares the search for whatever is farther than `reach'. */
 double shell_distance(const struct shell *s, const double *x, double reach)
 {
     double arm[3] = {0.0, 0.0, 0.0}, own[3], out = 0.0;
