@@ -1,6 +1,10 @@
-/* discharge_gauge.c - see discharge_gauge.h. Volume times velocity across the section, weighted by
- * a hat function of the distance from it, 4 dx wide, whose integral is 1: exact for a lattice. What
- * stands beside the ends counts by the part of its cell between them.
+/* discharge_gauge.c - the discharge through a line or a rectangle. With n the unit vector across
+ * the section and h the hat function of half width 2 dx,
+ *   Q = sum_j w_j (u_j.n) h((x_j - x_s).n) share_j,
+ * share_j the part of the particle's cell, dx wide along each direction of the section, that lies
+ * between its ends. The integral of h is 1, so Q is exact for a lattice. Widths are those of the
+ * coarsest level for all, since h must be wide against the spacing of each. Called once per row of
+ * the series that has such a gauge.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "discharge_gauge.h"
 
@@ -10,6 +14,7 @@
 
 static const double half = 2.0; /* dx: half width of the hat function */
 
+/* direction.(x - from), or direction.x with from NULL. */
 static double project(const double *direction, const double *x, const double *from, int dim)
 {
     double sum = 0.0;
@@ -18,6 +23,7 @@ static double project(const double *direction, const double *x, const double *fr
     return sum;
 }
 
+/* The sum over the flowing particles of one level of this rank, m^dim/s. */
 static double flow_of(const struct sph *s, const struct scene_probe *g,
                       const struct probe_section *c, double dx)
 {
@@ -37,6 +43,7 @@ static double flow_of(const struct sph *s, const struct scene_probe *g,
     return sum;
 }
 
+/* Positions are not wrapped around periods: the section lies within the domain. */
 double discharge_gauge(struct sph *s, const struct scene_probe *g)
 {
     const struct probe_section c = probe_section_of(g, s->dim);

@@ -1,4 +1,8 @@
-/* opening_columns.c - see opening_columns.h. SPDX-License-Identifier: BSD-3-Clause */
+/* opening_columns.c - what has passed inlets, outlets and sides where water falls out. For each
+ * such side the mass that has come in less what has gone out since the start, kg, and with a free
+ * surface the level outside, m: columns of the series, sums of the summary, and the balance of the
+ * run's mass.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "opening_columns.h"
 
 #include <math.h>
@@ -13,12 +17,14 @@
 /* What a side of the region is to what passes it. */
 enum passing { PASSES_NOTHING, PASSES_FALLING, PASSES_ZONE };
 
+/* What passes this side; open: sides with zones of this run's own (not a partner's). */
 static enum passing passing(const struct run *r, const bool open[6], int side)
 {
     const struct scene_wall *w = scene_wall_of(&r->scene, SIDE_X_MIN + side);
     return w && w->kind == WALL_FALLS ? PASSES_FALLING : open[side] ? PASSES_ZONE : PASSES_NOTHING;
 }
 
+/* Headings are in static memory. The order must be that of opening_row. */
 int opening_columns(const struct run *r, const struct sph_params *prm, const char **names)
 {
     static char text[6][2][32];
@@ -45,6 +51,8 @@ static const bool *open_sides(const struct sph *s)
     return s->zones && s->prm.outer == OUTER_SIDES ? s->open : none;
 }
 
+/* Mass through each side since the start, kg, positive inwards, summed over levels and ranks; 0 for
+ * sides that nothing passes. Collective. */
 static void sum_through(const struct sph *s, double through[6])
 {
     for (int side = 0; side < 6; side++) {
@@ -55,6 +63,7 @@ static void sum_through(const struct sph *s, double through[6])
     MPI_Allreduce(MPI_IN_PLACE, through, 6, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
+/* A column for each side that something passes, and one for its level. */
 double *opening_row(const struct sph *s, double *values)
 {
     double through[6];
@@ -69,7 +78,7 @@ double *opening_row(const struct sph *s, double *values)
     return values;
 }
 
-/* What the mass at the end differs from that of the start and what has passed, over what was there
+/* drift.budget: the mass at the end less that of the start and what has passed, over what was there
  * and came in. */
 void opening_summary(const struct sph *s, struct summary *to)
 {

@@ -1,4 +1,9 @@
-/* probes.c - gauges and forces; see probes.h. SPDX-License-Identifier: BSD-3-Clause */
+/* probes.c - gauges and forces on bodies, as columns of series.csv. A gauge of pressure or velocity
+ * is a Shepard mean over the particles that flow within R,
+ *   f(x) = sum_j w_j W(x - x_j) f_j / sum_j w_j W(x - x_j),
+ * p_j extrapolated to x by its gradient (c^2 grad rho). Levels, shorelines and discharges have
+ * files of their own. Called by sph_row, after slopes were made; collective.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "probes.h"
 
 #include <math.h>
@@ -15,7 +20,7 @@
 #include "discharge_gauge.h"
 #include "shore.h"
 
-/* The gauge where it is now. */
+/* The gauge where it is now: one that is fixed to a body moves with it. */
 static struct scene_probe placed(const struct sph *s, const struct scene_probe *g)
 {
     struct scene_probe now = *g;
@@ -25,6 +30,8 @@ static struct scene_probe placed(const struct sph *s, const struct scene_probe *
     return now;
 }
 
+/* Columns of gauges that another program of the job has are left out. Bodies follow: force and
+ * moment, then their own motion. */
 int probes_columns(const struct run *r, const char **names)
 {
     static char text[PROBE_COLUMNS][PARAM_TEXT_SIZE + 24];
@@ -48,7 +55,7 @@ int probes_columns(const struct run *r, const char **names)
     return n;
 }
 
-/* From a particle at x to a gauge, across the nearest periodic side, m; returns its square. */
+/* Displacement d from x to a gauge by the nearest periodic image, m; returns its square. */
 static double way_to(const struct sph *s, const struct scene_probe *g, const double *x, double *d)
 {
     const struct scene_domain *o = &s->run->scene.domain;
@@ -62,7 +69,8 @@ static double way_to(const struct sph *s, const struct scene_probe *g, const dou
     return r2;
 }
 
-/* w W of local particle i at a gauge; 0: out of reach, or a guard. */
+/* w W of local particle i at a gauge; 0: out of reach, or a guard. A gauge with a face as large as
+ * `radius' has at least that for its support. */
 static double weight_at(const struct sph *s, int i, const struct scene_probe *g)
 {
     const double *q = prim_line(&s->p, i);
@@ -110,7 +118,8 @@ static double pressure_at(struct sph *s, const struct scene_probe *g)
                : 0.0;
 }
 
-/* Kernel average of the velocity; NAN where there is hardly any fluid. */
+/* Kernel average of the velocity; NAN where there is hardly any fluid. 5 % of a full support is the
+ * least for a value. */
 static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
 {
     double sums[4] = {0.0, 0.0, 0.0, 0.0};
@@ -126,6 +135,7 @@ static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
         u[a] = sums[3] > 0.05 ? sums[a] / sums[3] : NAN;
 }
 
+/* The value of every kind but velocity, which has several components. */
 static double value_at(struct sph *s, const struct scene_probe *g)
 {
     return g->kind == PROBE_LEVEL       ? level_gauge(s, g->at)
@@ -140,7 +150,8 @@ struct force probes_force(struct sph *s, int k)
     return forces_of(s, k, &force) ? force : body_average(s, k);
 }
 
-/* The second opinion on the first body, by rows, each for the time since the one before. */
+/* Adds the kernel average of the force on the first body to its mean over the second half of the
+ * run, each value for the time since the last row. */
 static void sample_average(struct sph *s)
 {
     const double begin = fmax(s->mean_force.average_t, 0.5 * s->run->scene.time.end),
@@ -154,6 +165,7 @@ static void sample_average(struct sph *s)
         s->mean_force.average_sum[a] += dt * force.F[a];
 }
 
+/* The order is that of probes_columns. */
 void probes_row(struct sph *s, double *values)
 {
     const struct scene *c = &s->run->scene;

@@ -1,5 +1,8 @@
 /* sph_errors.c - sums, errors against the exact solution, drifts: rows of the series and the
- * summary. Norms are weighted with the particles' volumes and taken over the free zone.
+ * summary. Norms are weighted with the particles' volumes and taken over the free zone. Order in a
+ * row of the series: sums over the fluid, extremes, watches, the error, levels, zones, openings,
+ * gauges and bodies: the same in sph_columns, which names them. Every function that sums is
+ * collective.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -32,12 +35,14 @@ static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorti
 
 static bool has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
 
+/* In 2D whether a wall lies within R of x. */
 static bool cut_by_wall(const struct sph *s, const double *x)
 {
     return s->dim == 2 && s->walls && walls_distance(s->walls, x, s->R) < s->R;
 }
 
-/* Adds one particle to the norms of velocity, pressure, vorticity (in 3D its z component). */
+/* Adds one particle to the norms of velocity, pressure, vorticity (in 3D its z component).
+ * Pressures are compared as they are, without removing their mean; the summary does so. */
 static void add_errors(const struct sph *s, const struct exact *e, int i, struct norm *n)
 {
     const int dim = s->dim;
@@ -54,7 +59,8 @@ static void add_errors(const struct sph *s, const struct exact *e, int i, struct
     norm_add(n + 2, w, omega[2] - vort, vort);
 }
 
-/* Needs prim and slope of the present state. Collective. */
+/* Norms over the flowing particles of the free zone of all levels and ranks, at s->t. Needs prim
+ * and slope of the present state. Collective. */
 static void errors(const struct sph *s, struct norm n[NORMS])
 {
     const struct exact e = exact_create(&s->run->scene);
@@ -67,7 +73,8 @@ static void errors(const struct sph *s, struct norm n[NORMS])
     norm_reduce(n, NORMS, s->run->comm);
 }
 
-/* Kinetic energy that the particles would have with the exact velocities. */
+/* Kinetic energy that the particles would have with the exact velocities. The reference of
+ * drift.energy, so that the error of positions does not count. */
 static double exact_kinetic(const struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
@@ -85,7 +92,8 @@ static double exact_kinetic(const struct sph *s)
     return sum;
 }
 
-/* Needs the gradients of the present state. own: only what no partner counts. */
+/* sum of w |curl u|^2/2, m^dim/s^2. Needs the gradients of the present state. own: each particle by
+ * the share that no partner counts. Collective. */
 static double enstrophy(const struct sph *s, bool own)
 {
     double sum = 0.0;
@@ -102,7 +110,8 @@ static double enstrophy(const struct sph *s, bool own)
     return sum;
 }
 
-/* Smallest distance where ghosts of walls or the lattice behind open sides must not count. */
+/* Smallest distance where ghosts of walls or the lattice behind open sides must not count. As
+ * neighbours_least, one pair at a time. */
 static double least_among_particles(const struct sph *s)
 {
     const struct neighbours *l = s->list;
@@ -135,13 +144,14 @@ static double least_spacing(const struct sph *s)
     return least;
 }
 
+/* Sum over all ranks. Collective. */
 static double total(const struct sph *s, double v)
 {
     MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return v;
 }
 
-/* What flows, of all levels and ranks. */
+/* What flows, of all levels and ranks. Collective. */
 static double particles(const struct sph *s)
 {
     double n = 0.0;
@@ -151,10 +161,13 @@ static double particles(const struct sph *s)
     return total(s, n);
 }
 
+/* Particles created at openings so far, all ranks. */
 static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
+/* Particles removed at openings so far, all ranks. */
 static double removals(const struct sph *s) { return total(s, (double)s->zones->openings->gone); }
 
-/* Momentum's part in what swings. */
+/* The modal amplitude that the oscillation of the exact field shows in the momenta: sum of m
+ * exact_signal(x, u). Collective. */
 static double signal_now(const struct sph *s, const struct exact *e, bool own)
 {
     const int dim = s->dim;
@@ -169,6 +182,7 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
     return total(s, sum);
 }
 
+/* Sums of the part that is sph's own, for the coupler's totals over all programs. */
 void sph_tell(void *state, struct summary *report)
 {
     struct sph *s = state;
@@ -194,11 +208,13 @@ void sph_tell(void *state, struct summary *report)
         summary_real(report, "sum.water", total(s, water));
 }
 
+/* Whether the exact field oscillates, so that period and damping can be fitted. */
 static bool has_signal(const struct run *r)
 {
     return r->scene.initial.field == FIELD_STANDING_WAVE || r->scene.initial.field == FIELD_DROP;
 }
 
+/* Adds the present amplitude to the samples; once per row. */
 static void sample_signal(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
@@ -206,7 +222,8 @@ static void sample_signal(struct sph *s)
         fit_add(&s->total.signal_fit, s->t, signal_now(s, &e, false));
 }
 
-/* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. */
+/* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. An
+ * undamped field has rate 0, and the error is then the damping per period. */
 static void summarise_oscillation(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
@@ -234,7 +251,8 @@ static const char *const columns[] = {
     "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
     "max density [kg/m^3]", "particles [-]",         "min spacing [dx]"};
 
-/* Of each level what flows and its guards; what the change of levels has made or lost of mass. */
+/* Of each level what flows and its guards; what the change of levels has made or lost of mass.
+ * Methods with particles of mixed sizes have no levels. */
 static int levels_columns(const struct run *r, const char **names)
 {
     static char text[APR_LEVELS_MAX + 1][2][32];
@@ -253,6 +271,7 @@ static int levels_columns(const struct run *r, const char **names)
     return n;
 }
 
+/* Two reductions for each level. */
 static double *levels_row(const struct sph *s, double *values)
 {
     for (const struct sph *q = s; q; q = q->finer) {
@@ -266,6 +285,7 @@ static double *levels_row(const struct sph *s, double *values)
     return values;
 }
 
+/* Column 5, momentum z, is for 3D alone. */
 int sph_columns(const struct run *r, const struct sph_params *prm, const char **names)
 {
     int n = 0;
@@ -284,6 +304,7 @@ int sph_columns(const struct run *r, const struct sph_params *prm, const char **
     return n + probes_columns(r, names + n);
 }
 
+/* Slopes are made first (integrate_gradients), by all ranks. */
 void sph_row(void *state, double *values)
 {
     struct sph *s = state;
@@ -319,6 +340,8 @@ void sph_row(void *state, double *values)
     timer_stop(&s->run->timers, "output");
 }
 
+/* error.*_l2 are relative to the exact field's norm, *_rms to the case's U or rho U^2; pressures
+ * without their mean, which is reported apart as the offset. */
 static void summarise_errors(const struct sph *s)
 {
     struct summary *to = s->run->summary;
@@ -381,7 +404,8 @@ static void summarise_drifts(const struct sph *s)
                      sums[SUM_VOLUME] / (s->start.volume > 0.0 ? s->start.volume : region) - 1.0);
 }
 
-/* Pairs over the processor time of the stages: a loaded machine counts for nothing. */
+/* Pairs over the processor time of the stages: a loaded machine counts for nothing. Timers count
+ * wall time; cpu/wall over all steps turns it into processor time. */
 static double pair_rate(const struct sph *s)
 {
     static const char *const stage[] = {"list",  "gradients", "rates",   "halo",   "update",
@@ -394,6 +418,7 @@ static double pair_rate(const struct sph *s)
     return time > 0.0 ? total(s, (double)s->total.pairs) / time : 0.0;
 }
 
+/* Names of the parts that this run was made of, in the order in which they act on a pair. */
 static void summarise_modules(const struct sph *s)
 {
     static const char *const limiters[] = {"koren", "minmod", "none"};
@@ -424,6 +449,7 @@ static void summarise_modules(const struct sph *s)
     summary_texts(s->run->summary, "modules", n, names);
 }
 
+/* The summary's order is that of this function. Collective. */
 void sph_finish(void *state)
 {
     struct sph *s = state;

@@ -1,4 +1,10 @@
-/* sph_io.c - snapshots and restart files. SPDX-License-Identifier: BSD-3-Clause */
+/* sph_io.c - snapshots for pictures and restart files. A snapshot has what the key output.fields
+ * asks for, of particles that flow (guards only if asked for), as single-precision numbers, with
+ * XDMF text beside it. A restart file has the state in full: particles of each level
+ * (save_particles), numbers that are equal on all ranks (`numbers'), this rank's parts of sums
+ * (h5_read_parts), then whatever each module writes of its own. What is saved in sph_checkpoint is
+ * read in sph_restore in the same order, on any number of ranks.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -29,13 +35,15 @@
 #include "sph_output.h"
 #include "wall_files.h"
 
-/* What particle i shows in a snapshot, v[ncomp]. */
+/* What particle i shows in a snapshot, v[ncomp]. Three components in 2D, too: ParaView wants
+ * vectors of three. */
 static void get_velocity(const struct sph *s, int i, double *v)
 {
     for (int a = 0; a < 3; a++)
         v[a] = a < s->dim ? prim_line(&s->p, i)[s->dim + a] : 0.0;
 }
 
+/* With the linear part that the particles leave out. */
 static void get_pressure(const struct sph *s, int i, double *v)
 {
     const double *q = prim_line(&s->p, i);
@@ -48,6 +56,7 @@ static void get_density(const struct sph *s, int i, double *v)
     *v = prim_line(&s->p, i)[at_rho(s->dim)];
 }
 
+/* One component in 2D, three in 3D. */
 static void get_vorticity(const struct sph *s, int i, double *v)
 {
     double w[3];
@@ -69,6 +78,7 @@ static void get_level(const struct sph *s, int i, double *v)
     *v = s->level;
 }
 static void get_guard(const struct sph *s, int i, double *v) { *v = particles_is_guard(&s->p, i); }
+/* Time since the particle came in; in a run without zones that since the start. */
 static void get_age(const struct sph *s, int i, double *v)
 {
     *v = s->zones ? openings_age(s, s->p.id[i]) : s->t;
@@ -108,6 +118,7 @@ static bool shows(const struct sph *s, int i)
     return !particles_is_guard(&s->p, i) || asked(s->run->scene.output.fields, "guard");
 }
 
+/* Number of particles of this rank that a snapshot shows. */
 static int64_t shown_here(const struct sph *s)
 {
     int64_t n = 0;
@@ -124,6 +135,8 @@ static double within(const struct scene_domain *d, int a, double x)
     return d->periodic[a] ? x - floor((x - d->min[a]) / length) * length : x;
 }
 
+/* v has room for them; all datasets list particles in the same order, level after level.
+ * Collective. */
 static void write_positions(const struct sph *s, struct h5 *f, int64_t n, double *v)
 {
     double *to = v;
@@ -146,11 +159,13 @@ static void write_ids(const struct sph *s, struct h5 *f, int64_t n)
     mem_free(ids);
 }
 
+/* Number of components of a field in this run's dimension. */
 static int components(const struct sph *s, const struct field *k)
 {
     return k->ncomp ? k->ncomp : s->dim == 3 ? 3 : 1;
 }
 
+/* As write_positions. */
 static void write_field(const struct sph *s, struct h5 *f, const struct field *k, int64_t n,
                         double *v)
 {
@@ -180,6 +195,8 @@ static void write_region(const struct sph *s, struct h5 *f)
     }
 }
 
+/* Slopes are made for it unless the state is broken, when pairs cannot be listed and only what the
+ * state holds is shown. */
 void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct sph *s = state;
@@ -209,7 +226,8 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
         xdmf_points(x, s->t, file, all, s->dim, nshown, shown);
 }
 
-/* Numbers that are the same on all ranks and that the next step depends on or that are reported. */
+/* Members of struct sph that are the same on all ranks and that the next step depends on or that
+ * are reported. */
 static const struct number {
     const char *name;
     size_t offset;
@@ -256,6 +274,7 @@ static const struct number {
 /* The first of them belong to the flow, one for all levels. */
 enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 12 };
 
+/* The member itself. */
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
 
 /* Samples of what swings, so that a restarted run fits all of them. */
@@ -272,6 +291,7 @@ static void save_signal(const struct sph *s, struct h5 *f)
     mem_free(rows);
 }
 
+/* Adds the saved samples to the fit. */
 static void read_signal(struct sph *s, struct h5 *f)
 {
     int64_t n;
@@ -289,7 +309,8 @@ static const char *name(const struct sph *s, const char *plain)
     return s->level > 0 ? text : plain;
 }
 
-/* Who lies on a surface: windows begin with what the last step has found. */
+/* Writes the surface's class of each particle: a coupling step begins with what the last step has
+ * found. */
 static void save_surface(const struct sph *s, struct h5 *f)
 {
     int64_t *is = NEW(int64_t, s->p.n);
@@ -299,7 +320,7 @@ static void save_surface(const struct sph *s, struct h5 *f)
     mem_free(is);
 }
 
-/* None where the file does not say. */
+/* Reads it back; all inside where the file does not say. */
 static void read_surface(struct sph *s, struct h5 *f)
 {
     int64_t *is = NEW(int64_t, s->p.n);
@@ -310,7 +331,8 @@ static void read_surface(struct sph *s, struct h5 *f)
     mem_free(is);
 }
 
-/* The particles of one level; with levels their roles, and slopes, which guards take. */
+/* The particles of one level; with levels their roles, and slopes, which guards take. Zone and role
+ * share an integer. Slopes are those before an output was made, if one was. */
 static void save_particles(const struct sph *s, struct h5 *f)
 {
     int64_t *kind = NEW(int64_t, s->p.n);
@@ -330,7 +352,8 @@ static void save_particles(const struct sph *s, struct h5 *f)
         save_surface(s, f);
 }
 
-/* What each level has of its own beside its particles. */
+/* What each level has of its own beside its particles. The first three are sums of this rank, hence
+ * a dataset, not attributes. */
 static void save_levels(struct sph *s, struct h5 *f)
 {
     const struct refinement *r = s->refinement;
@@ -345,7 +368,8 @@ static void save_levels(struct sph *s, struct h5 *f)
     regions_save(s->refinement->regions, f);
 }
 
-/* Whether some side is one where it is to. */
+/* Whether some side is one where it is to. Whether the scene has a side where water is to fall
+ * out. */
 static bool water_falls(const struct sph *s)
 {
     bool any = false;
@@ -354,6 +378,7 @@ static bool water_falls(const struct sph *s)
     return any;
 }
 
+/* Called at the end of a step on all ranks; it leaves no trace in the run. */
 void sph_checkpoint(void *state, struct h5 *f)
 {
     struct sph *s = state;
@@ -394,6 +419,8 @@ void sph_checkpoint(void *state, struct h5 *f)
     paddles_save(s, f);
 }
 
+/* Each rank reads its share of the file; domain_load sends particles to their owners afterwards.
+ * false: lengths do not fit. */
 static bool read_particles(struct sph *s, struct h5 *f)
 {
     const int64_t n = h5_share(f, name(s, "state"));
@@ -429,6 +456,8 @@ static bool read_next_id(struct sph *s, struct h5 *f)
     return all != NULL;
 }
 
+/* Parts of sums (lost, fallen, put back) go to the first rank where the number of ranks has
+ * changed. */
 static bool read_numbers(struct sph *s, struct h5 *f)
 {
     if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->total.lost) ||
@@ -444,7 +473,8 @@ static bool read_numbers(struct sph *s, struct h5 *f)
     return true;
 }
 
-/* What the file is of: spacing and region. Says what differs. */
+/* What the file is of: spacing and region. Says what differs. A file of another dx, dimension or
+ * region is refused, with the figure that differs. */
 static bool same_region(const struct sph *s, struct h5 *f)
 {
     const struct corner {
@@ -470,7 +500,8 @@ static bool same_region(const struct sph *s, struct h5 *f)
     return true;
 }
 
-/* What finer levels have of their own; all else they have of the first. */
+/* What finer levels have of their own; all else they have of the first. NUMBERS_OF_FLOW of the
+ * flow's numbers are copied from the coarsest level. */
 static bool read_levels(struct sph *s, struct h5 *f)
 {
     struct refinement *r = s->refinement;
@@ -490,7 +521,8 @@ static bool read_levels(struct sph *s, struct h5 *f)
     return fits && regions_load(s->refinement->regions, f);
 }
 
-/* What the file lacks, NULL: nothing. */
+/* What the file lacks, NULL: nothing. Particles first, since everything else refers to them. The
+ * partition comes before zones and bodies, which ask who owns a position. */
 static const char *missing(struct sph *s, struct h5 *f)
 {
     bool particles = true;
@@ -519,6 +551,7 @@ static const char *missing(struct sph *s, struct h5 *f)
     return NULL;
 }
 
+/* Lists are made anew; all else continues bit for bit on the same number of ranks. */
 bool sph_restore(struct sph *s, struct h5 *f)
 {
     if (!same_region(s, f) || !wall_files_fit(s, f))

@@ -11,7 +11,9 @@
 
 enum { SUMS = 9 }; /* moments 1 x y xx xy yy, then f, x f, y f */
 
-/* Adds a particle to the moments of the points of a line within R. */
+/* Adds a particle to the moments of the points of a line within R. across: the velocity's
+ * component, whose position along the other axis runs; moments are in units of R, so that their
+ * matrix is well conditioned. */
 static void add_particle(const struct sph *s, int i, int across, int n, double *sums)
 {
     const int along = 1 - across;
@@ -42,8 +44,8 @@ static double fit(const double *m)
     return det != 0.0 ? (m[6] * a + m[7] * b + m[8] * c) / det : 0.0;
 }
 
-/* Values at n + 1 points, NEW: of u along the vertical (across 0), of v along the horizontal one.
- * Collective. */
+/* Values at n + 1 points of a centre line, owned by the caller (mem_free): of u along the vertical
+ * (across 0), of v along the horizontal one. Collective. */
 static double *line_of(const struct sph *s, int across, int n)
 {
     double *sums = NEW(double, SUMS *(size_t)(n + 1)), *f = NEW(double, n + 1);
@@ -58,7 +60,8 @@ static double *line_of(const struct sph *s, int across, int n)
     return f;
 }
 
-/* Largest value of sign f between the ends, by the parabola around the largest point. */
+/* Largest value of sign f between the ends, by the parabola around the largest point. Interior
+ * points only, since the ends are on walls. */
 static double extremum(const double *f, int n, double sign)
 {
     int top = 1;
@@ -69,6 +72,7 @@ static double extremum(const double *f, int n, double sign)
     return bend != 0.0 ? b - 0.125 * (c - a) * (c - a) / bend : b;
 }
 
+/* Twice as many points as particles along each line: least of u, most and least of v. */
 void sph_summarise_extrema(const struct sph *s)
 {
     const int n[2] = {2 * (int)lround((s->hi[0] - s->lo[0]) / s->dx),

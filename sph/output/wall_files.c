@@ -1,4 +1,9 @@
-/* wall_files.c - see wall_files.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wall_files.c - meshes and outlines of walls and bodies for ParaView. NAME_walls.h5 holds the
+ * triangles of all meshes and the vertices of those at rest, written with the first snapshot;
+ * vertices of bodies go into every snapshot. NAME_walls.xdmf joins them. Mirror images at plane
+ * sides are not shown. Restart files get the hash of each mesh, so that a run is not continued with
+ * another shape.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_files.h"
 
 #include <stdio.h>
@@ -13,6 +18,7 @@
 
 enum { SURFACES = WALLS_MAX + BODIES_MAX };
 
+/* Whether it is a mesh of the scene itself. */
 static bool is_shown(const struct wall_mesh *m) { return m->of && !m->image; }
 
 /* Vertices where the mesh is now; rank 0 writes them all. */
@@ -27,6 +33,7 @@ static void write_vertices(const struct sph *s, struct h5 *f, const struct wall_
     mem_free(x);
 }
 
+/* Three vertex numbers each; rank 0 writes them all. */
 static void write_triangles(const struct sph *s, struct h5 *f, const struct wall_mesh *m,
                             const char *name)
 {
@@ -38,12 +45,14 @@ static void write_triangles(const struct sph *s, struct h5 *f, const struct wall
     mem_free(v);
 }
 
+/* Names of the two datasets of a mesh. */
 static void names_of(const struct wall_mesh *m, char x[80], char v[80])
 {
     snprintf(x, 80, "vertices_%s", m->of->name);
     snprintf(v, 80, "triangles_%s", m->of->name);
 }
 
+/* Creates NAME_walls.h5. Collective. */
 static void write_meshes(const struct sph *s)
 {
     char path[1200], x[80], v[80];
@@ -61,6 +70,8 @@ static void write_meshes(const struct sph *s)
     h5_close(&f);
 }
 
+/* Adds a time to the XDMF file: each mesh with its triangles from NAME_walls.h5 and its vertices
+ * from there or from the snapshot `file'. */
 static void show(const struct sph *s, const char *file)
 {
     char own[80];
@@ -82,7 +93,8 @@ static void show(const struct sph *s, const char *file)
     xdmf_surfaces(s->walls->view, s->t, n, of);
 }
 
-/* Outlines of bodies in the plane where they are now; rank 0 writes them. */
+/* In 2D writes the corners of bodies where they are now into the snapshot, and adds a time to the
+ * XDMF file; rank 0 has the data, x is NULL on the others. */
 static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, const char *file)
 {
     struct walls *w = s->walls;
@@ -108,6 +120,8 @@ static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, con
         xdmf_outlines(w->view, s->t, file, w->nbodies, names, n);
 }
 
+/* Nothing is written where no mesh is shown, or none moves after the first time. A continued run
+ * appends to the XDMF file. */
 void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, const char *file)
 {
     struct walls *w = s->walls;
@@ -141,6 +155,7 @@ void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, cons
     show(s, file);
 }
 
+/* Name of the attribute with a mesh's hash. */
 static void hash_name(const struct wall_mesh *m, char name[80])
 {
     snprintf(name, 80, "mesh_%s", m->of->name);
@@ -157,6 +172,7 @@ void wall_files_save(const struct sph *s, struct h5 *f)
     }
 }
 
+/* A file that has no hash of this mesh does not fit either. */
 bool wall_files_fit(const struct sph *s, struct h5 *f)
 {
     for (int k = 0; s->walls && k < s->walls->nmeshes; k++) {
