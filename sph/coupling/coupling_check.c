@@ -1,6 +1,9 @@
 /* coupling_check.c - scenes that a coupled job cannot do, found before it starts: FV fills all that
  * lies around SPH's box, without a surface, a body or a polyline, and both need the rim where they
- * overlap. SPDX-License-Identifier: BSD-3-Clause */
+ * overlap. Called from the check of the case on all ranks alike: each fault names its key and what
+ * would help. Water and cells are only looked at when nothing else is wrong, for they need boxes
+ * that make sense.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,6 +23,7 @@ static const char axes[] = "xyz";
 
 /* Points of the lattice of spacing dx over the box lo .. hi that f holds of; *x: the last one. */
 typedef bool test(const void *ctx, const double *x);
+/* O(volume/dx^dim) calls of f. */
 static double count(int dim, double dx, const double *lo, const double *hi, test *f,
                     const void *ctx, double *x)
 {
@@ -42,6 +46,7 @@ static double count(int dim, double dx, const double *lo, const double *hi, test
     return found;
 }
 
+/* What the tests of a lattice point need to know. */
 struct box_water {
     const struct scene *scene;
     double dx;
@@ -49,11 +54,13 @@ struct box_water {
     double given[2][3], hidden[2][3]; /* what SPH gives, and of it what fv does not look at */
 };
 
+/* Whether x is in the fluid at the start. */
 static bool is_wet(const struct box_water *w, const double *x)
 {
     return scene_is_fluid(w->scene, &w->exact, x, NULL);
 }
 
+/* Whether x lies within the box. */
 static bool is_inside(const struct box_water *w, const double box[2][3], const double *x)
 {
     bool inside = true;
@@ -62,18 +69,21 @@ static bool is_inside(const struct box_water *w, const double box[2][3], const d
     return inside;
 }
 
+/* Outside of what sph gives, and no water. */
 static bool dry_outside(const void *ctx, const double *x)
 {
     const struct box_water *w = ctx;
     return !is_inside(w, w->given, x) && !is_wet(w, x);
 }
 
+/* In what fv takes from sph: given, but not hidden. */
 static bool in_edge(const void *ctx, const double *x)
 {
     const struct box_water *w = ctx;
     return is_inside(w, w->given, x) && !is_inside(w, w->hidden, x);
 }
 
+/* There, and no water. */
 static bool dry_in_edge(const void *ctx, const double *x)
 {
     return in_edge(ctx, x) && !is_wet(ctx, x);
@@ -82,7 +92,8 @@ static bool dry_in_edge(const void *ctx, const double *x)
 static bool wet(const void *ctx, const double *x) { return is_wet(ctx, x); }
 
 /* FV's flow has no surface: all that SPH does not give must be water at the start, and most of what
- * FV takes from it; the troughs of steep waves may reach there. */
+ * FV takes from it; the troughs of steep waves may reach there. More than half of the edge must be
+ * wet. */
 static void check_water(const struct run *r, const struct box_water *w, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -103,7 +114,8 @@ static void check_water(const struct run *r, const struct box_water *w, struct f
         x[0], x[1], x[2], box[0][0], box[0][1], box[0][2], box[1][0], box[1][1], box[1][2]);
 }
 
-/* Where the box reaches the domain's side, SPH ends: at a wall, or above the water. */
+/* Where the box reaches the domain's side, SPH ends: at a wall, or above the water. An inlet or
+ * outlet there would be fv's; without a wall there must be no water along the side. */
 static void check_side(const struct run *r, const struct sph_params *prm, const struct box_water *w,
                        int side, struct faults *f)
 {
@@ -150,7 +162,8 @@ static void check_fineness(const struct run *r, const struct sph_params *prm, do
 }
 
 /* FV must be told something: a cell at least whose corners all lie where SPH gives the flow, and a
- * particle in each. */
+ * particle in each. zones_given_box is what sph gives; uniform cells are known from fv's keys
+ * alone. */
 static void check_cells(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -176,7 +189,8 @@ static void check_cells(const struct run *r, const struct sph_params *prm, struc
     check_fineness(r, prm, widest, f);
 }
 
-/* The box of another group of particles with its zones; false: it has none of its own. */
+/* The box of another group of particles with its zones; false: it has none of its own. Keys of the
+ * other group are read with a leading colon, which means its own name. */
 static bool box_of_group(const struct run *r, const struct sph_params *prm, const char *group,
                          double box[2][3])
 {
@@ -200,7 +214,8 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
     return true;
 }
 
-/* Several programs of particles, each with its box: what only one of them can have. */
+/* Several programs of particles, each with its box: what only one of them can have. This program
+ * compares its box with all others; each program does. */
 static void check_several(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     char names[PARAM_KIN_MAX][64];
@@ -250,6 +265,7 @@ static bool gives(const struct run *r, const struct sph_params *prm, const struc
     return true;
 }
 
+/* Whether the box spans the domain in all directions but a, and ends before both ends of a. */
 bool coupling_cuts(const struct run *r, const struct sph_params *prm, int a)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -264,6 +280,7 @@ bool coupling_cuts(const struct run *r, const struct sph_params *prm, int a)
     return across;
 }
 
+/* An outlet on a side of another axis counts for both parts. */
 bool coupling_has_outlet(const struct run *r, int end)
 {
     const int a = end / 2, up = end % 2;
@@ -293,6 +310,8 @@ static const char *no_balance(const struct run *r, int a)
     return NULL;
 }
 
+/* Adds a fault along each axis in which the box cuts fv's flow into parts that nothing would
+ * balance. */
 static void check_parted(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     for (int a = 0; a < r->scene.domain.dim; a++) {
@@ -305,6 +324,7 @@ static void check_parted(const struct run *r, const struct sph_params *prm, stru
     }
 }
 
+/* Every program of a job makes this check with the same result. */
 void coupling_check(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     if (!sph_params_zones(r, prm)) {

@@ -1,4 +1,8 @@
-/* coupling_solids.c - see coupling_solids.h. SPDX-License-Identifier: BSD-3-Clause */
+/* coupling_solids.c - where bodies and walls may lie in a coupled job. FV knows neither bodies nor
+ * polylines nor meshes, unless its blocks have them (solids_elsewhere): what lies where it computes
+ * would be missing there. Checked at the start along the prescribed motion through the whole run;
+ * --check does it, too.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling_solids.h"
 
 #include <math.h>
@@ -14,6 +18,8 @@
 #include "../rigid/body.h"
 #include "sph_coupling.h"
 
+/* Two cells from each open side: fv's stencils reach that deep into the box. Graded rows along y
+ * count from where they begin. */
 void coupling_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -33,7 +39,8 @@ void coupling_hidden(const struct run *r, const struct sph_params *prm, double b
     }
 }
 
-/* Whether a point lies beyond a side of the box by which the partner's flow comes. */
+/* Whether a point lies beyond a side of the box by which the partner's flow comes. way: how far the
+ * box has moved, m. */
 static bool is_beyond(int dim, double box[2][3], const bool *open, const double *way,
                       const double *x)
 {
@@ -45,7 +52,8 @@ static bool is_beyond(int dim, double box[2][3], const bool *open, const double 
 }
 
 /* First time at which a corner of a driven body leaves the box by an open side, INFINITY: never; a
- * free one is watched as it goes. */
+ * free one is watched as it goes. 500 times in the run are looked at, with all corners or
+ * vertices. */
 static double leaves(const struct run *r, const struct sph_params *prm, int k, double box[2][3],
                      const bool *open)
 {
@@ -71,6 +79,7 @@ static double leaves(const struct run *r, const struct sph_params *prm, int k, d
     return when;
 }
 
+/* A fault for each body that leaves what sph gives. */
 void coupling_check_bodies(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     double given[2][3];
@@ -91,7 +100,8 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
     }
 }
 
-/* Whether a point of a wall lies inside the domain where FV computes the flow. */
+/* Whether a point of a wall lies inside the domain where FV computes the flow. The walls are at
+ * rest, and so is the box. */
 static bool is_partners(const struct scene_domain *d, double box[2][3], const bool *open,
                         const double *x)
 {
@@ -102,7 +112,8 @@ static bool is_partners(const struct scene_domain *d, double box[2][3], const bo
     return inside && is_beyond(d->dim, box, open, rest, x);
 }
 
-/* A line that leaves where SPH gives the flow, inside the domain: the place where it does. */
+/* A line that leaves where SPH gives the flow, inside the domain: the place where it does. Points
+ * `step' apart along each segment. */
 static bool line_leaves(const struct run *r, const struct scene_wall *w, double box[2][3],
                         const bool *open, double step, double *at)
 {
@@ -142,6 +153,7 @@ static bool mesh_leaves(const struct run *r, const struct trimesh *m, double box
     return false;
 }
 
+/* Lines are not looked at where fv has blocks, which does so itself. */
 void coupling_check_walls(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     double box[2][3], at[3] = {0.0, 0.0, 0.0};
@@ -166,6 +178,8 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
     }
 }
 
+/* Coming within two cells of the open sides is allowed, but fv's mapping then mixes particles from
+ * both sides of the body. */
 void coupling_warn(const struct run *r, const struct sph_params *prm)
 {
     double near[2][3];

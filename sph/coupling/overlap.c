@@ -1,4 +1,11 @@
-/* overlap.c - see overlap.h. SPDX-License-Identifier: BSD-3-Clause */
+/* overlap.c - whether both programs still describe one flow. Once a coupling step, at its start:
+ * over the particles of the overlap, where both programs are free, the rms differences
+ *   du = (sum w |u - u_fv|^2 / sum w)^(1/2) / U
+ *   dp = (sum w (p - p_fv - mean)^2 / sum w)^(1/2) / (rho max(U^2, weight)),
+ * weight = g H under a surface, averaged over about ten coupling steps, and the share of the open
+ * faces with a free surface before them where fv has none. Beyond a warning level it is reported,
+ * beyond another the run ends.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "overlap.h"
 
 #include <math.h>
@@ -22,7 +29,8 @@ const char *const overlap_columns[OVERLAP_COLUMNS] = {
  * c0 U, passes through SPH alone and is no fault. */
 static const double several = 10.0;
 
-/* In a stage, when the surface has been detected. */
+/* Counts this rank's particles on a surface in transition and buffer; called in a stage, when the
+ * surface has just been detected, once a coupling step. */
 static void find_surface(struct sph *s)
 {
     struct overlap *o = s->zones->watched;
@@ -37,6 +45,8 @@ static void find_surface(struct sph *s)
         }
 }
 
+/* Scales are those of windows.c. Without weight rho U^2 is small against acoustic noise, whose
+ * scale is rho c0 U: hence bounds in c0/U. */
 struct overlap *overlap_create(struct sph *s)
 {
     s->zones->look_inside = find_surface;
@@ -80,7 +90,8 @@ void overlap_free(struct overlap **o)
     *o = NULL;
 }
 
-/* Particles of the free zone's rim, where the partner is free, too; all ranks of SPH know it. */
+/* Whether a particle is in the border of the free zone where the partner is free, too; all ranks of
+ * SPH have the partner's patch there. */
 static bool in_rim(const struct sph *s, const double *y)
 {
     const struct zones *z = s->zones;
@@ -88,7 +99,8 @@ static bool in_rim(const struct sph *s, const double *y)
     return depth >= edge && depth < edge + z->overlap;
 }
 
-/* Sums over the rim: w, w |du|^2, w dp, w dp^2. */
+/* Sums over the rim: w, w |du|^2, w dp, w dp^2. With a surface in fv's field positions above it, or
+ * within dx of it, are left out. */
 static void compare(struct sph *s, double sums[4])
 {
     struct zones *z = s->zones;
@@ -114,6 +126,7 @@ static void compare(struct sph *s, double sums[4])
     }
 }
 
+/* du, dp and on are the same on all ranks afterwards. */
 void overlap_look(struct sph *s)
 {
     struct overlap *o = s->zones->watched;
@@ -138,6 +151,8 @@ void overlap_look(struct sph *s)
     o->fresh = o->asks = true;
 }
 
+/* After the first step of a coupling step; the place is that of a particle on the surface, or the
+ * border as a whole. */
 void overlap_judge(struct sph *s, struct diagnosis *d)
 {
     struct overlap *o = s->zones->watched;
@@ -197,6 +212,7 @@ void overlap_summary(const struct overlap *o, struct summary *to)
     watch_summary(&o->dry, to);
 }
 
+/* Nothing is reported while both are below half of their warning levels. */
 void overlap_tell(const struct overlap *o, struct summary *to)
 {
     if (o->du > 0.5 * o->velocity.warn)

@@ -1,6 +1,10 @@
 /* sph_coupling.c - SPH's place in a coupled job: gives its particles, takes patches of the flow
  * outside. Order of a coupling step (Chiron 2017, 6.2): SPH runs first on the extrapolated patch,
- * hands its particles over, and takes the next patch when its partner has followed.
+ * hands its particles over, and takes the next patch when its partner has followed. Sets of sph in
+ * the job: `particles' (velocity, pressure, and where a surface crosses `one', a field of ones
+ * whose kernel sum tells fv how much of a cell is water); `budget' and `place', each a single point
+ * that carries numbers. Called by run.c through struct program; everything is collective over the
+ * program's ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_coupling.h"
 
@@ -35,6 +39,8 @@ struct sph_link {
     struct scene_reference reference; /* what the particles' pressure leaves out */
 };
 
+/* An error of the partner or of the input ends the job with the library's message; any other is a
+ * mistake of this program. */
 static void check(const struct sph_link *k, int code)
 {
     if (code == CPL_EPARTNER || code == CPL_EINPUT) {
@@ -53,6 +59,8 @@ static const char *named(const struct run *r, const char *what)
     return text;
 }
 
+/* box, free, given and counted are boxes of the region; memory, moves, pace and speed are numbers
+ * that travel as boxes, since zones are what can be asked for before the plan is made. */
 void coupling_offer(struct run *r, const struct sph_params *prm)
 {
     double lo[3], hi[3];
@@ -77,7 +85,8 @@ void coupling_offer(struct run *r, const struct sph_params *prm)
     cpl_zone(r->partner_ctx, named(r, "speed"), speed, speed);
 }
 
-/* Values and gradients of the patch, one field after the other. */
+/* Values and gradients of the patch, one field after the other. gu[n dim 3], gp[n 3]; the linear
+ * part of the pressure is taken off the value, its gradient is left. */
 static void eval_patch(void *ctx, double t, int n, const double *x, double *u, double *p,
                        double *gu, double *gp)
 {
@@ -88,6 +97,7 @@ static void eval_patch(void *ctx, double t, int n, const double *x, double *u, d
         p[i] -= scene_reference_at(&k->reference, k->dim, x + 3 * i);
 }
 
+/* fv's level set, m, negative in water. */
 static void eval_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi)
 {
     const struct sph_link *k = ctx;
@@ -111,6 +121,8 @@ static void choose_halves(struct sph *s)
     }
 }
 
+/* Names of fields are those that fv gives and takes; CPL_OPTIONAL: nobody needs to take the
+ * particles' pressure. */
 void sph_coupling_create(struct sph *s)
 {
     struct sph_link *k = NEW(struct sph_link, 1);
@@ -160,7 +172,7 @@ void sph_coupling_free(struct sph *s)
 }
 
 /* m: how far around its part a rank may look in a window of T s: a support, and where the box goes.
- */
+ * / 0 along axes that do not exist. fastest: the speed at which the box may follow something. */
 static double looks_beyond(const struct sph *s, int a, double T)
 {
     const struct zones *z = s->zones;
@@ -169,7 +181,8 @@ static double looks_beyond(const struct sph *s, int a, double T)
     return a >= s->dim ? 0.0 : s->R + (moves ? most * T : 0.0);
 }
 
-/* All ranks know the surface around the whole region: faces and probes are everybody's. */
+/* All ranks know the surface around the whole region: faces and probes are everybody's. A second,
+ * larger patch: faces are the same on all ranks, and so must be what they see. */
 static void take_surface(struct sph *s, double T)
 {
     const struct sph_link *k = s->zones->ctx;
@@ -185,7 +198,8 @@ static void take_surface(struct sph *s, double T)
         level_gap_look(s, 0.0);
 }
 
-/* The patch that this rank's particles and faces may need until the end of the window. */
+/* The patch that this rank's particles and faces may need until the end of the window. zones_gauge
+ * then sets the level of pressure, and overlap_look compares, with the new patches. */
 void sph_coupling_window_begin(void *state, double t0, double t1)
 {
     struct sph *s = state;
@@ -205,6 +219,7 @@ void sph_coupling_window_begin(void *state, double t0, double t1)
     overlap_look(s);
 }
 
+/* Room for n particles in the arrays that are sent; ones are filled once. */
 static void room(struct sph_link *k, int n)
 {
     if (n <= k->capacity)
@@ -229,7 +244,8 @@ static double into_domain(const struct sph *s, int a, double x)
     return d->periodic[a] ? x - L * floor((x - d->min[a]) / L) : x;
 }
 
-/* A point and a value that one rank has. */
+/* A point and a value that one rank has. Puts a value of rank 0 at time t on a set of one point at
+ * the origin. */
 static void give_one(struct sph *s, int set, int field, double t, const double *value)
 {
     struct sph_link *k = s->zones->ctx;
@@ -251,7 +267,8 @@ static void give_way(struct sph *s, double t)
     give_one(s, k->place, k->way, t, v);
 }
 
-/* Where the n particles are that are given: ones; and how much water the free zone holds. */
+/* Where the n particles are that are given: ones; and how much water the free zone holds. The first
+ * put needs no new positions: those of the particles have just been moved. */
 static void give_surface(struct sph *s, int n, double t)
 {
     const struct sph_link *k = s->zones->ctx;
@@ -262,7 +279,8 @@ static void give_surface(struct sph *s, int n, double t)
 }
 
 /* Particles of the free zone and the blended ones; never buffer particles, which would give the
- * partner its own values back. */
+ * partner its own values back. Positions are wrapped into the domain; ids make the partner's sums
+ * independent of the partition. */
 void sph_coupling_window_end(void *state, double t1)
 {
     struct sph *s = state;

@@ -20,7 +20,8 @@
 #include "../open_boundaries/zones.h"
 #include "../particles/params_derived.h"
 
-/* A window of accuracy: U T/L of the flow; omega T of waves, which add up errors over periods. */
+/* Bounds of T for accuracy: U T/L of the flow; omega T of waves, whose errors add up over
+ * periods. */
 static const double flow_share = 0.03, wave_share = 0.1;
 /* Sound that no open side lets go is fed by what is late in the pressure outside: with omega T of
  * 1.1 it grew tenfold in 0.1 s, and with longer memories as fast. */
@@ -37,6 +38,8 @@ static const double most_way = 24.0; /* R/c0: longer ones were never tried */
 
 static double length_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+/* Largest speed that walls and bodies are given, m/s: translation plus spin times the farthest
+ * vertex. */
 static double speed_of_bodies(const struct scene *c)
 {
     double U = 0.0;
@@ -61,6 +64,9 @@ static bool is_given(const struct run *r, const char *key)
     return r->params && params_given(r->params, key); /* a test has a scene without a case */
 }
 
+/* Sets U, L, omega and weight. U: of the initial field, of what moves, or of long waves sqrt(g H),
+ * 0.1 c0 if nothing else is known; L: the smallest side of the box, or the field's own wave
+ * length. */
 static void scales(const struct run *r, const struct sph_params *prm, struct windows *w)
 {
     const struct scene *c = &r->scene;
@@ -109,7 +115,8 @@ static double lateral(const struct run *r, const struct sph_params *prm, const b
 }
 
 /* Added mass that SPH feels at one side, of the partner's region between its forced cells and a
- * wall d behind them, by potential theory: coth(k d)/k there, cosh along the overlap D. */
+ * wall d behind them, by potential theory: coth(k d)/k there, cosh along the overlap D. m: per area
+ * and density. Along the overlap D the motion decays as cosh or exp. */
 static double mass_at(const struct run *r, const struct sph_params *prm, const bool *open, int side,
                       double D)
 {
@@ -137,6 +144,7 @@ static double mass_at(const struct run *r, const struct sph_params *prm, const b
     return cosh(k * beyond) / sinh(k * (beyond + D)) / k;
 }
 
+/* The side with the largest added mass counts. */
 static void find_gain(const struct run *r, const struct sph_params *prm, struct windows *w)
 {
     double transition, buffer, free[2][3], given[2][3];
@@ -153,9 +161,11 @@ static void find_gain(const struct run *r, const struct sph_params *prm, struct 
         }
 }
 
+/* 1 at memory 1. */
 double windows_smoothed(int memory) { return (2.0 * memory - 1.0) / ((double)memory * memory); }
 
-/* Least memory m with G (2 m - 1)/m^2 below the limit; two windows smooth next to nothing. */
+/* Least memory m with G (2 m - 1)/m^2 below the limit; two windows smooth next to nothing. Solves
+ * m^2 - 2 g m + g >= 0 for the least m, with g = G/limit. */
 static int memory_for(double gain)
 {
     if (gain <= gain_raw)
@@ -191,6 +201,7 @@ static double sound_time(const struct run *r, const struct sph_params *prm)
     return sqrt(height * over + 4.0 / (M_PI * M_PI) * height * height) / prm->c0;
 }
 
+/* T becomes the bound if that is shorter, and `limit' names it. */
 static void shorten(struct windows *w, double T, const char *limit)
 {
     if (T < w->T) {
@@ -199,7 +210,7 @@ static void shorten(struct windows *w, double T, const char *limit)
     }
 }
 
-/* Of fv.cells, m; INFINITY: blocks. */
+/* Smallest width of fv's uniform cells, m; INFINITY: blocks. */
 static double least_cell(const struct run *r)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -213,6 +224,8 @@ static double least_cell(const struct run *r)
     return h;
 }
 
+/* T is the shortest of the bounds, in whole nominal steps (dt at rest); memory smooths what gain is
+ * left. */
 struct windows windows_choose(const struct run *r, const struct sph_params *prm)
 {
     const struct scene_coupling *c = &r->scene.coupling;
@@ -242,6 +255,7 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     return w;
 }
 
+/* Tries c0 in steps of 5 %, each with T chosen anew. */
 double windows_c0(const struct run *r, const struct sph_params *prm)
 {
     struct sph_params other = *prm;
@@ -271,6 +285,7 @@ static void advise(const struct run *r, const struct sph_params *prm, const stru
                  w->gain, gain_most, mend);
 }
 
+/* left: the gain after smoothing. */
 void windows_describe(const struct run *r, const struct sph_params *prm)
 {
     const struct windows w = windows_choose(r, prm);
@@ -296,6 +311,8 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
     advise(r, prm, &w);
 }
 
+/* Three faults: T too long for extrapolation, a loop that is unstable even when smoothed, and
+ * smoothing that takes as long as a wave. */
 void windows_check(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
     const struct windows w = windows_choose(r, prm);
