@@ -6,7 +6,7 @@
 
 #include "../fv.h"
 
-/* Pressure of cell c at s->t, Pa, hydrostatic part included. */
+/* Pressure of cell c at s->t, Pa, without the hydrostatic part, which fv_still_pressure has. */
 double fv_pressure(const struct fv *s, int64_t c);
 /* The hydrostatic part at x, Pa. */
 double fv_still_pressure(const struct fv *s, const double *x);

@@ -16,7 +16,6 @@ struct grid {
     struct mesh *mesh;  /* blocks; NULL: even cells */
 };
 
-/* grid.c: places of cell `at' of a part. */
 /* grid.c: position of cell `at' of a part, m: its centre, on blocks its centroid, behind their
  * sides the centre of its map. */
 void grid_centre(const struct grid *g, const struct part *p, const int *at, double x[3]);

@@ -1,5 +1,9 @@
 /* block_ops.c - the operators of a stage on structured blocks of any shape that are joined or
- * overlap. SPDX-License-Identifier: BSD-3-Clause */
+ * overlap. Fills the table flow_ops for blocks: what the integrators of fv/time call in each stage,
+ * in the order of the table. The arithmetic is in mesh_ops.c; here are the ghosts and neighbours
+ * that each operator needs: halo and fringe (mesh_fill), sides (mesh_bc_*), imposed cells (given_*,
+ * forcing_*) and the surface. In 2D and 3D alike; every function that fills ghosts is collective.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
 #include "../boundary/forcing.h"
@@ -14,6 +18,8 @@
 
 static const int none[3] = {0, 0, 0};
 
+/* Needed with the upwind bias or with overlaps alone: elsewhere nothing excites the odd-even
+ * mode. */
 static bool smooth_pressure(struct fv *s)
 {
     if (!(s->prm.upwind > 0.0) && !s->m->has_fringe)
@@ -22,6 +28,7 @@ static bool smooth_pressure(struct fv *s)
     return true;
 }
 
+/* Imposed cells continue p by a cubic. */
 static void pressure_gradient(struct fv *s, double *p, double *const g[3])
 {
     mesh_bc_pressure(s, p);
@@ -30,6 +37,9 @@ static void pressure_gradient(struct fv *s, double *p, double *const g[3])
         given_gradient(s, CONTINUE_CUBIC, p, g);
 }
 
+/* The right side is 0 in cells that are not computed. Where volumes differ, averages over volumes
+ * become averages over indices, whose neighbours must be known: hence halo, surface, imposed cells
+ * and sides before mesh_to_index. */
 static void to_index(struct fv *s)
 {
     for (int a = 0; a < s->dim; a++)
@@ -51,7 +61,8 @@ static void to_index(struct fv *s)
 
 static void viscous(struct fv *s, int q, double *out) { mesh_viscous(s, s->u[q], out); }
 
-/* The increment of the stage before, scaled, is the start. */
+/* The increment of the stage before, scaled, is the start. Imposed cells start with what they
+ * change from s->u to time t. */
 static bool solve_viscous(struct fv *s, double c, double t, double scale)
 {
     const double share = viscous_keeps_increment(s) ? scale : 0.0;
@@ -73,6 +84,7 @@ static double *divergence(struct fv *s, double tau)
     return s->flux;
 }
 
+/* Ghosts of psi at sides have zero gradient; imposed cells mirror their computed neighbours. */
 static void psi_ghosts(struct fv *s, double *psi)
 {
     if (s->forcing)
@@ -82,6 +94,8 @@ static void psi_ghosts(struct fv *s, double *psi)
     mesh_bc_even(s, true, psi);
 }
 
+/* First the fluxes, by the same differences as the pressure matrix, so that div U = 0 to the
+ * solver's tolerance; then grad psi for the cells, in rhs, by the fourth-order gradient. */
 static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     mesh_subtract_psi(s, tau, psi, s->U);
@@ -95,6 +109,7 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         surface_mesh_psi_gradient(s, tau, psi, false, s->rhs);
 }
 
+/* As the second half of correct_fluxes, for a change of psi; nothing is imposed at outflows. */
 static void change_gradient(struct fv *s, double *phi, double *const g[3])
 {
     mesh_gradient(s, phi, g);
@@ -104,6 +119,7 @@ static void change_gradient(struct fv *s, double *phi, double *const g[3])
         surface_mesh_psi_gradient(s, 1.0, phi, true, g);
 }
 
+/* layer[c] is 0 in water: both cells beside the face must be dry. Sides are set last. */
 static void dry_fluxes(struct fv *s)
 {
     const unsigned char *layer = s->surface->layer;
@@ -125,7 +141,8 @@ static void dry_fluxes(struct fv *s)
 
 /* Into most: largest sum over the indices of the rates of crossing cells, 1/s; square of the
  * largest speed; what forces add to the rate in a second; largest speed times a cell's size. Of a
- * part whose cells are all alike and at rest. false: some value is not finite. */
+ * part whose cells are all alike and at rest. false: some value is not finite. most[0 .. 3] are
+ * raised, so that all parts can share them. */
 static bool measure_alike(const struct fv *s, const struct part *p, double push, double most[4])
 {
     const struct mesh *m = s->m;
@@ -159,7 +176,8 @@ static bool measure_alike(const struct fv *s, const struct part *p, double push,
     return bad == 0;
 }
 
-/* The same of all parts. */
+/* The same of all parts. Then over sides and moving blocks, and over all ranks by one reduction. On
+ * blocks only s->max.u[0] is set, the largest |u|. */
 static void measure_blocks(struct fv *s, double push, double motion)
 {
     const struct mesh *m = s->m;
@@ -177,6 +195,7 @@ static void measure_blocks(struct fv *s, double push, double motion)
                 if (s->free[i] == 0.0)
                     continue;
                 for (int a = 0; a < m->dim; a++) {
+                    /* the cell moves, too: what crosses its faces is relative to their own flux */
                     double F = moves ? -0.5 * (m->grid[a][i] + m->grid[a][i + p->stride[a]]) : 0.0,
                            G = 0.0, S2 = 0.0;
                     for (int k = 0; k < m->dim; k++) {

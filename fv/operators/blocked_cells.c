@@ -1,4 +1,10 @@
-/* blocked_cells.c - see blocked_cells.h. SPDX-License-Identifier: BSD-3-Clause */
+/* blocked_cells.c - corrections of the operators beside boxes that are cut out of uniform cells.
+ * The operators run over all cells as if there were no boxes; then the few cells and faces whose
+ * stencils reach into one (lists near and beside of blocked.h) are done again here. A stencil's
+ * line v[-2 .. 2] is continued behind a box's face by ghosts that follow from the cells before it
+ * (blocked_ghost): zero gradient, antisymmetric, no-slip or linear. Cost is proportional to the
+ * boxes' surface.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "blocked_cells.h"
 
 #include <math.h>
@@ -6,6 +12,7 @@
 #include "../boundary/forcing.h"
 #include "../surface/levelset.h"
 
+/* The ghosts' rule below and above a cell near boxes, for component q along axis a. */
 static void rules(const struct fv *s, const struct near_box *x, int q, int a,
                   enum blocked_ghost rule[2])
 {
@@ -13,7 +20,8 @@ static void rules(const struct fv *s, const struct near_box *x, int q, int a,
         rule[up] = blocked_rule(s, x->box[up], q, a);
 }
 
-/* On the lower face of v[0]; with the bias of convection.c. */
+/* On the lower face of v[0]; with the bias of convection.c. U and C as there; C = 0: the plain
+ * fourth-order value. */
 static double face_value(const double *v, double U, double C)
 {
     const double plain = (7.0 * (v[-1] + v[0]) - (v[-2] + v[1])) / 12.0;
@@ -22,7 +30,8 @@ static double face_value(const double *v, double U, double C)
     return C > 0.0 ? plain + copysign(fmin(1.0, C * r * r) / 12.0, U) * d : plain;
 }
 
-/* On the face of a box behind the free cell at q. */
+/* On the face of a box behind the free cell at q. Zero gradient: (7 q_0 - q_1)/6 is the mean of (7
+ * (q + q) - (q + q))/12 with mirrored ghosts; 0 where nothing passes. */
 static double wall_value(const double *q, int64_t in, enum blocked_ghost rule)
 {
     return rule == GHOST_EVEN ? (7.0 * q[0] - q[in]) / 6.0 : 0.0;
@@ -75,7 +84,8 @@ void blocked_face_velocities(const struct fv *s, double *const u[3], double *con
     }
 }
 
-/* What the product along t is beside a box, less what it was with the numbers within the box. */
+/* What the product along t is beside a box, less what it was with the numbers within the box. The
+ * correction of 1/48 (U_t+1 - U_t-1)(f_t+1 - f_t-1), see convection.c. */
 static double product(const struct beside_box *x, const double *U, const double *f,
                       enum blocked_ghost of_U, enum blocked_ghost of_f)
 {
@@ -87,6 +97,8 @@ static double product(const struct beside_box *x, const double *U, const double 
     return (V[in] - blocked_ghost(V, in, 1, of_U)) * (g[in] - blocked_ghost(g, in, 1, of_f)) - was;
 }
 
+/* First the products along the tangents t, then the fluxes through the boxes' own faces, which are
+ * 0. */
 void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const double *face,
                     double *F)
 {
@@ -108,6 +120,7 @@ void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const dou
     }
 }
 
+/* Adds what the true ghosts change of nu/(12 h^2) (16 (q_1 + q_-1) - (q_2 + q_-2) - 30 q_0). */
 void blocked_viscous(const struct fv *s, int q, const double *u, double *out)
 {
     const struct blocked *w = s->blocked;
@@ -136,7 +149,8 @@ void blocked_zero(const struct fv *s, double *q)
 }
 
 /* psi on the face beside the cell m cells along the step e from c, (7 psi_1 - psi_2)/6; even behind
- * boxes and closed sides. */
+ * boxes and closed sides. m runs along the face from c in steps of e; where cells end before m the
+ * last ones are mirrored. */
 static double on_face(const struct fv *s, const double *psi, int64_t c, int64_t in, int64_t e,
                       int m)
 {
@@ -151,6 +165,7 @@ static double on_face(const struct fv *s, const double *psi, int64_t c, int64_t 
     return solid[c + at * e + in] ? p[0] : (7.0 * p[0] - p[in]) / 6.0;
 }
 
+/* The tangential slope of psi on the face, fourth order, times tau; component a, across, is 0. */
 void blocked_set_slip(const struct fv *s, double tau, const double *psi)
 {
     const struct blocked *w = s->blocked;
@@ -172,7 +187,8 @@ void blocked_set_slip(const struct fv *s, double tau, const double *psi)
             }
 }
 
-/* Ghosts of a value w on the face have 4 w and 16 w more (blocked_ghost). */
+/* Ghosts of a value w on the face have 4 w and 16 w more (blocked_ghost). Hence 16*4 - 16 in the
+ * first cell and -4 in the second, with the weights of the Laplacian. */
 void blocked_add_slip(const struct fv *s, int q, double *out)
 {
     const struct blocked *w = s->blocked;

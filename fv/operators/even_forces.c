@@ -7,11 +7,13 @@
 #include "../surface/levelset.h"
 #include "operators.h"
 
-/* Whether the cell holds no water; whether none stands at the wall, beyond the cell's centre. */
+/* Whether the cell holds no water. */
 static bool is_dry(const struct fv *s, int64_t c)
 {
     return s->surface && s->surface->layer[c] != 0;
 }
+/* Whether no water stands at the wall: the level set, extrapolated from the first two cells to the
+ * face by half a cell, is positive there. */
 static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
 {
     return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
@@ -24,8 +26,8 @@ static double wall_pressure(const double p[3], bool slip)
     return slip ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
 }
 
-/* 12 h times the slope, outwards, of u in the cell beside a wall: ghosts stand behind sides, none
- * behind boxes. */
+/* 12 h times the slope of u along `in', i.e. inwards, in the cell beside a wall; ghosts stand
+ * behind sides, those behind boxes are made here. */
 static double slope_at(const double *u, const struct side_face *f)
 {
     const double first = f->body ? blocked_ghost(u, f->in, 1, GHOST_NO_SLIP) : u[-f->in];
@@ -34,7 +36,9 @@ static double slope_at(const double *u, const struct side_face *f)
 }
 
 /* The fluxes of the momentum equation, so that walls take what the flow loses. A dry wall feels
- * nothing; beside one that is wet the cell's own pressure counts. */
+ * nothing; beside one that is wet the cell's own pressure counts. With p the pressure on the wall,
+ * out the outward direction and d/dn inwards,
+ *   F_a += out A (p + rho g.(x - level) + p_partners),   F_q += A mu du_q/dn. */
 void even_face_force(const struct fv *s, const struct side_face *f, double sum[4])
 {
     const struct block *b = &s->b;
@@ -61,7 +65,8 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
 }
 
 /* The fluxes of energy, of pressure and of friction on the face: values there by the scheme's own
- * interpolation into the ghosts, pressure by the cubic. */
+ * interpolation into the ghosts, pressure by the cubic. -out U (u^2/2 + p/rho) A - nu A sum u
+ * du/dn, m^(dim+2)/s^3: positive where energy comes in. */
 double even_face_power(const struct fv *s, const struct side_face *f)
 {
     const double out = f->side % 2 ? 1.0 : -1.0, rho = s->run->scene.fluid.rho;

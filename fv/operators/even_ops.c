@@ -1,5 +1,9 @@
-/* even_ops.c - the operators of a stage on uniform cells and on layers, with imposed cells, boxes
- * that are cut out and a free surface. SPDX-License-Identifier: BSD-3-Clause */
+/* even_ops.c - the operators of a stage on uniform cells and on layers. Fills the table flow_ops
+ * for them, with imposed cells, boxes that are cut out and a free surface; convection.c, viscous.c
+ * and gradient.c have the stencils. psi_ghosts and to_index are NULL: the solver sets the ghosts of
+ * psi itself, and averages over volumes are those over indices. Loops go over the cells near water
+ * alone (BLOCK_NEAR).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
@@ -12,6 +16,7 @@
 #include "helmholtz.h"
 #include "operators.h"
 
+/* Only the one-sided differences at sides and boxes excite the odd-even mode. */
 static bool smooth_pressure(struct fv *s)
 {
     if (!s->bc && !s->blocked)
@@ -26,6 +31,7 @@ static void pressure_gradient(struct fv *s, double *p, double *const g[3])
         gradient(s, p, a, CONTINUE_CUBIC, g[a]);
 }
 
+/* What the projection will take off the velocity along walls and boxes. */
 static void set_slip(const struct fv *s, double tau, const double *psi)
 {
     bc_set_slip(s, tau, psi);
@@ -41,7 +47,7 @@ static void viscous(struct fv *s, int q, double *out)
 }
 
 /* The increment that forced cells make from one time to another, the start of all others: `scale'
- * times the last stage's. */
+ * times the last stage's. Imposed cells and sides start with the change of their own values. */
 static void start_increment(struct fv *s, double t, double scale)
 {
     for (int a = 0; a < s->dim; a++)
@@ -67,6 +73,7 @@ static void face_velocities(struct fv *s, double *const u[3], double *const U[3]
     convection_face_velocities(s, u, U);
 }
 
+/* div (+)= w (U_upper - U_lower) for a row of n cells, w = 1/(h tau). */
 static void divide_row(const double *restrict U, int64_t d, double w, bool first, int64_t n,
                        double *restrict div)
 {
@@ -74,7 +81,8 @@ static void divide_row(const double *restrict U, int64_t d, double w, bool first
         div[i] = (first ? 0.0 : div[i]) + w * (U[i + d] - U[i]);
 }
 
-/* D U over the local cells, divided by tau; with the surface's pressure. */
+/* D U over the local cells, divided by tau; with the surface's pressure. In rhs[0], as
+ * poisson_solve wants it. */
 static double *divergence(struct fv *s, double tau)
 {
     const struct block *b = &s->b;
@@ -92,6 +100,7 @@ static double *divergence(struct fv *s, double tau)
     return div;
 }
 
+/* U -= w open (psi - psi_lower); open NULL: all faces are open. */
 static void subtract_row(double *restrict U, const double *restrict psi, int64_t d, double w,
                          const double *restrict open, int64_t n)
 {
@@ -103,6 +112,8 @@ static void subtract_row(double *restrict U, const double *restrict psi, int64_t
             U[i] -= w * (psi[i] - psi[i - d]);
 }
 
+/* U by second-order differences, as the matrix has them; grad psi into rhs by fourth order. Faces
+ * of imposed cells are closed (open = 0), the surface's have their own coefficients. */
 static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     const struct block *b = &s->b;
@@ -121,6 +132,7 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
     }
 }
 
+/* Of a change of psi, with nothing imposed. */
 static void change_gradient(struct fv *s, double *phi, double *const g[3])
 {
     for (int a = 0; a < s->dim; a++) {
@@ -130,6 +142,7 @@ static void change_gradient(struct fv *s, double *phi, double *const g[3])
     }
 }
 
+/* U of faces between dry cells from the extended velocity, then sides. */
 static void dry_fluxes(struct fv *s)
 {
     surface_dry_fluxes(s);
@@ -160,6 +173,7 @@ static void measure_row(const double *restrict u, const double *restrict v,
     most[3] = bad ? INFINITY : fmax(most[3], all);
 }
 
+/* weight 1/h along each axis; push and motion are for blocks. Collective. */
 static void measure_even(struct fv *s, double push, double motion)
 {
     const struct block *b = &s->b;

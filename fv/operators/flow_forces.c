@@ -1,5 +1,8 @@
 /* flow_forces.c - forces on walls and bodies, and the work that comes in through sides: sums over
- * their faces, whatever the cells. SPDX-License-Identifier: BSD-3-Clause */
+ * their faces, whatever the cells. One loop over faces (sides_visit) calls the kind of cells' own
+ * face_force or face_power; bodies are boxes that are cut out or blocks. Called for rows of the
+ * series and, for the power, by the watch of the energy.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <assert.h>
 #include <string.h>
 
@@ -14,11 +17,13 @@ static_assert((int)FLOW_BODIES_MAX >= (int)BLOCKED_MAX &&
                   (int)FLOW_BODIES_MAX >= (int)MESH_BLOCKS_MAX,
               "a body is a box or a block");
 
+/* Blocks, of which those without a wall have no force, or boxes. */
 int flow_bodies(const struct fv_params *prm)
 {
     return prm->blocks.n > 0 ? prm->blocks.n : prm->nboxes;
 }
 
+/* Both pressures: fv_pressure extrapolates them in time. */
 static void pressure_ghosts(struct fv *s)
 {
     double *both[2] = {s->p, s->p_before};
@@ -32,6 +37,7 @@ struct forces {
     double sum[1 + FLOW_BODIES_MAX][4]; /* on walls that are no body's; on each body */
 };
 
+/* Walls only; sum[0] collects those that are no body's. */
 static void add_force(const struct side_face *f, void *with)
 {
     struct forces *x = with;
@@ -39,6 +45,7 @@ static void add_force(const struct side_face *f, void *with)
         x->s->ops->face_force(x->s, f, x->sum[f->body]);
 }
 
+/* all is what the bodies and all other walls feel together. One reduction. */
 void flow_forces(struct fv *s, double (*body)[4], double all[4])
 {
     const int n = flow_bodies(&s->prm);
@@ -69,6 +76,7 @@ static void add_power(const struct side_face *f, void *with)
     x->sum += x->s->ops->face_power(x->s, f);
 }
 
+/* This rank's part; the caller sums. */
 double flow_power(struct fv *s)
 {
     struct power x = {.s = s};

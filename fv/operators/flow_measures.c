@@ -1,4 +1,8 @@
-/* flow_measures.c - see flow_measures.h. SPDX-License-Identifier: BSD-3-Clause */
+/* flow_measures.c - vorticity, divergence and averages for outputs, on any cells. Derivatives are
+ * those of the scheme: on uniform cells and layers fourth order from averages, on blocks by Gauss's
+ * theorem with the fourth-order face values of mesh_gradient, where a single cell's curl suffices
+ * by those of second order. Called by fv/output and the watches.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "flow_measures.h"
 
 #include <math.h>
@@ -11,6 +15,7 @@
 
 static const int none[3] = {0, 0, 0};
 
+/* w = dv/dx - du/dy, averages over cells. */
 static void vorticity_of_even(const struct fv *s, double *w)
 {
     const struct block *b = &s->b;
@@ -19,6 +24,8 @@ static void vorticity_of_even(const struct fv *s, double *w)
             w[i] = block_derivative(b, s->u[1] + i, 0, j) - block_derivative(b, s->u[0] + i, 1, j);
 }
 
+/* Two gradients, of which one component each is kept; then averages over indices, which errors and
+ * pictures are made of, need ghosts of w. Collective. */
 static void vorticity_of_blocks(struct fv *s, double *w)
 {
     const struct mesh *m = s->m;
@@ -46,6 +53,7 @@ void flow_vorticity(struct fv *s, double *w)
         vorticity_of_even(s, w);
 }
 
+/* Component a of the curl is d_p u_q - d_q u_p with (a, p, q) cyclic. */
 static double curl_in_even(const struct fv *s, int64_t c)
 {
     const struct block *b = &s->b;
@@ -87,6 +95,7 @@ double flow_curl_squared(const struct fv *s, const struct part *p, int64_t c)
     return s->m ? curl_in_blocks(s, p, c) : curl_in_even(s, c);
 }
 
+/* Largest |div U| of this rank's computed cells, 1/s; imposed and dry ones are left out. */
 static double divergence_of_even(const struct fv *s)
 {
     const struct block *b = &s->b;
@@ -103,6 +112,7 @@ static double divergence_of_even(const struct fv *s)
     return most;
 }
 
+/* The same on blocks; holes and fringe count as 0. */
 static double divergence_of_blocks(struct fv *s)
 {
     double most = 0.0;

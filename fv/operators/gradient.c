@@ -1,9 +1,13 @@
-/* gradient.c - fourth-order cell gradient of a pressure. SPDX-License-Identifier: BSD-3-Clause */
+/* gradient.c - fourth-order cell gradient of a pressure. g = (8 (q_1 - q_-1) - (q_2 - q_-2))/(12 h)
+ * from averages; in layers weights of their own. Beside imposed cells forcing_gradient replaces the
+ * stencil, continued as `how' says.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
 #include "../boundary/forcing.h"
 #include "operators.h"
 
+/* A row of n cells, c = 1/(12 h). */
 static void row(const double *restrict q, int64_t along, double c, int64_t n, double *restrict out)
 {
     for (int64_t i = 0; i < n; i++)

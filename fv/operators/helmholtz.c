@@ -1,6 +1,9 @@
 /* helmholtz.c - see helmholtz.h. Conjugate gradients where the operator is symmetric; Chebyshev's
  * iteration (Saad, Iterative Methods for Sparse Linear Systems, 2003, alg. 12.1), no sums and one
- * pass over the fields a step, where the spectrum is known; else BiCGStab (van der Vorst 1992).
+ * pass over the fields a step, where the spectrum is known; else BiCGStab (van der Vorst 1992). The
+ * equation (1 - c nu Lap) x = r comes from implicit viscosity, c about dt times a stage's
+ * coefficient: its spectrum begins at 1 and ends at 1 + c largest, so that few iterations are
+ * needed. All components are solved together. s->totals counts the iterations.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "helmholtz.h"
 
@@ -10,6 +13,8 @@
 #include "../../common/base/lanes.h"
 #include "viscous_solver.h"
 
+/* fv.tol_viscous if given; else 1e-3 (blocks 1e-4, partners 1e-5), falling as 1/n^2 beyond 32 cells
+ * a side. */
 double helmholtz_tolerance(const struct fv *s)
 {
     const double side = 32.0 / s->viscous->cells_a_side;
@@ -53,6 +58,7 @@ static void dots(const struct fv *s, double *const x[3], double *const y[3], dou
     MPI_Allreduce(MPI_IN_PLACE, sums, z ? 2 : 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
+/* One product and two reductions an iteration. NaN ends it with false. */
 bool helmholtz_cg(const struct helmholtz *h, double *const delta[3], double *const r[3], double rr,
                   double goal)
 {
@@ -79,7 +85,8 @@ bool helmholtz_cg(const struct helmholtz *h, double *const delta[3], double *con
     return false;
 }
 
-/* p, r0, v, t: the paper's. */
+/* p, r0, v, t: the paper's. Two products and three reductions an iteration; h->zero keeps what
+ * products leave outside of the solved cells from the residual. */
 bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], double *const r[3],
                         double rr, double goal)
 {
@@ -122,7 +129,8 @@ bool helmholtz_bicgstab(const struct helmholtz *h, double *const delta[3], doubl
     return false;
 }
 
-/* A r is r - c L r, so that r + c L r = 2 r - A r. */
+/* delta += r + c L r = 2 r - A r, one term of Neumann's series more than r itself; see
+ * helmholtz_is_weak. */
 void helmholtz_once(const struct helmholtz *h, double *const delta[3], double *const r[3])
 {
     double *const *Ar = h->work[0];
@@ -134,6 +142,7 @@ void helmholtz_once(const struct helmholtz *h, double *const delta[3], double *c
     h->s->totals.viscous_iterations++;
 }
 
+/* Chebyshev's iteration for the interval [1, most]: sigma = (most + 1)/(most - 1). */
 static struct helmholtz_course course_of(const struct helmholtz *h)
 {
     const double most = 1.0 + h->c * h->largest, sigma = (most + 1.0) / (most - 1.0);
@@ -148,11 +157,13 @@ void helmholtz_next(struct helmholtz_course *k)
     k->rho = next;
 }
 
+/* From cosh(n arcosh sigma) >= sqrt(rr/goal). */
 int helmholtz_steps(const struct helmholtz *h, double rr, double goal)
 {
     return (int)ceil(acosh(sqrt(rr / goal)) / acosh(course_of(h).sigma));
 }
 
+/* Exchanges the roles of two sets of fields. */
 static void swap(double *a[3], double *b[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -177,7 +188,9 @@ static void start(const struct fv *s, double f, double *const x[3], double *cons
     }
 }
 
-/* A sum is of the x before its step, which takes rho off what is left. */
+/* A sum is of the x before its step, which takes rho off what is left. The residual is only summed
+ * near the expected end; twice the expected steps without success mean that the bounds do not hold,
+ * and the caller takes another method, from the same delta. */
 bool helmholtz_chebyshev(const struct helmholtz *h, double *const delta[3], double *const r[3],
                          double rr, double goal,
                          double (*at_once)(struct fv *s, struct helmholtz_course *k, int n,

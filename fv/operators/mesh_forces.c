@@ -8,7 +8,8 @@
 #include "../surface/levelset.h"
 #include "mesh_ops.h"
 
-/* Slopes across and along the face at f of a field with ghosts, at the place of the face. */
+/* Derivatives of u with respect to the indices at the face f of a side, from cells and ghosts,
+ * fourth order: across it (15 (q_0 - q_-1) - (q_1 - q_-2))/12, along it from five face values. */
 static void face_slopes(const struct mesh *m, const struct side_face *d, int64_t f, const double *u,
                         double *slope)
 {
@@ -27,7 +28,8 @@ static void face_slopes(const struct mesh *m, const struct side_face *d, int64_t
     }
 }
 
-/* At xi of the tangents within the face: its place, and dx the mapping's slopes there. */
+/* At xi of the tangents within the face: its place, and dx the mapping's slopes there. xi of the
+ * side's own axis is 0 or 1. */
 static void place_on(const struct fv *s, const struct side_face *d, double xi[3], double x[3],
                      double dx[3][3])
 {
@@ -39,7 +41,8 @@ static void place_on(const struct fv *s, const struct side_face *d, double xi[3]
     mesh_map_point(s->m->block + d->part->block, s->m->dim, at, xi, x, dx);
 }
 
-/* Place, pressure (Pa) and velocity gradient on one face. */
+/* Position, pressure (Pa) and velocity gradient g[q][e] = du_q/dx_e in the middle of a face. grad
+ * xi comes from the cofactors of the mapping's slopes. */
 static void face_state(const struct fv *s, const struct side_face *d, double x[3], double *pressure,
                        double g[3][3])
 {
@@ -71,7 +74,8 @@ static double face_pressure(const struct fv *s, int64_t f, int64_t a)
            12.0;
 }
 
-/* nu <G_ab dq/dxi_b> of the face, as mesh_viscous has it. */
+/* nu <G_ab dq/dxi_b> of the face, as mesh_viscous has it. Products of averages along the face are
+ * corrected as in mesh_ops.c. */
 static double viscous_flux(const struct fv *s, const struct side_face *d, const double *q)
 {
     const struct mesh *m = s->m;
@@ -95,7 +99,8 @@ static double viscous_flux(const struct fv *s, const struct side_face *d, const 
 
 /* Share of a face that is below the level set's 0, straight between its ends; xi: middle of that
  * share, in the face's cell. Along the second tangent at Gauss points. Without a surface all of it.
- */
+ * / phi is taken linear on the face, from four cells around; its mean over the two cells beside the
+ * face is that at the face. */
 static double wet_share(const struct fv *s, const struct side_face *d, double xi[3])
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
@@ -132,7 +137,7 @@ static double still_on_face(const struct fv *s, const struct side_face *d, doubl
     return fv_still_pressure(s, x) + s->partners.pressure;
 }
 
-/* On a slip wall no friction. */
+/* On a slip wall there is no friction: keeps the component of the force along S. */
 static void keep_normal(const struct fv *s, const struct side_face *d, double *force)
 {
     const int64_t f = d->face;
@@ -147,7 +152,9 @@ static void keep_normal(const struct fv *s, const struct side_face *d, double *f
 
 /* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. p S and grad u S are the
  * fluxes of the momentum equation. Of grad u^T S the slopes across the wall are 0 by continuity;
- * those along it remain where it turns. Of a face that the surface crosses the wet share. */
+ * those along it remain where it turns. Of a face that the surface crosses the wet share. Cells
+ * that are not computed exert no force; with a surface dry faces have share 0. The moment is about
+ * the block's centre as it has moved. */
 void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4])
 {
     const struct mesh *m = s->m;
@@ -189,6 +196,7 @@ void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4
         sum[q] += force[q];
 }
 
+/* out (nu u.(grad u) S - U (u^2/2 + p/rho)), outwards S; slip walls do no work. */
 double mesh_face_power(const struct fv *s, const struct side_face *d)
 {
     const struct mesh *m = s->m;

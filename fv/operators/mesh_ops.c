@@ -25,6 +25,7 @@ static void layers(int dim, int a, int t, int down[3], int up[3])
     up[a] = 1;
 }
 
+/* Strides d and axes of the tangents of a; returns their number, dim - 1. */
 static int tangents(const struct part *p, int dim, int a, int64_t d[2], int axis[2])
 {
     int n = 0;
@@ -36,12 +37,14 @@ static int tangents(const struct part *p, int dim, int a, int64_t d[2], int axis
     return n;
 }
 
+/* Face values of a row of n faces with stride s. */
 static void face_row(const double *restrict q, int64_t s, int64_t n, double *restrict out)
 {
     for (int64_t i = 0; i < n; i++)
         out[i] = (7.0 * (q[i - s] + q[i]) - (q[i - 2 * s] + q[i + s])) * (1.0 / 12.0);
 }
 
+/* Face values of q on the lower faces along a of a part, with t layers of tangents. */
 static void face_values(const struct part *p, int dim, int a, int t, const double *q, double *out)
 {
     int down[3], up[3];
@@ -63,7 +66,9 @@ static void bias_row(const double *restrict q, const double *restrict U, int64_t
     }
 }
 
-/* F += eps |U| times the third difference of q, |U| smooth where it is small beside U0 |S|. */
+/* F += eps |U| times the third difference of q, |U| smooth where it is small beside U0 |S|.
+ * Newton's convection on blocks alone: eps is fv.dissipation, and |U| is smoothed so that Newton's
+ * iteration has a derivative at U = 0. */
 static void add_dissipation(const double *restrict q, const double *restrict U,
                             const double *restrict G, const double *restrict V, int64_t s,
                             int64_t n, double eps, double U0, double *restrict F)
@@ -75,7 +80,7 @@ static void add_dissipation(const double *restrict q, const double *restrict U,
     }
 }
 
-/* out (+)= <a b> on a row of faces. */
+/* out (+)= <a b> on a row of faces. nt tangents; the form for one of them, 2D, is one pass. */
 static void product_row(const double *restrict a, const double *restrict b, const int64_t *tangent,
                         int nt, int64_t n, bool first, double *restrict out)
 {
@@ -98,6 +103,7 @@ static void product_row(const double *restrict a, const double *restrict b, cons
     }
 }
 
+/* out (+)= F_upper - F_lower over the cells of a part. */
 static void add_difference(const struct part *p, int a, const double *restrict F, bool first,
                            double *restrict out)
 {
@@ -112,6 +118,7 @@ static void add_difference(const struct part *p, int a, const double *restrict F
                 out[i] += F[i + s] - F[i];
 }
 
+/* out *= free/V: 0 in cells that are not computed. */
 static void per_volume(const struct fv *s, const struct part *p, double *restrict out)
 {
     static const int none[3] = {0, 0, 0};
@@ -124,6 +131,7 @@ static void per_volume(const struct fv *s, const struct part *p, double *restric
 /* ---- on parts whose cells are all the same upright box: the sums above with what is 0 left out
  * ---- */
 
+/* U = S u_face; S is the same for all. */
 static void even_fluxes(const struct mesh *m, const struct part *p, int a, const double *u,
                         double *restrict U)
 {
@@ -136,6 +144,7 @@ static void even_fluxes(const struct mesh *m, const struct part *p, int a, const
             U[i] *= S;
 }
 
+/* Weights free S/(12 V) on differences of five averages. */
 static void even_gradient(const struct fv *s, const struct part *p, const double *q,
                           double *const g[3])
 {
@@ -153,6 +162,7 @@ static void even_gradient(const struct fv *s, const struct part *p, const double
     }
 }
 
+/* viscous_row with nu G/(12 V); cells that are not computed get 0 where there are any. */
 static void even_viscous(const struct fv *s, const struct part *p, const double *q,
                          double *restrict out)
 {
@@ -171,6 +181,7 @@ static void even_viscous(const struct fv *s, const struct part *p, const double 
     }
 }
 
+/* U -= tau G open (psi - psi_lower). */
 static void even_subtract(const struct mesh *m, const struct part *p, int a, double tau,
                           const double *restrict psi, const double *restrict open,
                           double *restrict U)
@@ -184,7 +195,8 @@ static void even_subtract(const struct mesh *m, const struct part *p, int a, dou
             U[i] -= w * open[i] * (psi[i] - psi[i - d]);
 }
 
-/* Whether component k of the faces along a is 0 throughout. */
+/* Whether component k of the faces along a is 0 throughout. So it is on upright cells, whose face
+ * vectors lie along the axes. */
 static bool is_zero(const struct part *p, int a, int k)
 {
     return p->kind == PART_UPRIGHT && k != a;
@@ -193,6 +205,8 @@ static bool is_zero(const struct part *p, int a, int k)
 /* ---- on all ------------------------------------------------------------------------------------
  */
 
+/* U_a = sum over k of <u_k S_ak>, on this rank's faces and one layer of tangents more. u with
+ * ghosts and fringe. */
 void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3])
 {
     const struct mesh *m = s->m;
@@ -219,7 +233,8 @@ void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3])
     }
 }
 
-/* Fluxes through the faces of a part: of one that moves relative to it, into rhs. */
+/* Fluxes through the faces of a part: of one that moves relative to it, into rhs. On parts that
+ * move U less the flux of the grid itself; the caller's U[3] point to them. */
 static void relative_fluxes(struct fv *s, const struct part *p, double *U[3])
 {
     const struct mesh *m = s->m;
@@ -233,6 +248,8 @@ static void relative_fluxes(struct fv *s, const struct part *p, double *U[3])
     }
 }
 
+/* N = div(U u)/V with relative fluxes, for each component and axis: face values, bias, walls,
+ * products, dissipation, difference. Scratch: faces[0], flux, rhs. */
 void mesh_convection(struct fv *s, double *const N[3])
 {
     const struct mesh *m = s->m;
@@ -269,6 +286,8 @@ void mesh_convection(struct fv *s, double *const N[3])
     }
 }
 
+/* Gauss's theorem: g_k = (1/V) sum over faces of <q S_k>. On upright parts each component has one
+ * axis. */
 void mesh_gradient(struct fv *s, const double *q, double *const g[3])
 {
     const struct mesh *m = s->m;
@@ -297,13 +316,15 @@ void mesh_gradient(struct fv *s, const double *q, double *const g[3])
     }
 }
 
+/* Slope across the faces of a row, fourth order. */
 static void normal_slope(const double *restrict q, int64_t s, int64_t n, double *restrict out)
 {
     for (int64_t i = 0; i < n; i++)
         out[i] = (15.0 * (q[i] - q[i - s]) - (q[i + s] - q[i - 2 * s])) * (1.0 / 12.0);
 }
 
-/* out += <G f_t> with the slope of the face values f along b; t: all tangents. */
+/* out += <G f_t> with the slope of the face values f along b; t: all tangents. b: stride of the
+ * tangent along which the slope is; its own G varies, too. */
 static void add_tangential(const double *restrict f, const double *restrict G, int64_t b,
                            const int64_t *tangent, int nt, int64_t n, double *restrict out)
 {
@@ -322,6 +343,7 @@ static void add_tangential(const double *restrict f, const double *restrict G, i
     }
 }
 
+/* (nu/V) sum over faces of <G_ab dq/dxi_b>; upright parts have no tangential slopes. */
 void mesh_viscous(struct fv *s, const double *q, double *out)
 {
     const struct mesh *m = s->m;
@@ -357,6 +379,7 @@ void mesh_viscous(struct fv *s, const double *q, double *out)
     }
 }
 
+/* 0 in cells that are not computed. */
 void mesh_divergence(const struct fv *s, double *const U[3], double *div)
 {
     const struct mesh *m = s->m;
@@ -371,6 +394,8 @@ void mesh_divergence(const struct fv *s, double *const U[3], double *div)
     }
 }
 
+/* Second order: normal difference, and on curved parts the mean of four tangential ones; G at the
+ * face. open: 0 on closed faces, with a surface its own coefficients. */
 void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *const U[3])
 {
     const struct mesh *m = s->m;
@@ -401,7 +426,8 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
     }
 }
 
-/* q += sign times the sum over the axes of dq dV/48 V. */
+/* q += sign times the sum over the axes of dq dV/48 V. Two passes, since q must not change while
+ * neighbours read it. Nothing to do where all volumes are equal. */
 static void shift_average(const struct fv *s, double sign, double *q, double *work)
 {
     static const int none[3] = {0, 0, 0};
@@ -431,6 +457,7 @@ static void shift_average(const struct fv *s, double sign, double *q, double *wo
 
 void mesh_to_index(const struct fv *s, double *q, double *work) { shift_average(s, -1.0, q, work); }
 
+/* q comes without ghosts: halo, fringe, imposed cells and sides are set here. Collective. */
 void mesh_to_volume(struct fv *s, double *q, double *work)
 {
     mesh_fill(s->m, 1, &q);
@@ -440,7 +467,8 @@ void mesh_to_volume(struct fv *s, double *q, double *work)
     shift_average(s, 1.0, q, work);
 }
 
-/* Third difference across the lower face, 0 where it leaves the cells. */
+/* Third difference across the lower face, 0 where it leaves the cells. Holes and cells behind sides
+ * end the fluid. */
 static double third(const double *q, const unsigned char *status, int64_t i, int64_t d)
 {
     const bool inside = status[i - 2 * d] < CELL_HOLE && status[i - d] < CELL_HOLE &&
@@ -448,7 +476,7 @@ static double third(const double *q, const unsigned char *status, int64_t i, int
     return inside ? q[i + d] - q[i - 2 * d] - 3.0 * (q[i] - q[i - d]) : 0.0;
 }
 
-/* bc.h: p -= 0.1 C'C p/64 along each axis. */
+/* p -= 0.1 C^T C p/64 along each axis, C the third difference along an index: see smooth.c. */
 void mesh_smooth_pressure(struct fv *s)
 {
     static const int none[3] = {0, 0, 0};

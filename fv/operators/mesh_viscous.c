@@ -18,7 +18,8 @@
 
 static const int none[3] = {0, 0, 0};
 
-/* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. */
+/* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. Scaling by
+ * the diagonal makes cells of very different size alike for BiCGStab. */
 static void apply(struct fv *s, double c, double *const x[3], double *const out[3])
 {
     const double *scale = s->viscous->scale;
@@ -35,6 +36,7 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
     }
 }
 
+/* Non-uniform cells, fringe and no-slip ghosts make it unsymmetric. */
 bool mesh_viscous_symmetric(const struct fv *s)
 {
     int plain = !s->m->uneven && !s->m->has_fringe && !s->m->moves;
@@ -49,7 +51,8 @@ bool mesh_viscous_symmetric(const struct fv *s)
 }
 
 /* 1/s: largest eigenvalue of -L, by cells: that of differences along one axis is 16/3, at a no-slip
- * side 7.8 (viscous.c), in units of nu G/V. */
+ * side 7.8 (viscous.c), in units of nu G/V. Blocks that move may uncover any cell, so all of theirs
+ * count. Collective. */
 double mesh_viscous_largest(const struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -75,6 +78,8 @@ double mesh_viscous_largest(const struct fv *s)
     return s->nu * most;
 }
 
+/* left = free (r - x + c L x); y = x + beta (x - y) + alpha left. Returns the sum of left^2, in
+ * LANES partial sums. */
 static double step_row(const double *restrict x, const double *restrict L, const double *restrict r,
                        const double *restrict is_free, double c, double alpha, double beta,
                        int64_t n, double *restrict y)
@@ -95,6 +100,7 @@ static double step_row(const double *restrict x, const double *restrict L, const
     return lanes_sum(part);
 }
 
+/* One step of Chebyshev's iteration for all components; sum over this rank. */
 static double step(struct fv *s, const struct helmholtz_course *k, double *const x[3],
                    double *const r[3], double *const y[3])
 {
@@ -110,6 +116,7 @@ static double step(struct fv *s, const struct helmholtz_course *k, double *const
     return sum;
 }
 
+/* 0 in cells that are not computed, and in air. */
 static void zero(const struct fv *s, double *x)
 {
     FLOW_ROWS (s, at, n)
@@ -119,6 +126,7 @@ static void zero(const struct fv *s, double *x)
         surface_zero(s, x);
 }
 
+/* x.x over all components and ranks. */
 static double square(const struct fv *s, double *const x[3])
 {
     double sum = 0.0;
@@ -128,7 +136,8 @@ static double square(const struct fv *s, double *const x[3])
     return sum;
 }
 
-/* rhs -= (1 - c L) delta, delta with what sides change. */
+/* rhs -= (1 - c L) delta, where delta has what the sides change from the old velocity to the new
+ * one, and on moving blocks the fringe's jump. */
 static void start_residual(struct fv *s, double c)
 {
     double *restrict L = s->viscous->work[2][0];
@@ -149,6 +158,8 @@ static void start_residual(struct fv *s, double c)
 
 enum { FEW = 24 }; /* steps of Chebyshev's iteration: beyond, BiCGStab finds the few stiff cells */
 
+/* tol is relative to rhs as it comes. Order of choice: nothing to do; one term of Neumann's series
+ * (surface, short steps); Chebyshev (walls, at most FEW steps); CG or BiCGStab. */
 bool mesh_viscous_solve(struct fv *s, double c, double tol)
 {
     const struct viscous_solver *v = s->viscous;

@@ -1,9 +1,14 @@
-/* smooth.c - see smooth_odd_even in fv.h. SPDX-License-Identifier: BSD-3-Clause */
+/* smooth.c - removes an odd-even mode from a pressure; see smooth_odd_even in operators.h. With C
+ * the third difference across a face, 0 where the stencil leaves the fluid, p -= 0.1/64 sum over
+ * axes of C^T C p. On (-1)^i, where |C p| = 8, this takes off a tenth along each axis; smooth
+ * fields change by O(h^6). Once a step.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/forcing.h"
 #include "../fv.h"
 #include "operators.h"
 
-/* d = third difference of p over the lower face of each cell, 0 where it leaves the fluid. */
+/* d = third difference of p over the lower face of each cell, 0 where it leaves the fluid. open is
+ * 1 on faces that the flow can pass. */
 static void third_difference(const double *restrict p, const double *restrict open, int64_t along,
                              int64_t n, double *restrict d)
 {
@@ -13,6 +18,8 @@ static void third_difference(const double *restrict p, const double *restrict op
     }
 }
 
+/* d on one face more below and two above than there are cells, as C^T reads them; sum collects the
+ * axes before p changes. */
 void smooth_odd_even(const struct fv *s, double *p, double *d, double *sum)
 {
     const struct block *b = &s->b;

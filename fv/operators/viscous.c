@@ -15,6 +15,7 @@
 #include "operators.h"
 #include "viscous_solver.h"
 
+/* The weights (-1, 16, -30, 16, -1)/12 are the difference of the two face gradients. */
 void viscous_row(const double *restrict q, const int64_t *stride, const double *c, int dim,
                  int64_t n, double *restrict out)
 {
@@ -36,7 +37,7 @@ void viscous_row(const double *restrict q, const int64_t *stride, const double *
             cz * (16.0 * (q[i - sz] + q[i + sz]) - (q[i - 2 * sz] + q[i + 2 * sz]) - 30.0 * q[i]);
 }
 
-/* Adds nu d2q/dy2 with the weights of a row. */
+/* Adds nu d2q/dy2 with the weights of a row. w[0 .. 4] belong to q_-2 .. q_2. */
 static void add_weighted(const double *restrict q, const double *w, double nu, int64_t d, int64_t n,
                          double *restrict out)
 {
@@ -45,7 +46,8 @@ static void add_weighted(const double *restrict q, const double *w, double nu, i
         out[i] += (b * q[i - d] + e * q[i + d]) + (a * q[i - 2 * d] + f * q[i + 2 * d]) + c * q[i];
 }
 
-/* The same of local row j, n cells at q. */
+/* The same of local row j, n cells at q. Along y layers of unequal height have weights of their
+ * own. */
 static void laplace_row(const struct fv *s, int j, const double *q, int64_t n, double *out)
 {
     const struct block *b = &s->b;
@@ -78,6 +80,7 @@ static void helmholtz(const struct fv *s, int q, double c, const double *x, doub
         surface_zero(s, out);
 }
 
+/* As struct helmholtz wants it: extension into air, ghosts of a difference, halo. Collective. */
 static void apply(struct fv *s, double c, double *const x[3], double *const out[3])
 {
     if (s->surface)
@@ -91,7 +94,8 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
 /* --- steps of Chebyshev's iteration --- */
 
 /* Largest eigenvalue of -h^2 d2/dx2: 16/3 of the periodic differences; that of a mode at a no-slip
- * wall, whose cell has -76/12 on the diagonal, is 7.43 (4 cells: 7.75). */
+ * wall, whose cell has -76/12 on the diagonal, is 7.43 (4 cells: 7.75). It must not be too small:
+ * Chebyshev's iteration would diverge. */
 static double largest_eigenvalue(const struct fv *s)
 {
     const struct block *b = &s->b;
@@ -114,7 +118,7 @@ static double largest_eigenvalue(const struct fv *s)
 }
 
 /* y = x + beta (x - y) + alpha (r - x + c L x) for a row, with L x in its place; sum of the squares
- * of what alpha has. */
+ * of what alpha has. Four partial sums, so that the compiler can vectorise. */
 static double step_row(const double *restrict x, const double *restrict Lx,
                        const double *restrict r, double c, double alpha, double beta, int64_t n,
                        double *restrict y)
@@ -135,7 +139,7 @@ static double step_row(const double *restrict x, const double *restrict Lx,
     return (part[0] + part[1]) + (part[2] + part[3]);
 }
 
-/* One step of slab j across the last axis, with its sum. */
+/* One step of slab j across the last axis, with its sum. A slab is a row in 2D, a plane in 3D. */
 static double step_slab_summed(const struct fv *s, int j, double c, double alpha, double beta,
                                const double *x, const double *r, double *y)
 {
@@ -178,6 +182,8 @@ static double step_of(const struct fv *s, int q, const struct helmholtz_course *
 
 /* The same without the sum, L x included: w has c nu/12 h^2 along each axis. */
 static inline __attribute__((always_inline)) void
+/* own, bx, ax: all constants of a step are folded into the stencil's weights, one pass over
+ * memory. */
 whole_row(const double *restrict x, const double *restrict r, const int64_t *stride,
           const double *w, double alpha, double beta, const int dim, int64_t n, double *restrict y)
 {
@@ -214,7 +220,8 @@ static void step_slab(const struct fv *s, int j, double c, double alpha, double 
 }
 
 /* Whether all steps can go through the fields at once: the last axis is this rank's alone and
- * closed, rows are even, no cell is imposed. */
+ * closed, rows are even, no cell is imposed. Then ghosts need neither other ranks nor the other
+ * end. */
 static bool goes_at_once(const struct fv *s)
 {
     const struct block *b = &s->b;
@@ -225,7 +232,7 @@ static bool goes_at_once(const struct fv *s)
     return whole && !(s->forcing && s->forcing->nlocal > 0) && b->n[last] > 4;
 }
 
-/* x = r f, y = 0 in slab j. */
+/* x = r f, y = 0 in slab j. f = 1/theta = 2/(most + 1). */
 static void start_slab(const struct fv *s, int j, double f, const double *restrict r,
                        double *restrict x, double *restrict y)
 {
@@ -241,7 +248,8 @@ static void start_slab(const struct fv *s, int j, double f, const double *restri
 
 /* The start r/theta and n steps of component q, each three slabs behind the one before it, so that
  * what all of them need is in the cache: x has their result if they are even in number, else y. The
- * sum of the last one. */
+ * sum of the last one. x and y take turns as source and target. Step k of slab j reads step k - 1
+ * of slabs j - 2 .. j + 2, hence three slabs behind, ghosts included. */
 static double steps_at_once(const struct fv *s, int q, const struct helmholtz_course *step, int n,
                             double *x, const double *r, double *y)
 {
@@ -271,6 +279,7 @@ static double steps_at_once(const struct fv *s, int q, const struct helmholtz_co
     return sum;
 }
 
+/* The coefficients of all steps are made first; k is left as after the last one. */
 static double all_at_once(struct fv *s, struct helmholtz_course *k, int n, double *x[3],
                           double *const r[3], double *y[3])
 {
@@ -286,6 +295,7 @@ static double all_at_once(struct fv *s, struct helmholtz_course *k, int n, doubl
     return sum;
 }
 
+/* One step for all components after ghosts and halo; sum over this rank. */
 static double step(struct fv *s, const struct helmholtz_course *k, double *const x[3],
                    double *const r[3], double *const y[3])
 {
@@ -331,7 +341,8 @@ static void residual_row(const double *restrict d, const double *restrict L, dou
         sums[k] += (part[k][0] + part[k][1]) + (part[k][2] + part[k][3]);
 }
 
-/* rhs of component q becomes what the start leaves of it; zero in forced cells. */
+/* rhs of component q becomes what the start leaves of it; zero in forced cells. sums[0]: squares of
+ * the residual, sums[1]: of rhs as it came. */
 static void start_residual(const struct fv *s, int q, double c, const double *start, double *rhs,
                            double sums[2])
 {
@@ -357,7 +368,8 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
     }
 }
 
-/* rhs becomes the residual. */
+/* rhs becomes the residual. Chebyshev's goal is a tenth (a third of the residual's norm), since its
+ * last sum comes one step late; should it fail, BiCGStab goes on from the same start. */
 bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3], double tol)
 {
     const struct block *b = &s->b;

@@ -1,4 +1,7 @@
-/* viscous_solver.c - see viscous_solver.h. SPDX-License-Identifier: BSD-3-Clause */
+/* viscous_solver.c - scratch and spectrum of the implicit viscous solve. Made once; renewed when
+ * cells change from computed to imposed or back, since these decide which rows count for the
+ * largest eigenvalue.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "viscous_solver.h"
 
 #include <math.h>
@@ -8,6 +11,7 @@
 #include "../grid/mesh.h"
 #include "mesh_ops.h"
 
+/* dim-th root of the number of all cells, for helmholtz_tolerance. Collective. */
 static double cells_a_side(const struct fv *s)
 {
     int64_t n = 0;
@@ -17,6 +21,8 @@ static double cells_a_side(const struct fv *s)
     return pow((double)n, 1.0 / s->dim);
 }
 
+/* 1.25 nu (G_lower + G_upper)/V per axis: the diagonal of the fourth-order operator, 30/12 = 2.5
+ * per axis on even cells. */
 static double *diagonal_of(const struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -34,6 +40,7 @@ static double *diagonal_of(const struct fv *s)
     return scale;
 }
 
+/* Only where there are walls is Chebyshev's iteration tried on blocks. */
 static double stiffest_of(const struct fv *s)
 {
     return s->m && mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
