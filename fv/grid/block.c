@@ -1,4 +1,8 @@
-/* block.c - see block.h. SPDX-License-Identifier: BSD-3-Clause */
+/* block.c - a Cartesian grid of equal cells, or of layers, shared among ranks. Ranks form a
+ * Cartesian communicator; each has the cells lo .. hi - 1 along every axis with GHOSTS layers
+ * around them. Fields are arrays of `size' doubles, x fastest. block_halo fills the ghosts, one
+ * axis after the other, so that corners come along with the second and third.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "block.h"
 
 #include <math.h>
@@ -6,6 +10,7 @@
 
 #include "../../common/base/mem.h"
 
+/* Whether every rank gets at least LEAST cells along an axis that is cut. */
 static bool is_wide(const int *cells, const int *dims)
 {
     bool wide = true;
@@ -16,7 +21,8 @@ static bool is_wide(const int *cells, const int *dims)
 
 /* Ranks along each axis: as MPI shares them out, rows whole as long as there are other directions
  * to cut (x is the fastest index); where that leaves a rank fewer cells than stencils reach, the
- * split with the least surface that does not. */
+ * split with the least surface that does not. The surface of a split is proportional to sum
+ * dims/cells. false: no split leaves ranks wide enough. */
 bool block_split(int size, int dim, const int *cells, int dims[3])
 {
     const int n[3] = {cells[0], dim > 1 ? cells[1] : 1, dim > 2 ? cells[2] : 1};
@@ -39,6 +45,8 @@ bool block_split(int size, int dim, const int *cells, int dims[3])
     return isfinite(least);
 }
 
+/* The number of cells along an axis differs by one at most between ranks. send and recv have room
+ * for four fields, which block_halo sends at once. */
 void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, const double *origin,
                   const double *length, const bool *periodic)
 {
@@ -75,6 +83,7 @@ void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, con
     b->recv = NEW(double, 4 * slab);
 }
 
+/* Layers of unequal height h[cells[1]] along y; h[1] of the block becomes that of the top ones. */
 void block_set_rows(struct block *b, int even, const double *h)
 {
     b->rows = rows_create(b->cells[1], even, b->origin[1], h, b->lo[1], b->n[1]);
@@ -89,6 +98,8 @@ void block_free(struct block *b)
     MPI_Comm_free(&b->cart);
 }
 
+/* The whole block as one part, for loops that serve both kinds of grids; layers are no equal
+ * cells. */
 struct part block_part(const struct block *b)
 {
     struct part p = {.kind = b->rows ? PART_CURVED : PART_EVEN, .size = b->size};
@@ -103,6 +114,7 @@ struct part block_part(const struct block *b)
 
 double *block_field(const struct block *b) { return NEW(double, b->size); }
 
+/* Layers beyond the ends go on as high as the last one. */
 void block_centre(const struct block *b, int i, int j, int k, double *x)
 {
     const int at[3] = {i, j, k};
@@ -119,7 +131,8 @@ void block_cell(const struct block *b, int i, int j, int k, double *x, double *h
         h[a] = block_size(b, a, a == 1 ? j : 0);
 }
 
-/* Copies GHOSTS layers along axis a, from local index `first' on, to or from packed storage. */
+/* Copies GHOSTS layers along axis a, from local index `first' on, to or from packed storage.
+ * Tangential ghosts are copied along. Returns the number of values. */
 static int64_t layers(const struct block *b, double *f, int a, int first, double *packed, bool pack)
 {
     int lo[3], hi[3];
@@ -141,7 +154,9 @@ static int64_t layers(const struct block *b, double *f, int a, int first, double
     return m;
 }
 
-/* One direction, one way: what leaves at `from' arrives in the ghosts at `to' of the other side. */
+/* One direction, one way: what leaves at `from' arrives in the ghosts at `to' of the other side.
+ * Four fields a message. Where the neighbour is this rank itself (periodic, one rank) the packed
+ * values are unpacked at once. */
 static void shift(const struct block *b, int nf, double *const *f, int a, int from, int to,
                   int dest, int source)
 {
@@ -165,6 +180,7 @@ static void shift(const struct block *b, int nf, double *const *f, int a, int fr
     }
 }
 
+/* Blocking; axis after axis in a fixed order, see the head of this file. */
 void block_halo(const struct block *b, int nf, double *const *f)
 {
     for (int a = 0; a < b->dim; a++) {

@@ -1,4 +1,8 @@
-/* block_walls.c - see block_walls.h. SPDX-License-Identifier: BSD-3-Clause */
+/* block_walls.c - closed sides of blocks as faces, and images of points behind them. Every rank
+ * lists all faces of all closed sides (O(surface)), so that any of them can ask for walls near any
+ * position: particles of a partner near fv's walls, level sets, gauges. A side's box is looked at
+ * first, then its faces one by one.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "block_walls.h"
 
 #include <math.h>
@@ -26,12 +30,15 @@ struct block_walls {
     struct face *face;
 };
 
+/* Everything that is no overlap, join or period, outflows included. */
 static bool is_closed(enum mesh_side s)
 {
     return s != MESH_OVERLAP && s != MESH_JOINED && s != MESH_PERIODIC;
 }
 
-/* Face of the cell `at' on the side along a, and the box around it. */
+/* Face of the cell `at' on the side along a, and the box around it. The normal is the cross product
+ * of the sums of opposite edges, turned towards the cell's centre; radius bounds the face for
+ * find_face. */
 static void add_face(const struct mesh_block *b, int dim, int a, bool upper, const int *at,
                      struct face *f, struct closed_side *s)
 {
@@ -64,6 +71,7 @@ static void add_face(const struct mesh_block *b, int dim, int a, bool upper, con
                                              : hypot(v[k][0] - f->x[0], v[k][1] - f->x[1]));
 }
 
+/* Faces run over the first tangent fastest. room: capacity of w->face, kept by the caller. */
 static void add_side(struct block_walls *w, const struct mesh *m, int block, int k, int64_t *room)
 {
     const struct mesh_block *b = m->block + block;
@@ -153,7 +161,8 @@ static double height(const struct face *f, const double *x)
 }
 
 /* The face of a side that x stands over, less than R from it; NULL: none. *off: how far the foot
- * lies from its middle, of its radius. */
+ * lies from its middle, of its radius. 1.5 radii: beyond the edge of a side there is no wall over
+ * which x stands. */
 static const struct face *find_face(const struct block_walls *w, const struct closed_side *s,
                                     double R, const double *x, double *off)
 {
@@ -166,6 +175,7 @@ static const struct face *find_face(const struct block_walls *w, const struct cl
     return fabs(high) < R && *off < 1.5 ? best : NULL;
 }
 
+/* By the distance of the faces' middles. */
 bool block_walls_nearest(const struct block_walls *w, const double *x, struct nearest_wall *to)
 {
     double least = INFINITY, d2;
@@ -182,6 +192,7 @@ bool block_walls_nearest(const struct block_walls *w, const double *x, struct ne
     return least < INFINITY;
 }
 
+/* i counts through all sides in turn. */
 bool block_walls_face(const struct block_walls *w, int64_t i, struct wall_face *to)
 {
     int k = 0;
@@ -196,7 +207,9 @@ bool block_walls_face(const struct block_walls *w, int64_t i, struct wall_face *
     return true;
 }
 
-/* Walls of two blocks that go on into each other are one: the nearer face is its own. */
+/* Walls of two blocks that go on into each other are one: the nearer face is its own. Faces whose
+ * normals are less than 60 degrees apart (cosine above 0.5) count as one wall. Returns the new
+ * number. */
 static int add_wall(const struct face *f, double off, int n, const struct face **wall, double *offs)
 {
     for (int k = 0; k < n; k++)
@@ -214,6 +227,7 @@ static int add_wall(const struct face *f, double off, int n, const struct face *
     return n + 1;
 }
 
+/* Images are mirrored in one wall after the other, so that n walls in a corner give 2^n points. */
 int block_walls_images(const struct block_walls *w, double R, double (*x)[3])
 {
     const struct face *wall[WALLS_MOST];

@@ -1,4 +1,7 @@
-/* grid.c - see grid.h. SPDX-License-Identifier: BSD-3-Clause */
+/* grid.c - positions, sizes and faces of cells whatever their kind. Each function asks g->even
+ * (uniform cells, layers) or g->mesh (blocks) and nothing else; what stands above need not. Local
+ * unless it fills ghosts.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "grid.h"
 
 #include <math.h>
@@ -13,6 +16,7 @@ static void cell_of(const struct part *p, const int *at, int cell[3])
         cell[a] = p->lo[a] + at[a];
 }
 
+/* Behind a block's sides the map continues, and its middle is taken. */
 void grid_centre(const struct grid *g, const struct part *p, const int *at, double x[3])
 {
     int cell[3];
@@ -54,6 +58,7 @@ void grid_point(const struct grid *g, const struct part *p, const int *at, const
         x[a] += (xi[a] - 0.5) * h[a];
 }
 
+/* Two Gauss points an index, weighted by the determinant: fourth order in the cell's size. */
 void grid_mean_place(const struct grid *g, const struct part *p, const int *at, double x[3])
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
@@ -78,6 +83,7 @@ void grid_mean_place(const struct grid *g, const struct part *p, const int *at, 
         x[c] /= whole;
 }
 
+/* Lengths of the mapping's slopes in the middle of the cell. */
 void grid_lengths(const struct grid *g, const struct part *p, const int *at, double length[3])
 {
     double x[3], dx[3][3];
@@ -102,6 +108,7 @@ void grid_box(const struct grid *g, const struct part *p, const int *at, double 
     h[0] = h[1] = h[2] = pow(g->mesh->V[part_at(p, at[0], at[1], at[2])], 1.0 / g->dim);
 }
 
+/* x fastest, block after block; the same on any number of ranks. */
 int64_t grid_number(const struct grid *g, int64_t c)
 {
     int at[3], cell[3];
@@ -116,6 +123,7 @@ int64_t grid_number(const struct grid *g, int64_t c)
     return first + cell[0] + (int64_t)n[0] * (cell[1] + (int64_t)n[1] * cell[2]);
 }
 
+/* A hole of a block that boxes of imposed cells hold. */
 bool grid_is_given(const struct grid *g, int64_t c)
 {
     int at[3], cell[3];
@@ -178,12 +186,13 @@ int grid_longest(const struct grid *g)
 
 const char *grid_trouble(const struct grid *g) { return g->mesh ? g->mesh->trouble : ""; }
 
-/* The motion that block k tells; NULL: none, or another does. */
+/* The motion whose key block k has; NULL: none, or it moves with another block. */
 static const struct mesh_motion *motion_of(const struct mesh_block *b, int k)
 {
     return b[k].motion && b[k].motion->block == k ? b[k].motion : NULL;
 }
 
+/* The least over all motions; blocks that are joined share one. */
 double grid_motion_step(const struct grid *g, double t)
 {
     double step = INFINITY;
@@ -202,6 +211,7 @@ double grid_motion_event(const struct grid *g, double t)
     return next;
 }
 
+/* |S|; of uniform cells volume over height. */
 double grid_face_area(const struct grid *g, int64_t c, int a)
 {
     int at[3];

@@ -1,4 +1,9 @@
-/* layout.c - see layout.h. SPDX-License-Identifier: BSD-3-Clause */
+/* layout.c - how the ranks that wrote a restart file divided its grid. A file holds each rank's
+ * cells with their ghosts as one run of records, and in dataset `name' eleven integers for each
+ * box. On another number of ranks layout_read looks for each box of a writer that meets this rank's
+ * box and copies the common cells, so that a run can go on with ghosts as they were, not merely
+ * with cells. O(boxes) reads, each of the boxes that are needed.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "layout.h"
 
 #include <string.h>
@@ -19,6 +24,7 @@ struct layout_box layout_block(const struct block *b)
     return x;
 }
 
+/* As many integers from each rank as it has boxes. */
 void layout_save(struct h5 *f, const char *name, int n, const struct layout_box *of)
 {
     int64_t *rows = NEW(int64_t, NUMBERS * (size_t)n), *to = rows;
@@ -36,6 +42,7 @@ void layout_save(struct h5 *f, const char *name, int n, const struct layout_box 
     mem_free(rows);
 }
 
+/* The inverse of what layout_save writes. */
 static struct layout_box box_from(const int64_t *row)
 {
     struct layout_box x = {.grid = (int)row[0], .base = row[NUMBERS - 1]};
@@ -47,6 +54,7 @@ static struct layout_box box_from(const int64_t *row)
     return x;
 }
 
+/* writer[k] follows from how many numbers each rank wrote. */
 struct layout *layout_load(struct h5 *f, const char *name)
 {
     int64_t n;
@@ -79,6 +87,7 @@ void layout_free(struct layout **l)
     *l = NULL;
 }
 
+/* The largest end of all boxes of this grid along each axis. */
 void layout_cells(const struct layout *l, int grid, int cells[3])
 {
     memset(cells, 0, 3 * sizeof *cells);
@@ -89,6 +98,7 @@ void layout_cells(const struct layout *l, int grid, int cells[3])
         }
 }
 
+/* Files that do not say count as being of this number. */
 bool layout_same_ranks(const struct h5 *f, int size)
 {
     return h5_ranks(f) == 0 || h5_ranks(f) == size;
@@ -105,8 +115,10 @@ bool layout_fits(const struct layout *l, int grid, const int cells[3])
     return false;
 }
 
+/* Number of cells of a box along axis a, ghosts included. */
 static int width(const struct layout_box *x, int a) { return x->n[a] + 2 * x->g[a]; }
 
+/* Records of a box; 0 for a rank without cells. */
 static int64_t volume(const struct layout_box *x)
 {
     return x->n[0] > 0 && x->n[1] > 0 && x->n[2] > 0
@@ -115,7 +127,8 @@ static int64_t volume(const struct layout_box *x)
 }
 
 /* Pairs of places along an axis, in the ghosted rows of mine and of `from', that are the same cell;
- * from's own, or beside its own beyond a closed end. Returns their number. */
+ * from's own, or beside its own beyond a closed end. Returns their number. pair[n] = {index in
+ * mine, index in from}. Along an axis that wraps, ghosts are the cells of the other end. */
 static int match(const struct layout_box *mine, const struct layout_box *from, int a, int cells,
                  bool wraps, int (*pair)[2])
 {
@@ -135,7 +148,8 @@ static int match(const struct layout_box *mine, const struct layout_box *from, i
     return n;
 }
 
-/* What the box `from' has for mine; its rows are in v. */
+/* What the box `from' has for mine; its rows are in v. pair[a], n[a]: along each axis as match has
+ * them. */
 static void copy(const struct layout_box *mine, const struct layout_box *from,
                  int (*const pair[3])[2], const int *n, int ncomp, const double *v, double *to)
 {
@@ -150,6 +164,8 @@ static void copy(const struct layout_box *mine, const struct layout_box *from,
         }
 }
 
+/* Every rank reads in the same order, with no records where it needs none, since reading is
+ * collective. */
 bool layout_read(const struct layout *l, struct h5 *f, const char *name, int ncomp,
                  const struct layout_box *mine, const bool *wraps, double *to)
 {

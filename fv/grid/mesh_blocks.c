@@ -1,10 +1,13 @@
-/* mesh_blocks.c - see mesh_blocks.h. SPDX-License-Identifier: BSD-3-Clause */
+/* mesh_blocks.c - questions about the blocks as the case has them. All from parameters alone:
+ * before a mesh is made, and on all ranks alike.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_blocks.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
+/* Adds a fault at the key of block b, with its name in the text. */
 void mesh_fault(const struct run *r, struct faults *f, const struct mesh_block_params *b,
                 const char *key, const char *fmt, ...)
 {
@@ -26,6 +29,8 @@ bool mesh_block_has(const struct mesh_block_params *b, enum mesh_side kind)
     return any;
 }
 
+/* A slip side on a side of the domain is the domain's; sides of boxes that are turned, and of other
+ * mappings, do not lie there. */
 bool mesh_side_is_body(const struct run *r, const struct mesh_block_params *b, int side)
 {
     const int kinds[6] = {b->i_min, b->i_max, b->j_min, b->j_max, b->k_min, b->k_max};

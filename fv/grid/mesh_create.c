@@ -1,6 +1,10 @@
-/* mesh_create.c - a mesh from the case's blocks: checks, sharing among ranks.
- * Each block is cut into slabs along its longest axis; the rows of all blocks are dealt out one
- * after the other, so that each rank gets about the same number of cells. A rank may have none.
+/* mesh_create.c - a mesh from the case's blocks: checks, sharing among ranks. Each block is cut
+ * into slabs along its longest axis; the rows of all blocks are dealt out one after the other, so
+ * that each rank gets about the same number of cells. A rank may have none. Order of mesh_create:
+ * vertices (mesh_map.c), walls of the domain's sides (mesh_walls.c), joins (mesh_join.c), cells and
+ * their orientation, motions, overlaps and imposed cells (overset_*.c, mesh_given.c), all of which
+ * every rank does for all blocks; then slabs, and for this rank's parts status, metrics, halo and
+ * fringe.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh.h"
 
@@ -11,7 +15,8 @@
 #include "mesh_motion.h"
 #include "overset.h"
 
-/* Smallest determinant at the corners of a cell, by its edges; an inside-out cell has one <= 0. */
+/* Smallest determinant at the corners of a cell, by its edges; an inside-out cell has one <= 0. At
+ * each corner the three edges that leave it, turned so that they would be right-handed. */
 static double least_corner(const struct mesh_block *b, int dim, const int *i)
 {
     double least = INFINITY;
@@ -32,6 +37,8 @@ static double least_corner(const struct mesh_block *b, int dim, const int *i)
     return least;
 }
 
+/* Centres, volumes and orientation of a block's cells; a fault if some are inside out (determinant
+ * <= 0 in the middle or at a corner). */
 static bool set_cells(const struct run *r, struct faults *f, struct mesh *m, int k)
 {
     struct mesh_block *b = m->block + k;
@@ -67,6 +74,8 @@ static bool set_cells(const struct run *r, struct faults *f, struct mesh *m, int
     return false;
 }
 
+/* before counts the cells of all earlier rows; row i goes to the rank in whose share its middle
+ * lies. first[q] is the first layer of rank q along the block's cut. */
 static void deal_out(struct mesh *m)
 {
     int64_t before = 0;
@@ -88,7 +97,8 @@ static void deal_out(struct mesh *m)
     }
 }
 
-/* The part of a block that a rank has, without its place. */
+/* The part of a block that a rank has, without its place. Size 0 for a rank without cells of this
+ * block. */
 static struct part part_of(const struct mesh *m, int k, int rank)
 {
     const struct mesh_block *b = m->block + k;
@@ -105,6 +115,7 @@ static struct part part_of(const struct mesh *m, int k, int rank)
     return p;
 }
 
+/* Ghosts behind a side along `cut' belong to the rank beside it. O(blocks). */
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place)
 {
     const struct mesh_block *b = m->block + block;
@@ -119,6 +130,7 @@ void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int
     *place = part_at(&p, cell[0] - p.lo[0], cell[1] - p.lo[1], cell[2] - p.lo[2]);
 }
 
+/* Number of cells of block k that a rank has. */
 static int64_t cells_of(const struct mesh *m, int k, int rank)
 {
     const struct mesh_block *b = m->block + k;
@@ -126,6 +138,7 @@ static int64_t cells_of(const struct mesh *m, int k, int rank)
            (b->first[rank + 1] - b->first[rank]);
 }
 
+/* Rows are numbered rank by rank, part by part, x fastest. */
 void mesh_rows(const struct mesh *m, int rank, int64_t *first, int64_t *n)
 {
     *first = *n = 0;
@@ -151,6 +164,7 @@ int64_t mesh_row(const struct mesh *m, int block, const int *cell)
            (int64_t)p.n[0] * ((cell[1] - p.lo[1]) + (int64_t)p.n[1] * (cell[2] - p.lo[2]));
 }
 
+/* Parts lie in fields one behind the other, ghosts included. */
 static void make_parts(struct mesh *m)
 {
     for (int k = 0; k < m->nblocks; k++) {
@@ -162,7 +176,8 @@ static void make_parts(struct mesh *m)
     }
 }
 
-/* What the local cells are, ghosts too: those behind joined sides as there, others no cells. */
+/* What the local cells are, ghosts too: those behind joined sides as there, others no cells. After
+ * every cut; local. */
 void mesh_set_status(struct mesh *m)
 {
     memset(m->status, CELL_HOLE, (size_t)m->size_local);
@@ -178,6 +193,7 @@ void mesh_set_status(struct mesh *m)
     }
 }
 
+/* period is 0 along axes that are not periodic. */
 static void set_boxes(const struct run *r, struct mesh *m, int n, const double (*box)[2][3])
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -190,6 +206,8 @@ static void set_boxes(const struct run *r, struct mesh *m, int n, const double (
         m->given.period[a] = d->periodic[a] ? d->max[a] - d->min[a] : 0.0;
 }
 
+/* On a fault everything made so far is freed. m->search is kept where blocks move: they search anew
+ * at every step. */
 struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int n,
                          const double (*box)[2][3], struct faults *f)
 {
@@ -240,6 +258,7 @@ struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int 
     return m;
 }
 
+/* What this mesh owns; *mp becomes NULL. */
 void mesh_free(struct mesh **mp)
 {
     struct mesh *m = *mp;
@@ -274,11 +293,13 @@ void mesh_free(struct mesh **mp)
 /* The mesh that was checked last: the description and the state are made of it, not of another. */
 static struct mesh *checked;
 
+/* Bit by bit: boxes that moved are others. */
 static bool same_boxes(const struct mesh *m, int n, const double (*box)[2][3])
 {
     return m->given.n == n && (n == 0 || memcmp(m->given.box, box, (size_t)n * sizeof *box) == 0);
 }
 
+/* A mesh whose blocks move cannot be taken over, for it stands at another time. */
 struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
                        const double (*box)[2][3], struct faults *f)
 {

@@ -14,6 +14,8 @@
 
 #include "../../common/base/mem.h"
 
+/* Dataset "x" of shape [nk][nj][ni][dim]; NULL without errors printed if the file has no such
+ * thing. */
 static double *read_hdf5(const char *path, int dim, int *cells)
 {
     hsize_t shape[4] = {0};
@@ -48,12 +50,14 @@ static double *read_hdf5(const char *path, int dim, int *cells)
     return x;
 }
 
-/* A file as one list of numbers: text, or binary in one of the forms. */
+/* A file's numbers as one list: of text all of them, of binary files the leading ones as integers,
+ * for the header. */
 struct numbers {
     int64_t n;
     double *v;
 };
 
+/* Numbers separated by space or commas, up to the first thing that is none. */
 static struct numbers read_text(const char *bytes)
 {
     struct numbers s = {0};
@@ -78,7 +82,8 @@ static int int_at(const char *bytes, int64_t at)
     return v;
 }
 
-/* Takes Fortran's record marks out; false: there are none. */
+/* Takes Fortran's record marks out; false: there are none. A record is its length in bytes, the
+ * data, the length again, all 4-byte integers. Pass 0 checks, pass 1 moves the data together. */
 static bool join_records(char *bytes, int64_t *n)
 {
     int64_t from = 0, to = 0;
@@ -96,7 +101,9 @@ static bool join_records(char *bytes, int64_t *n)
     return true;
 }
 
-/* Tries header and sizes against the length: nb blocks (0: no count), axes in the header. */
+/* Tries header and sizes against the length: nb blocks (0: no count), axes in the header. Returns
+ * the number of vertices in the blocks before `zone', or -1 if header and shape make no sense;
+ * *all: of all blocks; *header: numbers in the header; shape: that of the zone. */
 static int64_t vertices_before(const double *head, int64_t nhead, bool counted, int axes, int zone,
                                int *shape, int64_t *all, int64_t *header)
 {
@@ -123,6 +130,7 @@ static int64_t vertices_before(const double *head, int64_t nhead, bool counted, 
     return before;
 }
 
+/* The k-th real of 4 or 8 bytes, in the machine's byte order. */
 static double real_at(const char *bytes, int64_t k, int size)
 {
     double v;
@@ -135,7 +143,9 @@ static double real_at(const char *bytes, int64_t k, int size)
     return s;
 }
 
-/* size: bytes of a real, 0: text in `s'. */
+/* Tries one form: size is the bytes of a real (0: text in `s'), counted whether the header begins
+ * with the number of blocks, axes how many sizes each has. NULL unless the file's length is exactly
+ * that of this form. */
 static double *try_form(const struct numbers *s, const char *bytes, int64_t n, int size,
                         bool counted, int axes, int zone, int dim, int *cells)
 {
@@ -158,6 +168,8 @@ static double *try_form(const struct numbers *s, const char *bytes, int64_t n, i
     return x;
 }
 
+/* The eight forms by their bits: size of reals, no count, three axes in 2D. The length of the file
+ * decides, so that at most one fits in practice. */
 static double *try_forms(const struct numbers *s, const char *bytes, int64_t n, bool text, int zone,
                          int dim, int *cells)
 {
@@ -170,6 +182,7 @@ static double *try_forms(const struct numbers *s, const char *bytes, int64_t n, 
     return NULL;
 }
 
+/* Text if the first 200 bytes are printable. 30001 leading integers suffice for 10000 blocks. */
 static double *read_plot3d(const char *path, int zone, int dim, int *cells)
 {
     FILE *file = fopen(path, "rb");
@@ -200,6 +213,7 @@ static double *read_plot3d(const char *path, int zone, int dim, int *cells)
     return x;
 }
 
+/* Six cells along each index are what cubic maps and stencils need. */
 double *mesh_file_read(const struct run *r, struct faults *f, const struct mesh_block_params *p,
                        int *cells)
 {

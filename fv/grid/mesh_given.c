@@ -6,6 +6,8 @@
 
 #include "mesh.h"
 
+/* Whether all corners of a cell lie in the box, which stands some periods away: the box's image
+ * nearest above the centre counts. eps: 1e-9 of the cell's size. */
 static bool is_in(const struct mesh *m, const struct mesh_block *b, int64_t c,
                   const double (*box)[3])
 {
@@ -45,7 +47,7 @@ void mesh_given_mark(struct mesh *m)
     }
 }
 
-/* Whether a computed cell is within so many layers. */
+/* Whether a computed cell is within given.layers of cell c along all indices. */
 static bool is_near(const struct mesh *m, int k, int64_t c)
 {
     const struct mesh_block *b = m->block + k;
@@ -64,6 +66,7 @@ static bool is_near(const struct mesh *m, int k, int64_t c)
     return false;
 }
 
+/* Imposed cells that no stencil reads hold nothing: they become holes. */
 void mesh_given_trim(struct mesh *m)
 {
     m->given_cells = 0;
@@ -80,6 +83,7 @@ void mesh_given_trim(struct mesh *m)
     }
 }
 
+/* psi does not pass faces of imposed cells, whose flux is imposed. */
 void mesh_given_close(struct mesh *m)
 {
     for (int q = 0; q < m->nparts && m->has_given; q++) {
@@ -112,6 +116,7 @@ static int neighbours(const struct mesh *m, const struct part *p, int64_t c, int
     return n;
 }
 
+/* Over faces if any neighbour there is computed, else over edges, else over corners. */
 int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3])
 {
     int n = 0;

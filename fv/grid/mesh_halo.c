@@ -1,17 +1,23 @@
-/* mesh_halo.c - values that go from cells to ghosts and to the fringe: who wants what is told once,
- * then one message each way between two ranks. SPDX-License-Identifier: BSD-3-Clause */
+/* mesh_halo.c - exchange of values between cells: copies for ghosts, interpolation for the fringe.
+ * An exchange is made once from a list of requests (place here, rank and place there, weights or
+ * none): requests are sorted by rank, and one all-to-all tells every rank what it has to send
+ * (mesh_exchange_create). After that each use is one message to and from each peer (mesh_exchange),
+ * fields interleaved. With weights the sender interpolates, so that only results travel.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
 #include "../../common/base/mem.h"
 #include "mesh.h"
 
+/* Number of weights of a value. */
 static int stencil(const struct mesh *m, const struct mesh_exchange *x)
 {
     return m->dim == 3 ? x->width * x->width * x->width : x->width * x->width;
 }
 
-/* Requests in the order of the ranks that give. */
+/* Requests in the order of the ranks that give. in[] stays with this rank; out, weight and part go
+ * to the givers. */
 static void sort_requests(struct mesh *m, struct mesh_exchange *x, int64_t n,
                           const struct mesh_request *request, int *count, int64_t *out,
                           double *weight, int *part)
@@ -33,6 +39,7 @@ static void sort_requests(struct mesh *m, struct mesh_exchange *x, int64_t n,
     mem_free(at);
 }
 
+/* Counts and offsets for MPI_Alltoallv, `times' numbers an entry. */
 static void offsets(int size, const int *count, int times, int *scaled, int *offset)
 {
     int sum = 0;
@@ -43,6 +50,7 @@ static void offsets(int size, const int *count, int times, int *scaled, int *off
     }
 }
 
+/* Sends what is wanted to those who give it: of each entry `times' numbers. */
 static void swap(const struct mesh *m, const int *wanted, const int *given, int times, void *from,
                  void *to, MPI_Datatype type)
 {
@@ -54,6 +62,8 @@ static void swap(const struct mesh *m, const int *wanted, const int *given, int 
     mem_free(at);
 }
 
+/* in is ordered by peer as recv will be, out as send; both sides list the entries of a pair of
+ * ranks in the same order, that of the one who wants. */
 void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
                           const struct mesh_request *request)
 {
@@ -113,6 +123,7 @@ void mesh_exchange_free(struct mesh_exchange *x)
     *x = (struct mesh_exchange){0};
 }
 
+/* Sum of weights times values of a stencil, whose first cell q points to. */
 static double interpolate(const struct part *p, int width, bool solid, const double *w,
                           const double *q)
 {
@@ -124,7 +135,8 @@ static double interpolate(const struct part *p, int width, bool solid, const dou
     return sum;
 }
 
-/* What field c of nf gives, one behind the other for each place. */
+/* What field c of nf gives, one behind the other for each place. Values of nf fields are
+ * interleaved, value by value. */
 static void gather(const struct mesh *m, const struct mesh_exchange *x, int nf, int c,
                    const double *restrict f, double *restrict send)
 {
@@ -138,7 +150,9 @@ static void gather(const struct mesh *m, const struct mesh_exchange *x, int nf, 
                                            x->weight + k * stencil(m, x), f + out[k]);
 }
 
-/* First pass all sends are made from the old values: a place that gives may also receive. */
+/* First pass all sends are made from the old values: a place that gives may also receive. Buffers
+ * grow to the largest nf so far. keep protects some places from being overwritten when vectors (nf
+ * > 1) are exchanged. */
 void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f,
                       double *const *into)
 {
@@ -182,12 +196,14 @@ void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double
     mesh_exchange_to(m, x, nf, f, f);
 }
 
+/* Whether i is a cell of the part, not a ghost. */
 static bool is_own(const struct part *p, const int *i)
 {
     return i[0] >= 0 && i[0] < p->n[0] && i[1] >= 0 && i[1] < p->n[1] && i[2] >= 0 &&
            i[2] < p->n[2];
 }
 
+/* Requests of all ghosts of this rank that are cells elsewhere, or on this rank itself. */
 void mesh_halo_create(struct mesh *m)
 {
     struct mesh_request *request = NEW(struct mesh_request, m->size_local);
@@ -211,6 +227,8 @@ void mesh_halo_create(struct mesh *m)
 
 void mesh_halo(struct mesh *m, int nf, double *const *f) { mesh_exchange(m, &m->halo, nf, f); }
 
+/* The halo first, for interpolation reads ghosts; and again, for ghosts are copies of fringe cells,
+ * too. */
 void mesh_fill(struct mesh *m, int nf, double *const *f)
 {
     mesh_exchange(m, &m->halo, nf, f);

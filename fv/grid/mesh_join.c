@@ -1,11 +1,14 @@
 /* mesh_join.c - faces of blocks that meet vertex by vertex, directly or over a period of the
- * domain; the indices behind them are the neighbour's. SPDX-License-Identifier: BSD-3-Clause */
+ * domain; the indices behind them are the neighbour's. Works with doubled indices X (vertex i: 2 i,
+ * cell i: 2 i + 1), so that one map serves cells and vertices. Every rank does it for all blocks:
+ * 27 shifts by periods, 8 orientations and all pairs of sides are tried.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
 #include "mesh.h"
 
-/* Tangents of a side's axis that the dimension has. */
+/* Tangents of a side's axis that the dimension has. Returns their number. */
 static int tangents(int dim, int axis, int *t)
 {
     int n = 0;
@@ -15,6 +18,9 @@ static int tangents(int dim, int axis, int *t)
     return n;
 }
 
+/* The map from indices behind side sa of block ka to those of block kb before its side sb. flips:
+ * bit t turns the t-th tangent round, bit 2 swaps the tangents. block is -1 where the numbers of
+ * cells differ. */
 static struct mesh_join join_of(const struct mesh *m, int ka, int sa, int kb, int sb, int flips)
 {
     const struct mesh_block *A = m->block + ka, *B = m->block + kb;
@@ -38,6 +44,7 @@ static struct mesh_join join_of(const struct mesh *m, int ka, int sa, int kb, in
     return j;
 }
 
+/* Y = the neighbour's indices of X; X and Y may be one array. */
 static void apply(const struct mesh_join *j, const int *X, int *Y)
 {
     int from[3] = {X[0], X[1], X[2]};
@@ -45,7 +52,8 @@ static void apply(const struct mesh_join *j, const int *X, int *Y)
         Y[j->axis[a]] = j->sign[a] * from[a] + j->shift[a];
 }
 
-/* Whether all vertices of the face lie on the neighbour's. */
+/* Whether all vertices of the face lie on the neighbour's. Vertices may be apart by 1e-4 of the
+ * edge beside them. */
 static bool meets(const struct mesh *m, int ka, int sa, const struct mesh_join *j)
 {
     const struct mesh_block *A = m->block + ka, *B = m->block + j->block;
@@ -76,6 +84,8 @@ static bool meets(const struct mesh *m, int ka, int sa, const struct mesh_join *
     return true;
 }
 
+/* Looks for the side that this one meets; a side may meet another of its own block, but only over a
+ * period if it is called periodic. */
 static bool find_join(const struct run *r, struct mesh *m, int ka, int sa)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -107,8 +117,9 @@ static bool is_joined(const struct mesh_block *b, int side)
     return b->side[side] == MESH_JOINED || b->side[side] == MESH_PERIODIC;
 }
 
-/* Goes through joined sides as far as they lead; X: doubled indices. Returns whether it ended
- * among the block's own cells and vertices. */
+/* Goes through joined sides as far as they lead; X: doubled indices. Returns whether it ended among
+ * the block's own cells and vertices. At most eight hops: a corner index passes three sides at
+ * most. */
 static bool follow(const struct mesh *m, int *block, int *X, double *move)
 {
     for (int hop = 0; hop < 8; hop++) {
@@ -132,6 +143,7 @@ static bool follow(const struct mesh *m, int *block, int *X, double *move)
     return false;
 }
 
+/* Indices in the real block; (X - 1) >> 1 also rounds negative ones down. */
 bool mesh_resolve(const struct mesh *m, int *block, int *cell, double *move)
 {
     int X[3] = {2 * cell[0] + 1, 2 * cell[1] + 1, 2 * cell[2] + 1};
@@ -141,7 +153,8 @@ bool mesh_resolve(const struct mesh *m, int *block, int *cell, double *move)
     return inside;
 }
 
-/* Vertices behind joined sides: the neighbour's; behind other sides of the neighbour its own. */
+/* Vertices behind joined sides: the neighbour's; behind other sides of the neighbour its own. So
+ * that metrics are smooth across joins. */
 static void set_vertices(struct mesh *m, int k)
 {
     struct mesh_block *b = m->block + k;

@@ -10,7 +10,7 @@
 #include "mesh_file.h"
 
 /* x(s) = c + K sinh(B (s - s0)) from min to max, finest at c: s in [0, 1]. B < 0: by a tanh, finest
- * at both ends. */
+ * at both ends. s0 and K follow from x(0) = min, x(1) = max and the least slope at c. */
 static double focused(double min, double max, double c, double B, double s)
 {
     if (B == 0.0)
@@ -23,6 +23,7 @@ static double focused(double min, double max, double c, double B, double s)
     return min + K * (sinh(B * (s - s0)) + sinh(B * s0));
 }
 
+/* Turns x about the block's centre by `angle', degrees. */
 static void rotate(const struct mesh_block_params *p, double *x)
 {
     const double a = p->angle * M_PI / 180.0, c = cos(a), s = sin(a);
@@ -33,7 +34,8 @@ static void rotate(const struct mesh_block_params *p, double *x)
     }
 }
 
-/* Place at s (0 to 1 within the block, beyond behind its sides). */
+/* Place at s (0 to 1 within the block, beyond behind its sides). For all mappings but that of a
+ * file. */
 static void map(const struct mesh_block_params *p, int dim, const double *s, double *x)
 {
     for (int a = 0; a < 3; a++)
@@ -56,6 +58,8 @@ static void map(const struct mesh_block_params *p, int dim, const double *s, dou
     rotate(p, x);
 }
 
+/* Vertices beyond the end x by the cubic through the last four, one after the other: 4 (x_1 + x_3)
+ * - 6 x_2 - x_4. */
 static void extend_line(double (*x)[3], int64_t step)
 {
     for (int m = 1; m <= MESH_VERTICES; m++)
@@ -64,7 +68,8 @@ static void extend_line(double (*x)[3], int64_t step)
                               6.0 * x[(2 - m) * step][c] - x[(4 - m) * step][c];
 }
 
-/* Layers behind the sides of a block from a file: cubics, axis by axis. */
+/* Fills the layers behind the sides of a block from a file by cubics along each index; axis by
+ * axis, so that corners follow. */
 static void extend(struct mesh_block *b, int dim)
 {
     for (int a = 0; a < dim; a++) {
@@ -82,6 +87,8 @@ static void extend(struct mesh_block *b, int dim)
     }
 }
 
+/* s = i/n in [0, 1] within the block; layers behind the sides are mapped as well, where the mapping
+ * has no file. */
 bool mesh_map_vertices(const struct run *r, struct faults *f, struct mesh_block *b)
 {
     const struct mesh_block_params *p = b->prm;
@@ -120,7 +127,7 @@ bool mesh_map_vertices(const struct run *r, struct faults *f, struct mesh_block 
     return true;
 }
 
-/* Lagrange's cubics through -1, 0, 1, 2 and their slopes. */
+/* Lagrange's cubics through -1, 0, 1, 2 at s (w) and their slopes (d). */
 static void cubic(double s, double *w, double *d)
 {
     w[0] = -s * (s - 1.0) * (s - 2.0) / 6.0;
@@ -133,7 +140,8 @@ static void cubic(double s, double *w, double *d)
     d[3] = (3.0 * s * s - 1.0) / 6.0;
 }
 
-/* Sums along the first index, then the second, then the third: x and dx of a point. */
+/* Sums along the first index, then the second, then the third: x and dx of a point. dim is a
+ * constant in both callers. */
 static inline __attribute__((always_inline)) void sum_up(const struct mesh_block *b, const int dim,
                                                          const int *from, double w[3][4],
                                                          double d[3][4], double *x, double dx[3][3])
@@ -164,6 +172,8 @@ static inline __attribute__((always_inline)) void sum_up(const struct mesh_block
     }
 }
 
+/* Cubic through the four vertices around the cell along each index, one-sided at the last
+ * layers. */
 void mesh_map_point(const struct mesh_block *b, int dim, const int *cell, const double *xi,
                     double *x, double dx[3][3])
 {

@@ -1,7 +1,10 @@
 /* mesh_metrics.c - face vectors, volumes and the metric tensor on the faces of the local parts.
- * Face vectors telescope: in 2D they are differences of vertices, in 3D sums over edges of
- * 1/2 int x cross dx, each edge the cubic through its line of vertices. So the six of a cell sum to
- * zero and a uniform flow stays. SPDX-License-Identifier: BSD-3-Clause */
+ * Face vectors telescope: in 2D they are differences of vertices, in 3D sums over edges of 1/2 int
+ * x cross dx, each edge the cubic through its line of vertices. So the six of a cell sum to zero
+ * and a uniform flow stays. All are averages over faces or cells by Gauss points of the smooth map
+ * (mesh_map_point), fourth order. Of blocks that move they are made where the case puts the block,
+ * and turned afterwards (mesh_motion.c).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
@@ -11,13 +14,14 @@ static const double gauss2[2] = {0.2113248654051871, 0.7886751345948129};
 static const double gauss3[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
 static const double weight3[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
+/* Position of vertex i. */
 static const double *vertex(const struct mesh_block *b, const int *i)
 {
     return b->x[mesh_vertex(b, i[0], i[1], i[2])];
 }
 
 /* Places and slopes on the edge from vertex i on along axis a at three Gauss points, o the origin.
- */
+ * / Four vertices along the line; at the outermost ones the last is repeated. */
 static void edge_points(const struct mesh_block *b, const int *i, int a, const double *o,
                         double x[3][3], double dx[3][3])
 {
@@ -47,7 +51,8 @@ static void edge_points(const struct mesh_block *b, const int *i, int a, const d
     }
 }
 
-/* 1/2 int (x - o) cross dx along the edge from vertex i on along axis a. */
+/* 1/2 int (x - o) cross dx along the edge from vertex i on along axis a. The origin is the block's
+ * first vertex, which keeps rounding small. */
 static void edge(const struct mesh_block *b, const int *i, int a, double *e)
 {
     double x[3][3], dx[3][3];
@@ -73,12 +78,15 @@ static void add_edge_moment(const struct mesh_block *b, const int *i, int a, con
     }
 }
 
+/* |x - o|^2/2 in the plane. */
 static double half_square(const double *x, const double *o)
 {
     return 0.5 * ((x[0] - o[0]) * (x[0] - o[0]) + (x[1] - o[1]) * (x[1] - o[1]));
 }
 
-/* By Stokes' theorem int r cross dS = - int 1/2 |r|^2 dx around the face. */
+/* Integral of r cross dS over the lower face along a, r = x - o: by Stokes' theorem it is - int 1/2
+ * |r|^2 dx around the face, a sum over edges that telescopes as the face vectors do. In 2D only the
+ * third component, from both ends. */
 void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, const double *o,
                       double *R)
 {
@@ -100,7 +108,8 @@ void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, 
     add_edge_moment(b, up, p, o, 1.0, R);
 }
 
-/* Vector of the lower face along a of cell i. */
+/* Vector of the lower face along a of cell i. By vertices in 2D; in 3D the edges around the face in
+ * the sense that makes S point along a. */
 static void face_vector(const struct mesh_block *b, int dim, const int *i, int a, double *S)
 {
     int up[3] = {i[0], i[1], i[2]};
@@ -135,7 +144,9 @@ static void cofactors(double d[3][3], double S[3][3])
         }
 }
 
-/* S_a.S_b/J averaged over the lower face along a: slopes from the maps of both sides. */
+/* S_a.S_b/J averaged over the lower face along a: slopes from the maps of both sides. Two Gauss
+ * points a tangent. Entries below 1e-12 of the largest are rounding and become 0, so that upright
+ * cells are recognised. */
 static void face_tensor(const struct mesh_block *b, int dim, const int *i, int a, double *G)
 {
     int below[3] = {i[0], i[1], i[2]}, t[2] = {2, 2}, nt = 0;
@@ -169,6 +180,7 @@ static void face_tensor(const struct mesh_block *b, int dim, const int *i, int a
             G[k] = 0.0;
 }
 
+/* Three Gauss points an index: integral of the determinant. */
 static double volume(const struct mesh_block *b, int dim, const int *i)
 {
     double v = 0.0;
@@ -181,12 +193,15 @@ static double volume(const struct mesh_block *b, int dim, const int *i)
     return v;
 }
 
+/* Whether the flux through a side is given, so that psi does not pass. */
 static bool is_closed(enum mesh_side s)
 {
     return s == MESH_WALL || s == MESH_SLIP || s == MESH_INFLOW || s == MESH_EXACT ||
            s == MESH_CARRIED;
 }
 
+/* S for all ghosts; G and V for all but the outermost layer at the low end, which has G = 0 and V =
+ * 1. */
 static void part_metrics(struct mesh *m, const struct part *p)
 {
     const struct mesh_block *b = m->block[p->block].made;
@@ -215,6 +230,7 @@ static void part_metrics(struct mesh *m, const struct part *p)
             }
 }
 
+/* 1 or 0 for each lower face; imposed cells close theirs afterwards (mesh_given_close). */
 void mesh_open_faces(struct mesh *m)
 {
     for (int q = 0; q < m->nparts; q++) {
@@ -235,7 +251,7 @@ void mesh_open_faces(struct mesh *m)
 }
 
 /* What the metrics of a cell and its lower faces make it: the first cell's box, another upright
- * one, neither. */
+ * one, neither. 1e-10 of the size is beyond rounding and far below any real difference. */
 static enum part_kind kind_of_cell(const struct mesh *m, int64_t first, int64_t c)
 {
     bool like = fabs(m->V[c] - m->V[first]) < 1e-10 * m->V[first], upright = true;
@@ -251,7 +267,8 @@ static enum part_kind kind_of_cell(const struct mesh *m, int64_t first, int64_t 
     return !upright ? PART_CURVED : like ? PART_EVEN : PART_UPRIGHT;
 }
 
-/* By the metrics, not by the mapping: joined to other cells the places between vertices bend. */
+/* By the metrics, not by the mapping: joined to other cells the places between vertices bend.
+ * Ghosts as far as stencils read them count, too. */
 static enum part_kind kind_of(const struct mesh *m, const struct part *p)
 {
     enum part_kind kind = PART_EVEN;
@@ -268,6 +285,7 @@ static enum part_kind kind_of(const struct mesh *m, const struct part *p)
     return kind;
 }
 
+/* Allocates and fills open, S, G and V, and sets the kind of each part. */
 void mesh_metrics(struct mesh *m)
 {
     for (int a = 0; a < m->dim; a++) {

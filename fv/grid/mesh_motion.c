@@ -1,4 +1,9 @@
-/* mesh_motion.c - see mesh_motion.h. SPDX-License-Identifier: BSD-3-Clause */
+/* mesh_motion.c - blocks that move rigidly: positions, face vectors, flux of the grid. x(t) =
+ * centre + X(t) + Q(t) (x_made - centre), with X and Q from the drive of the block's key; joined
+ * blocks share one motion. Each keeps its vertices and centres as made; mesh_motion_place makes
+ * those at time t from them, so that errors do not add up. Called at the start and by
+ * fv/time/moving.c in every step.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_motion.h"
 
 #include <math.h>
@@ -35,6 +40,7 @@ void mesh_motion_now(const struct mesh_block *b, const double *made, double *to)
     memcpy(to, d, sizeof d);
 }
 
+/* u + omega x (x - centre - X). */
 void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w)
 {
     const struct mesh_motion *v = b->motion;
@@ -50,6 +56,7 @@ void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w
 
 /* --- places --- */
 
+/* Number of vertices, layers behind sides included. */
 static int64_t vertices(const struct mesh_block *b)
 {
     return (int64_t)b->nv[0] * b->nv[1] * b->nv[2];
@@ -57,6 +64,7 @@ static int64_t vertices(const struct mesh_block *b)
 
 static int64_t cells(const struct mesh_block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
 
+/* Vertices and centres; every rank does all blocks. */
 static void place_block(struct mesh_block *b)
 {
     for (int64_t k = 0; k < vertices(b); k++)
@@ -65,7 +73,8 @@ static void place_block(struct mesh_block *b)
         mesh_motion_now(b, b->made->centre[k], b->centre[k]);
 }
 
-/* S of the faces of a part as made, in its frame: turned back from what it is now. */
+/* S as made, turned by Q; the flux of the grid's velocity u.S + omega.R is taken in the frame of
+ * the block as made, for which u and omega are turned back. */
 static void place_faces(struct mesh *m, const struct part *p)
 {
     const struct mesh_block *b = m->block + p->block;
@@ -83,6 +92,7 @@ static void place_faces(struct mesh *m, const struct part *p)
         }
 }
 
+/* Motions first, then positions, then this rank's faces (once metrics exist). */
 void mesh_motion_place(struct mesh *m, double t)
 {
     for (int k = 0; k < m->nblocks; k++) {
@@ -102,7 +112,8 @@ void mesh_motion_place(struct mesh *m, double t)
 
 /* --- start --- */
 
-/* The block's vertices and centres get a second store, that of the places as made. */
+/* The block's vertices and centres get a second store, that of the places as made. made shares all
+ * other arrays with the block. */
 static void keep_made(struct mesh_block *b)
 {
     struct mesh_block *made = NEW(struct mesh_block, 1);
@@ -116,6 +127,7 @@ static void keep_made(struct mesh_block *b)
     b->made = made;
 }
 
+/* Distance of the farthest vertex from the centre, m: the rotation's part of `speed'. */
 static void set_reach(struct mesh_motion *v, const struct mesh_block *b, int dim)
 {
     for (int64_t k = 0; k < vertices(b); k++) {
@@ -126,6 +138,7 @@ static void set_reach(struct mesh_motion *v, const struct mesh_block *b, int dim
     }
 }
 
+/* Whether any term of the motion rotates; of a file any number of its columns of angles. */
 static bool ever_turns(const struct body_drive *v)
 {
     for (int k = 0; k < v->nterms; k++) {
@@ -140,6 +153,7 @@ static bool ever_turns(const struct body_drive *v)
     return false;
 }
 
+/* Faults of the motion's terms are added at the block's key. */
 static struct mesh_motion *create_one(const struct run *r, struct faults *f, struct mesh *m, int k)
 {
     const struct mesh_block_params *p = m->block[k].prm;
@@ -158,7 +172,8 @@ static struct mesh_motion *create_one(const struct run *r, struct faults *f, str
     return v;
 }
 
-/* Blocks joined to one that moves have its motion. */
+/* Blocks joined to one that moves have its motion. Repeats until nothing changes; two motions that
+ * meet are a fault. false: such a fault. */
 static bool spread(const struct run *r, struct faults *f, struct mesh *m)
 {
     bool any = true, good = true;
@@ -183,6 +198,7 @@ static bool spread(const struct run *r, struct faults *f, struct mesh *m)
     return good;
 }
 
+/* Sides of a block that moves cannot be openings or lie on the domain. */
 static bool check_sides(const struct run *r, struct faults *f, const struct mesh *m, int k)
 {
     static const char *const names[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};
@@ -203,6 +219,7 @@ static bool check_sides(const struct run *r, struct faults *f, const struct mesh
     return f->n == before;
 }
 
+/* made points to the block itself where nothing moves. */
 bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, double t)
 {
     const int before = f->n;
@@ -248,6 +265,7 @@ void mesh_motion_free(struct mesh *m)
         mem_free(m->grid[a]);
 }
 
+/* faces: [cell][axis] S[3], R[3] as made, of one part. */
 static void keep_faces(struct mesh *m, const struct part *p)
 {
     struct mesh_block *b = m->block + p->block;
@@ -263,6 +281,7 @@ static void keep_faces(struct mesh *m, const struct part *p)
         }
 }
 
+/* Parts that turn are treated as curved from then on. */
 void mesh_motion_metrics(struct mesh *m)
 {
     if (!m->moves)

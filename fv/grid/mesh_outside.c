@@ -1,11 +1,16 @@
-/* mesh_outside.c - see mesh_outside.h. SPDX-License-Identifier: BSD-3-Clause */
+/* mesh_outside.c - the water outside of outflows that blocks declare themselves. The surface
+ * outside an outflow stands as high as the water in it at the start; water falls out where there is
+ * none. All outflows on one side of the domain count as one. From the scene and the vertices alone,
+ * so that every rank finds the same.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_outside.h"
 
 #include <math.h>
 
 #include "../../common/scene/scene_openings.h"
 
-/* A tenth of the first cell inside the middle of a face of a side. */
+/* A tenth of the first cell inside the middle of a face of a side. p, q: the face's indices along
+ * the tangents. */
 static void place_inside(const struct mesh *m, const struct mesh_block *b, int side, int p, int q,
                          double x[3])
 {
@@ -38,6 +43,7 @@ static double top_in(const struct run *r, const struct exact *e, const struct me
     return top;
 }
 
+/* known: whether the scene has a level outside at all. */
 void mesh_outside_find(const struct run *r, const struct mesh *m,
                        struct mesh_outside of[MESH_OUTSIDES])
 {

@@ -1,9 +1,13 @@
 /* mesh_recut.c - blocks cut anew around boxes that have moved: what their cells are, donors of the
- * fringe, faces that psi passes. SPDX-License-Identifier: BSD-3-Clause */
+ * fringe, faces that psi passes. Where sph.box moves, fv's imposed cells move with it:
+ * mesh_recut_wanted is asked once a coupling step, and only if the set of cells in the boxes has
+ * changed is everything cut anew. The caller then renews what depends on it (matrix, forcing).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
 #include "overset_inside.h"
 
+/* O(cells of all blocks), on every rank. */
 bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3])
 {
     struct mesh moved = *m; /* but for the boxes */
@@ -15,6 +19,7 @@ bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3])
     return false;
 }
 
+/* The order is that of mesh_create. */
 void mesh_recut(struct mesh *m, const double (*box)[2][3])
 {
     memcpy(m->given.box, box, (size_t)m->given.n * sizeof *box);

@@ -6,7 +6,7 @@
 #include "mesh.h"
 #include "mesh_motion.h"
 
-/* Box around the vertices of a block's side. */
+/* Box around the vertices of a block's side. Real vertices only. */
 static void bounds_of_side(const struct mesh_block *b, int dim, int side, double bounds[2][3])
 {
     const int a = side / 2;
@@ -26,7 +26,8 @@ static void bounds_of_side(const struct mesh_block *b, int dim, int side, double
                 }
 }
 
-/* Whether all vertices of a block's side lie on a side of the domain. */
+/* Whether all vertices of a block's side lie on a side of the domain. To 1e-9 of the domain's
+ * length. */
 static bool lies_on(const struct scene_domain *d, const double bounds[2][3], int of_domain)
 {
     const int axis = of_domain / 2;
@@ -35,7 +36,8 @@ static bool lies_on(const struct scene_domain *d, const double bounds[2][3], int
     return fabs(bounds[0][axis] - plane) <= eps && fabs(bounds[1][axis] - plane) <= eps;
 }
 
-/* Makes one box of two that touch or overlap along a side of the domain, by more than a corner. */
+/* Makes one box of two that touch or overlap along a side of the domain, by more than a corner.
+ * Returns whether it has changed anything. */
 static bool unite(const struct scene_domain *d, int normal, double p[2][3], double q[2][3])
 {
     int touch = 0;
@@ -57,6 +59,7 @@ static bool unite(const struct scene_domain *d, int normal, double p[2][3], doub
     return true;
 }
 
+/* Until nothing changes: three blocks in a row have one opening. */
 static void unite_openings(const struct scene_domain *d, struct mesh *m)
 {
     const int n = 6 * m->nblocks;
@@ -73,6 +76,8 @@ static void unite_openings(const struct scene_domain *d, struct mesh *m)
     }
 }
 
+/* A side takes the domain's wall if it has no kind of its own (MESH_OVERLAP is what is left) and
+ * all its vertices lie there. on: 6 where it lies on none. */
 void mesh_take_walls(const struct run *r, struct mesh *m)
 {
     const struct scene *s = &r->scene;
@@ -98,7 +103,7 @@ void mesh_take_walls(const struct run *r, struct mesh *m)
 }
 
 /* 4 x (1 - x) along the tangents of the opening, as scene_wall.profile has it: a pipe that takes a
- * part of the domain's side has its own parabola. */
+ * part of the domain's side has its own parabola. Periodic axes have none. */
 static double profile_at(const struct scene_domain *d, const struct mesh_block *b, int side,
                          const double *x)
 {
@@ -112,7 +117,8 @@ static double profile_at(const struct scene_domain *d, const struct mesh_block *
     return f;
 }
 
-/* Of blocks whose list says what their sides are. */
+/* Velocity at x of a wall or inflow that the block's own keys give: sliding walls (all, or the one
+ * of `lid'), spinning ones, inflows (the initial velocity if none is given). */
 static void own_velocity(const struct run *r, const struct mesh_block *block, int side,
                          const double *x, double *w)
 {
@@ -129,6 +135,7 @@ static void own_velocity(const struct run *r, const struct mesh_block *block, in
     w[1] += spin * (x[0] - b->centre[0]);
 }
 
+/* Own values of blocks that move turn with them, and the rigid motion is added. */
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w)
 {

@@ -1,10 +1,13 @@
-/* overset_cut.c - what cells of blocks that overlap are.
- * Later blocks cover earlier ones. A cell must be computed if no later block can give it a value,
- * or if the fringe of a later block needs it; two layers around the computed cells are the fringe,
- * the rest is a hole. Cells behind walls of later blocks are holes from the start: found from the
- * ghosts behind the walls, and all that is connected with them and not covered. A side "overlap"
- * starts with two layers of fringe. Given cells (mesh_given.c) give values as computed ones do, but
- * not to the fringe: what would want them joins them.
+/* overset_cut.c - what cells of blocks that overlap are. Later blocks cover earlier ones. A cell
+ * must be computed if no later block can give it a value, or if the fringe of a later block needs
+ * it; two layers around the computed cells are the fringe, the rest is a hole. Cells behind walls
+ * of later blocks are holes from the start: found from the ghosts behind the walls, and all that is
+ * connected with them and not covered. A side "overlap" starts with two layers of fringe. Given
+ * cells (mesh_given.c) give values as computed ones do, but not to the fringe: what would want them
+ * joins them. Order of overset_cut, from the last block to the first: cover (which cells lie within
+ * later blocks), find_solid (which behind walls), protect (what later fringes need), status; then
+ * make_fringe for all, and with imposed cells hand_over until nothing changes. Every rank does all
+ * cells of all blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
@@ -16,6 +19,7 @@
 /* Flags of all blocks' cells, one byte each. */
 enum { WANTED = 1, SOLID = 2, COVERED = 4 };
 
+/* The two outer layers of a side "overlap" are always fringe or hole. */
 static bool in_overlap_layers(const struct mesh *m, const struct mesh_block *b, const int *i)
 {
     for (int a = 0; a < m->dim; a++)
@@ -25,7 +29,8 @@ static bool in_overlap_layers(const struct mesh *m, const struct mesh_block *b, 
     return false;
 }
 
-/* Whether the stencil may move by a cell: a cut holds for a step. */
+/* Whether the stencil may move by a cell: a cut holds for a step. One cell more on each side, where
+ * cells go on. */
 static bool keeps_giving(const struct mesh *m, int block, const int *from, int width)
 {
     int lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
@@ -39,7 +44,8 @@ static bool keeps_giving(const struct mesh *m, int block, const int *from, int w
     return overset_all(m, block, lo, hi, OF_KNOWN);
 }
 
-/* Whether a later block than k (or any other one) can give a value at x by `width' cells. */
+/* Whether a block from `first' on, other than `but', can give a value at x by `width' cells an
+ * index; latest blocks first. On blocks that move the donor must do so for another step. */
 static bool can_give(const struct mesh *m, const struct overset *o, int first, int but,
                      const double *x, int width)
 {
@@ -54,7 +60,8 @@ static bool can_give(const struct mesh *m, const struct overset *o, int first, i
     return false;
 }
 
-/* Cells of block k that hold points behind walls of later blocks, and what hangs on to them. */
+/* Cells of block k that hold points behind walls of later blocks, and what hangs on to them. A
+ * flood fill over faces of cells: O(cells). */
 static void find_solid(const struct mesh *m, const struct overset *o, int k, unsigned char *flag)
 {
     const struct mesh_block *b = m->block + k;
@@ -102,7 +109,8 @@ static void find_solid(const struct mesh *m, const struct overset *o, int k, uns
     mem_free(stack);
 }
 
-/* Within a later block: covered; in a hole of the latest one there: behind a wall. */
+/* Within a later block: covered; in a hole of the latest one there: behind a wall. Only the latest
+ * block at x counts, for it is on top. */
 static unsigned char cover(const struct mesh *m, const struct overset *o, int k, const double *x)
 {
     int cell[3];
@@ -116,7 +124,8 @@ static unsigned char cover(const struct mesh *m, const struct overset *o, int k,
     return 0;
 }
 
-/* The fringe of later blocks wants the cells around it. */
+/* The fringe of later blocks wants the cells around it. Two layers around, three where blocks move:
+ * stencils of the later block's fringe after a step. */
 static void protect(const struct mesh *m, const struct overset *o, int k, unsigned char *flag)
 {
     const struct mesh_block *b = m->block + k;
@@ -143,6 +152,8 @@ static void protect(const struct mesh *m, const struct overset *o, int k, unsign
     }
 }
 
+/* Computed if wanted, not covered, or covered but without a donor; never behind walls or in the
+ * outer layers. */
 static void cut(struct mesh *m, const struct overset *o, int k, unsigned char *flag)
 {
     struct mesh_block *b = m->block + k;
@@ -165,7 +176,7 @@ static void cut(struct mesh *m, const struct overset *o, int k, unsigned char *f
     }
 }
 
-/* Two layers around computed cells become the fringe. */
+/* Two layers around computed cells become the fringe. The layers reach across joins. */
 static void make_fringe(struct mesh *m, int k)
 {
     const struct mesh_block *b = m->block + k;
@@ -192,7 +203,8 @@ static void make_fringe(struct mesh *m, int k)
     }
 }
 
-/* Whether given cells are why no other block has four computed cells a side around x. */
+/* Whether given cells are why no other block has four computed cells a side around x. Then the
+ * fringe cell would take values through the box. */
 static bool is_beside_given(const struct mesh *m, const struct overset *o, int k, const double *x)
 {
     for (int q = 0; q < m->nblocks && m->has_given; q++) {
@@ -209,7 +221,7 @@ static bool is_beside_given(const struct mesh *m, const struct overset *o, int k
 }
 
 /* Steps from cell i of block k along axis a to a given cell, over free ones; 0: none within `most'.
- * *joined: it is none of the box itself. */
+ * *joined: it is none of the box itself. Also 0 where a hole comes first. */
 static int steps_to_given(const struct mesh *m, int k, const int *i, int a, int way, int most,
                           bool *joined)
 {
@@ -230,7 +242,7 @@ static int steps_to_given(const struct mesh *m, int k, const int *i, int a, int 
 }
 
 /* Whether a free cell stands with fewer than four in line between the box and cells that have
- * joined it: too few for its gradient. */
+ * joined it: too few for its gradient. Along each axis in turn. */
 static bool is_in_gap(const struct mesh *m, int k, const int *i)
 {
     enum { LEAST = 4 };
@@ -245,7 +257,8 @@ static bool is_in_gap(const struct mesh *m, int k, const int *i)
 }
 
 /* Cells of the fringe for whom the box is nearer than other donors join its cells; false: there are
- * none. gaps: of all free cells those between them and the box do. */
+ * none. gaps: of all free cells those between them and the box do. own[] collects first, so that
+ * the order of cells does not matter. */
 static bool hand_over(struct mesh *m, const struct overset *o, bool gaps)
 {
     unsigned char *own[MESH_BLOCKS_MAX];
@@ -281,6 +294,7 @@ void overset_count(struct mesh *m)
         }
 }
 
+/* From the last block down: a block's status decides whether earlier ones find donors in it. */
 void overset_cut(struct mesh *m, const struct overset *o)
 {
     for (int k = m->nblocks - 1; k >= 0; k--) {

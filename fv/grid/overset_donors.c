@@ -1,5 +1,8 @@
-/* overset_donors.c - donors of the fringe: computed cells only, of the block with the smallest
- * cell there: no chains. Cubic where all 4^dim cells are computed, else linear from 2^dim.
+/* overset_donors.c - donors of the fringe: computed cells only, of the block with the smallest cell
+ * there: no chains. Cubic where all 4^dim cells are computed, else linear from 2^dim. At the start
+ * every rank finds the donors of all fringe cells (find_donors, to report orphans); the exchange
+ * then takes its own. After a move each rank finds those of its own cells only (overset_find).
+ * Weights are averages over Gauss points of the receiving cell, so that averages become averages.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +12,9 @@
 #include "mesh_motion.h"
 #include "overset_inside.h"
 
-/* Places of the centre and of Gauss points of a cell in the donor's indices. */
+/* Places of the centre and of Gauss points of a cell in the donor's indices. shift: what x lacks to
+ * the donor block, periods included; places[3 g], g = 0 the centre. false: a point does not lie in
+ * the map. */
 static bool gauss_places(const struct mesh *m, const struct donor *d, const double *shift,
                          const double *xi, double *places)
 {
@@ -30,7 +35,8 @@ static bool gauss_places(const struct mesh *m, const struct donor *d, const doub
     return true;
 }
 
-/* Between blocks at rest the weights of the last search hold, if the stencil is the same. */
+/* Between blocks at rest the weights of the last search hold, if the stencil is the same. Saves
+ * Newton's iterations for the Gauss points; *d becomes the old donor. */
 static bool is_last(const struct mesh *m, const struct overset *o, struct donor *d, const int *from,
                     int width)
 {
@@ -50,6 +56,8 @@ static bool is_last(const struct mesh *m, const struct overset *o, struct donor 
     return true;
 }
 
+/* Replaces *d if block q has the cells and its cell is smaller than *volume. rows_only: linear
+ * weights alone, for the matrix. */
 static bool try_donor(const struct mesh *m, const struct overset *o, int q, int width,
                       const double *x, struct donor *d, double *volume)
 {
@@ -86,6 +94,8 @@ static bool try_donor(const struct mesh *m, const struct overset *o, int q, int 
     return true;
 }
 
+/* Cubic donors of all blocks first, linear ones only if there are none; appends to o->donor. false:
+ * an orphan. */
 static bool find_donor(const struct mesh *m, struct overset *o, int k, int64_t c, int64_t *linear)
 {
     const double *x = m->block[k].centre[c];
@@ -122,6 +132,7 @@ static void other_corners(const struct mesh *m, int k, char *text, size_t size)
     }
 }
 
+/* One fault for each block with orphans, naming the first. */
 static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, struct overset *o)
 {
     bool all = true;
@@ -152,6 +163,8 @@ static bool find_donors(const struct run *r, struct faults *f, struct mesh *m, s
     return all;
 }
 
+/* Imposed cells are marked before the cut, trimmed after it. Without overlaps the struct is
+ * empty. */
 struct overset *overset_create(const struct run *r, struct faults *f, struct mesh *m)
 {
     bool overlap = false;
@@ -188,6 +201,7 @@ void overset_free(struct overset **op)
     *op = NULL;
 }
 
+/* This rank's fringe cells ask the ranks that have their donors' stencils. Collective. */
 static void make_exchange(struct mesh *m, const struct overset *o, struct mesh_exchange *x)
 {
     struct mesh_request *request = NEW(struct mesh_request, o->n);
@@ -208,7 +222,7 @@ static void make_exchange(struct mesh *m, const struct overset *o, struct mesh_e
     mem_free(request);
 }
 
-/* The rows of the matrix. */
+/* Makes the fringe's rows of the pressure matrix: linear interpolation, see struct mesh_fringe. */
 static void set_fringes(struct mesh *m, const struct overset *o)
 {
     mem_free(m->fringes);
@@ -235,13 +249,15 @@ void overset_exchange(struct mesh *m, const struct overset *o)
     set_fringes(m, o);
 }
 
+/* Whether this rank has the cell. */
 static bool is_mine(const struct mesh *m, int k, const int *cell)
 {
     const struct mesh_block *b = m->block + k;
     return cell[b->cut] >= b->first[m->rank] && cell[b->cut] < b->first[m->rank + 1];
 }
 
-/* The donors found become those of the last search. */
+/* The donors found become those of the last search. last[block][cell] is one more than the place in
+ * old; the arrays swap roles. */
 static void keep_last(struct mesh *m, struct overset *o)
 {
     struct donor *const spare = o->old;
@@ -262,6 +278,7 @@ static void keep_last(struct mesh *m, struct overset *o)
             (int)k + 1;
 }
 
+/* The first one of a search, in m->trouble: the step is refused by all ranks later. */
 static void report_orphan(struct mesh *m, int k, int64_t c)
 {
     const struct mesh_block *b = m->block + k;
@@ -274,7 +291,7 @@ static void report_orphan(struct mesh *m, int k, int64_t c)
              i[0], i[1], i[2], b->prm->name, x[0], x[1], x[2]);
 }
 
-/* Of this rank's cells that `wanted' says. */
+/* Donors of this rank's fringe cells, or of those that `wanted' marks. */
 static void find_again(struct mesh *m, struct overset *o, unsigned char *const *wanted)
 {
     m->linear = 0;
@@ -291,6 +308,7 @@ static void find_again(struct mesh *m, struct overset *o, unsigned char *const *
     }
 }
 
+/* Matrix rows stay those of the last overset_find_rows or renewal. */
 void overset_find(struct mesh *m, struct overset *o)
 {
     keep_last(m, o);
@@ -316,6 +334,7 @@ void overset_find_rows(struct mesh *m, const struct overset *o)
     mem_free(fresh.donor);
 }
 
+/* A search of its own beside the fringe's; nothing is kept. */
 void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const *wanted, int nf,
                          double *const *f)
 {
@@ -330,6 +349,7 @@ void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const
     mem_free(fresh.donor);
 }
 
+/* Every rank looks at all cells, so all agree; o's donors are left as they were. */
 bool overset_sound(const struct mesh *m, struct overset *o, struct overset_orphan *first)
 {
     struct donor *const kept = o->donor;

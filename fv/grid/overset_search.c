@@ -8,11 +8,13 @@
 #include "mesh_motion.h"
 #include "overset_inside.h"
 
+/* Cells are boxes before the block's rotation, so that each index can be bisected. */
 static bool is_rectilinear(const struct mesh_block *b)
 {
     return b->prm->mapping == MAPPING_BOX || b->prm->mapping == MAPPING_STRETCHED;
 }
 
+/* The inverse of mesh_map.c's rotation. */
 static void unrotate(const struct mesh_block_params *p, const double *x, double *y)
 {
     const double a = -p->angle * M_PI / 180.0, c = cos(a), s = sin(a);
@@ -22,6 +24,7 @@ static void unrotate(const struct mesh_block_params *p, const double *x, double 
     y[2] = x[2];
 }
 
+/* Vertices along each index of a rectilinear block. */
 static void make_lines(const struct mesh_block *b, int dim, struct bins *s)
 {
     for (int a = 0; a < dim; a++) {
@@ -59,6 +62,7 @@ static void cell_box(const struct mesh_block *b, int dim, const int *i, double l
     }
 }
 
+/* Bins that the box lo .. hi meets, clamped to the grid of bins. */
 static void bin_range(const struct bins *s, const double *lo, const double *hi, int from[3],
                       int to[3])
 {
@@ -68,7 +72,8 @@ static void bin_range(const struct bins *s, const double *lo, const double *hi, 
     }
 }
 
-/* pass 0 counts, pass 1 enters. */
+/* pass 0 counts, pass 1 enters. In pass 1 first[bin] runs to the end of its bin and is shifted back
+ * by make_bins. */
 static void enter_cells(const struct mesh_block *b, int dim, struct bins *s, int pass)
 {
     int i[3], from[3], to[3], q[3];
@@ -90,6 +95,7 @@ static void enter_cells(const struct mesh_block *b, int dim, struct bins *s, int
             }
 }
 
+/* About as many bins as cells; a counting sort in two passes. */
 static void make_bins(const struct mesh_block *b, int dim, struct bins *s)
 {
     const int64_t n = (int64_t)b->n[0] * b->n[1] * b->n[2];
@@ -126,6 +132,7 @@ static void make_bins(const struct mesh_block *b, int dim, struct bins *s)
     s->first[0] = 0;
 }
 
+/* The interval of line[n + 1] that holds x, or the one at its end. */
 static int bisect(const double *line, int n, double x)
 {
     int lo = 0, hi = n;
@@ -139,7 +146,8 @@ static int bisect(const double *line, int n, double x)
     return lo;
 }
 
-/* A cell near x to start from. */
+/* A cell near x to start from. In bins the one whose centre is nearest. false: x is outside of the
+ * block's bounds. */
 static bool near_cell(const struct mesh *m, const struct bins *s, const struct mesh_block *b,
                       const double *x, int *cell)
 {
@@ -172,7 +180,8 @@ static bool near_cell(const struct mesh *m, const struct bins *s, const struct m
     return best < INFINITY;
 }
 
-/* Newton's iteration for the place in the smooth map of a cell. */
+/* Newton's iteration for the place in the smooth map of a cell. Steps are cut at two cells, so that
+ * it does not leave the map; 1e-12 of a cell is the end. xi comes with a first guess. */
 bool overset_invert(const struct mesh_block *b, int dim, const int *cell, const double *x,
                     double *xi)
 {
@@ -201,6 +210,7 @@ bool overset_invert(const struct mesh_block *b, int dim, const int *cell, const 
     return false;
 }
 
+/* Walks from cell to cell where xi leaves [0, 1], 40 times at most. */
 static bool locate(const struct mesh *m, const struct bins *s, const struct mesh_block *b,
                    const double *x, int *cell, double *xi)
 {
@@ -226,6 +236,7 @@ static bool locate(const struct mesh *m, const struct bins *s, const struct mesh
     return false;
 }
 
+/* x is tried as it is first (s = 0), then at up to 26 images. */
 bool overset_locate(const struct mesh *m, const struct overset *o, int block, const double *place,
                     int *cell, double *xi)
 {
@@ -264,6 +275,7 @@ bool overset_computed(const struct mesh *m, const struct overset *o, int after, 
     return false;
 }
 
+/* Bins are made of blocks as made: what moves is searched in its own frame. */
 struct overset *overset_search(const struct run *r, const struct mesh *m)
 {
     struct overset *o = NEW(struct overset, 1);

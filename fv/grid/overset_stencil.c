@@ -8,8 +8,9 @@
 #include "mesh_motion.h"
 #include "overset_inside.h"
 
-/* Weights of four (or two) averages for the value at s, in cells from the first one's lower side.
- */
+/* Weights of four (or two) averages for the value at s, in cells from the first one's lower side. /
+ * With the integral I_k of the averages up to side k, the value is I'(s) of the quartic through I_0
+ * .. I_4; w_j sums the slopes of all sides above average j. */
 static void weights(int width, double s, double *w)
 {
     if (width == 2) {
@@ -34,7 +35,8 @@ static void weights(int width, double s, double *w)
         w[j] = slope[j + 1] + (j < 3 ? w[j + 1] : 0.0);
 }
 
-/* Cells lo to hi - 1, which may lie behind joined sides, are all of this set. */
+/* Cells lo to hi - 1, which may lie behind joined sides, are all of this set. lo and hi may lie
+ * behind sides, from where mesh_resolve leads on. */
 bool overset_all(const struct mesh *m, int block, const int *lo, const int *hi, int set)
 {
     const struct mesh_block *b = m->block + block;
@@ -55,13 +57,15 @@ bool overset_all(const struct mesh *m, int block, const int *lo, const int *hi, 
     return true;
 }
 
+/* A cube of `width' cells from `from' on. */
 static bool all_of(const struct mesh *m, int block, const int *from, int width, int set)
 {
     const int to[3] = {from[0] + width, from[1] + width, m->dim == 3 ? from[2] + width : 1};
     return overset_all(m, block, from, to, set);
 }
 
-/* First cell of the stencil around a place; it stays among the cells. */
+/* First cell of the stencil around a place; it stays among the cells. width/2 cells on either side
+ * of xi. */
 bool overset_stencil(const struct mesh *m, int block, const int *cell, const double *xi, int width,
                      int set, int *from)
 {
@@ -77,8 +81,8 @@ bool overset_stencil(const struct mesh *m, int block, const int *cell, const dou
     return all_of(m, block, from, width, set);
 }
 
-/* xi: npoints places relative to `cell', of which the mean is taken; the first gives the stencil.
- */
+/* xi: npoints places relative to `cell', of which the mean is taken; the first gives the stencil. /
+ * With several points the first is the centre and only chooses the stencil. */
 bool overset_weigh(const struct mesh *m, int block, const int *cell, const double *xi, int npoints,
                    int width, int set, int *from, double *weight)
 {
@@ -104,7 +108,8 @@ bool overset_weights(const struct mesh *m, int block, const int *cell, const dou
     return overset_weigh(m, block, cell, xi, npoints, width, OF_COMPUTED, from, weight);
 }
 
-/* A linear stencil in the store of a cubic one: the same window, zeros around. */
+/* A linear stencil in the store of a cubic one: the same window, zeros around. from may move down
+ * by one so that four cells fit around the donor cell. */
 void overset_widen(const struct mesh *m, struct donor *d)
 {
     double w[64] = {0.0};
@@ -121,7 +126,8 @@ void overset_widen(const struct mesh *m, struct donor *d)
     memcpy(d->from, from, sizeof from);
 }
 
-/* Place, on its owner, of a stencil's first cell: seen from the donor cell. */
+/* Place, on its owner, of a stencil's first cell: seen from the donor cell. Stencil cells may be
+ * ghosts of the owner's part. */
 int64_t overset_place(const struct mesh *m, const struct donor *d, int *rank)
 {
     const struct mesh_block *b = m->block + d->from_block;
@@ -136,7 +142,7 @@ int64_t overset_place(const struct mesh *m, const struct donor *d, int *rank)
 }
 
 /* Places of the centre, xi, and of Gauss points of a box of size h around it in the indices of the
- * cell d->at; false: too far from it. */
+ * cell d->at; false: too far from it. places[0] is xi itself. */
 static bool box_places(const struct mesh *m, const struct donor *d, const double *h,
                        const double *xi, double *places)
 {
@@ -158,6 +164,7 @@ static bool box_places(const struct mesh *m, const struct donor *d, const double
     return true;
 }
 
+/* As try_donor of overset_donors.c, but from cells with any values (OF_ANY). */
 static bool sample_from(const struct mesh *m, const struct overset *o, int q, int width,
                         const double *x, const double *h, struct donor *d, double *volume)
 {
@@ -176,6 +183,7 @@ static bool sample_from(const struct mesh *m, const struct overset *o, int q, in
     return true;
 }
 
+/* The weights are copied to the caller's array, which the request points to. */
 static void to_request(const struct mesh *m, const struct donor *d, struct mesh_request *r,
                        double *weight)
 {
@@ -184,6 +192,7 @@ static void to_request(const struct mesh *m, const struct donor *d, struct mesh_
     memcpy(weight, d->weight, sizeof d->weight);
 }
 
+/* xi is cut at one cell beyond the side, so that extrapolation stays tame. */
 bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, const double *x,
                            struct mesh_request *r, double *weight)
 {

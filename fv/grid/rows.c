@@ -1,6 +1,8 @@
 /* rows.c - see rows.h. Face values, slopes on faces and from them derivatives of cells come from
- * the quartic through the integral of the averages at five edges: fourth order for any heights,
- * and the plain weights for even ones. SPDX-License-Identifier: BSD-3-Clause */
+ * the quartic through the integral of the averages at five edges: fourth order for any heights, and
+ * the plain weights for even ones. Heights: even ones at the top, growing downwards by h_i = fine
+ * ratio^exponent(i), the exponent a smooth step from 1 to 0; at the bottom ROWS_BOTTOM equal ones.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "rows.h"
 
 #include <math.h>
@@ -10,12 +12,13 @@
 /* From 1 at x = 0 to 0 at x = 1, with two smooth derivatives. */
 static double step_down(double x) { return 1.0 - x * x * x * (10.0 + x * (6.0 * x - 15.0)); }
 
-/* Exponent of row i, of n rows below the even ones. */
+/* Exponent of row i, of n rows below the even ones. Row 0 is the lowest. */
 static double exponent(int i, int n)
 {
     return i < ROWS_BOTTOM ? 1.0 : step_down((i - ROWS_BOTTOM + 0.5) / (n - ROWS_BOTTOM));
 }
 
+/* Height of the n rows below, in units of the even ones. */
 static double sum_below(int n, double ratio)
 {
     double sum = 0.0;
@@ -24,6 +27,8 @@ static double sum_below(int n, double ratio)
     return sum;
 }
 
+/* The ratio follows by bisection of its logarithm, so that the heights add up to what is below
+ * `above'. */
 double rows_heights(int n, int even, double above, double length, double *h)
 {
     const int below = n - even;
@@ -44,7 +49,8 @@ double rows_heights(int n, int even, double above, double length, double *h)
     return most;
 }
 
-/* First and second derivative at e[2] of Lagrange's polynomial of node m on e[0..4]. */
+/* First and second derivative at e[2] of Lagrange's polynomial of node m on e[0..4]. Sums over
+ * products of all but two, or three, of the factors. */
 static void lagrange(const double e[5], int m, double d[2])
 {
     double below = 1.0, first = 0.0, second = 0.0;
@@ -64,7 +70,9 @@ static void lagrange(const double e[5], int m, double d[2])
     d[1] = second / below;
 }
 
-/* Weights of the four averages of heights h around the middle edge: value and slope there. */
+/* Weights of the four averages of heights h around the middle edge: value and slope there. The
+ * integral up to edge m is a sum of h times averages; its first derivative is the value, its second
+ * one the slope. */
 static void face_weights(const double h[4], double value[4], double slope[4])
 {
     double e[5] = {-h[0] - h[1], -h[1], 0.0, h[2], h[2] + h[3]}, d[5][2];
@@ -81,6 +89,8 @@ static void face_weights(const double h[4], double value[4], double slope[4])
 
 static const double ones[9] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
+/* The average over a layer beyond the edge is the difference of the extrapolated integral at its
+ * two ends over its height. */
 void rows_beyond(const double *of, int way, int n, int depth, double *w)
 {
     const double *h = of ? of : ones + 4;
@@ -108,6 +118,8 @@ void rows_beyond(const double *of, int way, int n, int depth, double *w)
 /* Mean of y^2 from a to b. */
 static double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3.0; }
 
+/* q = a + b y^2 with y from the edge: its average over the layer beyond from those of the first two
+ * layers; n = 1: the first one itself. */
 void rows_mirror(const double *of, int way, int n, int depth, double *w)
 {
     const double *h = of ? of : ones + 4;
@@ -118,6 +130,7 @@ void rows_mirror(const double *of, int way, int n, int depth, double *w)
         w[1] = 1.0 - w[0];
 }
 
+/* As rows_beyond, within four layers. */
 void rows_average(const double e[5], double from, double to, double w[4])
 {
     const double y[2] = {from, to};
@@ -136,7 +149,7 @@ void rows_average(const double e[5], double from, double to, double w[4])
 }
 
 /* Faces of rows from -1 to n + 1, derivatives of rows from -1 to n; what is read is from -3 to n +
- * 2. */
+ * 2. gradient and laplace are differences of the faces' values and slopes over the height. */
 static void set_weights(struct rows *r, int n)
 {
     for (int j = -1; j <= n + 1; j++)
@@ -152,6 +165,8 @@ static void set_weights(struct rows *r, int n)
         }
 }
 
+/* Arrays are shifted by GHOSTS so that j may be negative; layers beyond the ends are as high as the
+ * last one. */
 struct rows *rows_create(int n, int even, double bottom, const double *h, int lo, int own)
 {
     struct rows *r = NEW(struct rows, 1);

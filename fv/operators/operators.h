@@ -24,9 +24,9 @@ void viscous_apply(const struct fv *s, const double *q, double *out);
 void viscous_row(const double *q, const int64_t *stride, const double *c, int dim, int64_t n,
                  double *out);
 /* Solves (1 - c L) delta = rhs for all components, by CG, Chebyshev's iteration or BiCGStab; delta
- * comes with the imposed values in imposed cells and ghosts of the sides. tol: relative to the first
- * residual, or where the last increment is the start (viscous_keeps_increment) to rhs. false: not
- * converged. Collective. */
+ * comes with the imposed values in imposed cells and ghosts of the sides. tol: relative to the
+ * first residual, or where the last increment is the start (viscous_keeps_increment) to rhs. false:
+ * not converged. Collective. */
 bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3],
                    double tol);
 /* Whether delta should be kept for the next solve to start from. */
