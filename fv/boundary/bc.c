@@ -1,5 +1,10 @@
-/* bc.c - see bc.h. Of ghosts.h:
- * No-slip and inflow: all components given; slip: the normal one odd, others even; outflow: even.
+/* bc.c - ghosts and fluxes at the sides of uniform cells and of layers. Ghost averages of velocity
+ * follow from the cells inside (ghosts.h): no-slip and inflow: all components given; slip: the
+ * normal one antisymmetric, the others mirrored; outflow: mirrored. In the notation of ghosts.h a
+ * given value w on the face and three cells make the ghosts by a cubic. Sides are filled axis by
+ * axis in the order of `turn', so that corners belong to the last one. Called by every operator
+ * that needs ghosts (bc_ghosts), by projections (bc_fluxes, bc_set_slip) and by sums over faces
+ * (bc_visit).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bc.h"
 
@@ -13,8 +18,8 @@
 #include "ghosts.h"
 #include "levels.h"
 
-/* Places of a side on this rank: tangents t0 < t1, from lo to hi; places count from -g, so that
- * those behind other sides have their own. */
+/* A side's cells on this rank: tangents t[0] < t[1], indices from lo to hi. Places count from -g,
+ * so that those behind other sides have their own. */
 struct bc_side {
     int a, t[2], lo[2], hi[2];
     int width;  /* places along t[0] */
@@ -22,13 +27,15 @@ struct bc_side {
     int64_t in; /* step inwards */
 };
 
+/* Whether side k of the domain is one of this rank's and not periodic. */
 static bool has_side(const struct block *b, int k)
 {
     const int a = k / 2;
     return a < b->dim && !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
 }
 
-/* Tangents of an axis filled before have their ghosts by then: sides are filled axis by axis. */
+/* Tangents of an axis filled before have their ghosts by then: sides are filled axis by axis.
+ * corners: with these ghosts. */
 static struct bc_side side_of(const struct bc *bc, const struct block *b, int k, bool corners)
 {
     struct bc_side d = {.a = k / 2};
@@ -48,11 +55,13 @@ static struct bc_side side_of(const struct bc *bc, const struct block *b, int k,
     return d;
 }
 
+/* Index in the side's arrays of the place (i, j). */
 static int64_t place(const struct block *b, const struct bc_side *d, int i, int j)
 {
     return (i + b->g[d->t[0]]) + (int64_t)d->width * (j + b->g[d->t[1]]);
 }
 
+/* Index in a field of the cell inside at (i, j). */
 static int64_t cell(const struct block *b, const struct bc_side *d, int i, int j)
 {
     int at[3];
@@ -69,17 +78,20 @@ static int64_t cell(const struct block *b, const struct bc_side *d, int i, int j
             for (int64_t m = place(b, &(d), i, j), c = cell(b, &(d), i, j), its_once_##c = 1;      \
                  its_once_##c; its_once_##c = 0)
 
+/* m^(dim-1). */
 static double face_area(const struct block *b, const struct bc_side *d, int i, int j)
 {
     return block_size(b, d->t[0], i) * block_size(b, d->t[1], j);
 }
 
-/* Average of 4 x (1 - x) over the face from x to x + h of a side of length 1. */
+/* Average of 4 x (1 - x) over the face from x to x + h of a side of length 1. Its maximum is 1. */
 static double parabola(double x, double h)
 {
     return 2.0 * (2.0 * x + h) - 4.0 / 3.0 * (3.0 * x * x + 3.0 * x * h + h * h);
 }
 
+/* The product of parabolas along the tangents that are neither periodic nor beyond dim; 1 without a
+ * profile. */
 static double profile_at(const struct fv *s, const struct scene_wall *wall, const struct bc_side *d,
                          int i, int j)
 {
@@ -99,7 +111,8 @@ static double profile_at(const struct fv *s, const struct scene_wall *wall, cons
     return f;
 }
 
-/* Places of an opening and the cells inside. */
+/* Places of an opening and the cells inside. S points outwards; own marks faces that are counted
+ * once over all ranks. */
 static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct outflow **list,
                                    int *count)
 {
@@ -117,6 +130,7 @@ static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct ou
     return o;
 }
 
+/* A convective or given discharge: velocities w are the side's own array, changed in each stage. */
 static void make_outflow(struct fv *s, struct bc *bc, int k, enum outflow_kind kind)
 {
     struct outflow *o = list_places(s, bc, k, &s->outflows->of, &s->outflows->n);
@@ -127,6 +141,8 @@ static void make_outflow(struct fv *s, struct bc *bc, int k, enum outflow_kind k
     }
 }
 
+/* Sets kind, pressure, largest speeds and wall area on all ranks, arrays only where this rank has
+ * the side; outflux sums the given velocity over this rank's real faces. */
 static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall)
 {
     const struct block *b = &s->b;
@@ -175,7 +191,8 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
 
 /* The axis whose walls slide fastest comes last, so that their ghosts go on through the corners.
  * Cut off there by the ghosts of another wall (4 V beside a fluid at rest) they are a jet of no
- * width between two cells, and the product term of convection drives the corners with it. */
+ * width between two cells, and the product term of convection drives the corners with it. turn[a]
+ * is the rank of axis a by the speed of its sliding walls, ties in the order of axes. */
 static void set_turns(const struct scene *scene, int dim, int turn[3])
 {
     double speed[3] = {0.0, 0.0, 0.0};
@@ -192,6 +209,8 @@ static void set_turns(const struct scene *scene, int dim, int turn[3])
     }
 }
 
+/* Openings whose values change (outflows, levels) are created first, since make_side lists their
+ * cells. */
 struct bc *bc_create(struct fv *s)
 {
     const struct scene *scene = &s->run->scene;
@@ -231,7 +250,8 @@ enum mesh_side bc_behind(const struct fv *s, const int *at, int a)
     return s->bc->kind[2 * a + (i >= 0)];
 }
 
-/* One component along one side. w, slip: NULL for zero. */
+/* One component along one side. w, slip: NULL for zero. slip is what the next projection takes off
+ * the side's velocity. */
 static void fill(const struct bc *bc, const struct block *b, int k, enum mesh_side kind, int q,
                  const double *w, const double *slip, double *u)
 {
@@ -256,6 +276,7 @@ static const double *side_value(const struct bc *bc, int k, int q, enum bc_value
     return what == BC_ZERO ? NULL : bc->w[k][q];
 }
 
+/* The axis that is filled at this turn. */
 static int axis_of_turn(const struct bc *bc, int turn)
 {
     int a = 0;
@@ -264,6 +285,7 @@ static int axis_of_turn(const struct bc *bc, int turn)
     return a;
 }
 
+/* A change (BC_CHANGE) of given walls is 0 but for convective outflows and slip. */
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
 {
     const struct bc *bc = s->bc;
@@ -275,7 +297,7 @@ void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
     }
 }
 
-/* Along a side whose places are given; of a difference. */
+/* As `fill' of a difference, along a side whose places are given. */
 static void fill_zero(const struct bc *bc, const struct block *b, int k, int q,
                       const struct bc_side *d, double *u)
 {
@@ -291,6 +313,7 @@ static void fill_zero(const struct bc *bc, const struct block *b, int k, int q,
     }
 }
 
+/* For the steps of viscous.c that go through slabs; rows of periodic axes copy their other end. */
 void bc_slab_ghosts(const struct fv *s, int q, int j, double *u)
 {
     const struct block *b = &s->b;
@@ -331,6 +354,7 @@ void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u)
     fill_zero(s->bc, &s->b, k, q, &d, u);
 }
 
+/* U of the faces whose velocity is given; outflows keep what the projection makes. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
 {
     const struct block *b = &s->b;
@@ -353,6 +377,7 @@ enum mesh_side bc_kind(const struct fv *s, int k)
     return s->b.periodic[k / 2] ? MESH_PERIODIC : MESH_EXACT;
 }
 
+/* Ghosts along tangents are left out: each real face once. */
 void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with)
 {
     const struct block *b = &s->b;
@@ -376,7 +401,8 @@ void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void 
     }
 }
 
-/* v[0 .. 4]: five values of a line around `at', that of cell c, even where a box begins. */
+/* v[0 .. 4]: five values of a line around `at', that of cell c; where a box begins they are
+ * mirrored. */
 static void line_beside_box(const struct fv *s, const double *at, int64_t c, int64_t d, double *v)
 {
     const unsigned char *box = s->blocked->box + c;
@@ -392,7 +418,8 @@ static void line_beside_box(const struct fv *s, const double *at, int64_t c, int
 }
 
 /* psi on the side, continued evenly: (7 psi_1 - psi_2)/6; its gradient along the side by fourth
- * order differences, again even at the ends. line: scratch of the length of a row with ghosts. */
+ * order differences, again even at the ends. line: scratch of the length of a row with ghosts. m:
+ * which tangent the row runs along; step: offset in slip from one place to the next. */
 static void slip_row(const struct fv *s, const struct bc_side *d, int m, double tau,
                      const double *psi, int64_t c, double *line, double *slip, int64_t step)
 {
@@ -422,6 +449,7 @@ static void slip_row(const struct fv *s, const struct bc_side *d, int m, double 
     }
 }
 
+/* Each tangent by itself; the component across the side is left at 0. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi)
 {
     const struct block *b = &s->b;

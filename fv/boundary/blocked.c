@@ -1,4 +1,8 @@
-/* blocked.c - see blocked.h. SPDX-License-Identifier: BSD-3-Clause */
+/* blocked.c - boxes of cells that are cut out, and which free cells have them in their stencils.
+ * Made once: boxes do not move. box[] marks their cells, ghosts included; near[a] lists the free
+ * cells with a box within three cells along a, beside[a][t] the faces along a that have a box along
+ * t. blocked_cells.c then corrects only these.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "blocked.h"
 
 #include <math.h>
@@ -28,6 +32,7 @@ static unsigned char box_of(const struct block *b, const int (*cells)[2][3], int
     return 0;
 }
 
+/* From the case's boxes, so that cells of other ranks count as well. */
 int blocked_stack(const struct fv *s, const int *at, int a, int way)
 {
     const struct block *b = &s->b;
@@ -42,6 +47,7 @@ int blocked_stack(const struct fv *s, const int *at, int a, int way)
     return n;
 }
 
+/* Number of the box of every cell and ghost of this rank. */
 static void mark(const struct fv *s, struct blocked *w)
 {
     const struct block *b = &s->b;
@@ -60,7 +66,7 @@ static void mark(const struct fv *s, struct blocked *w)
 }
 
 /* Free cells from c on along the step d, at most 3 of the `most' that are there; *box: what ends
- * them. */
+ * them. 3 means three or more. */
 static int count_free(const struct blocked *w, int64_t c, int64_t d, int most, int *box)
 {
     int n = 0;
@@ -70,7 +76,8 @@ static int count_free(const struct blocked *w, int64_t c, int64_t d, int most, i
     return n < most ? n : 3;
 }
 
-/* Cells of this rank, one layer around, and the first beyond the upper end along a. */
+/* Cells of this rank, one layer around, and the first beyond the upper end along a. So that faces
+ * and products of all own cells find theirs. */
 static void list_near(const struct block *b, struct blocked *w, int a)
 {
     w->near[a] = NEW(struct near_box, b->size);
@@ -93,6 +100,7 @@ static void list_near(const struct block *b, struct blocked *w, int a)
     w->slip[a] = mem_new((size_t)w->nnear[a] + 1, sizeof *w->slip[a]);
 }
 
+/* in points away from the box, or from the upper one of two. */
 static void list_beside(const struct block *b, struct blocked *w, int a, int t)
 {
     const int64_t d = b->stride[a], e = b->stride[t];
@@ -114,6 +122,7 @@ static void list_beside(const struct block *b, struct blocked *w, int a, int t)
             }
 }
 
+/* Faces are moved to the nearest faces of cells. */
 void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int k, int lo[3],
                    int hi[3])
 {
@@ -161,6 +170,7 @@ void blocked_free(struct blocked **wp)
     *wp = NULL;
 }
 
+/* Scalars (q < 0) have zero gradient. */
 enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a)
 {
     if (box < 0 || q < 0)
@@ -170,6 +180,8 @@ enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a)
     return q == a ? GHOST_ODD : GHOST_EVEN;
 }
 
+/* No-slip: averages of the cubic that is 0 on the face and has the first three cells' averages,
+ * -(13 q_0 - 5 q_1 + q_2)/3 and -(70 q_0 - 32 q_1 + 7 q_2)/3. */
 double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule)
 {
     if (rule == GHOST_LINEAR)
@@ -180,6 +192,7 @@ double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost 
                       : -(70.0 * q[0] - 32.0 * q[in] + 7.0 * q[2 * in]) / 3.0;
 }
 
+/* Behind a box's face ghosts are made from the cells before it, at most `reach' of them. */
 void blocked_line(const struct near_box *x, const double *q, int64_t d, int reach,
                   const enum blocked_ghost rule[2], double *v)
 {

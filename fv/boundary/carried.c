@@ -1,4 +1,8 @@
-/* carried.c - see carried.h. SPDX-License-Identifier: BSD-3-Clause */
+/* carried.c - lists of openings whose values change with the flow. An opening is listed once for
+ * each part of this rank that has some of it; what all its parts share (mean velocities, areas) is
+ * kept by side of the domain in struct outflows and struct levels. outflow.c and levels.c fill in
+ * the values.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "carried.h"
 
 #include <math.h>
@@ -13,6 +17,7 @@ enum outflow_kind carried_kind(const struct scene_wall *w)
                                     : OUTFLOW_GIVEN_OUT;
 }
 
+/* out: m^dim/s outwards, negative for inflows. */
 void carried_set_discharges(struct fv *s, double t)
 {
     struct outflows *all = s->outflows;
@@ -29,6 +34,7 @@ void carried_set_discharges(struct fv *s, double t)
             all->of[k].discharge = out[all->of[k].side];
 }
 
+/* any and convects are the same on all ranks, so that collective calls are made by all or none. */
 void carried_create(struct fv *s)
 {
     const struct scene *scene = &s->run->scene;
@@ -45,6 +51,7 @@ void carried_create(struct fv *s)
         s->outflows->kept[q] = NEW(double, s->size);
 }
 
+/* Everything is under water (share, wet 1) until a surface says otherwise. */
 struct outflow *carried_add(struct outflow **list, int *count, int dim, int side, int a, int64_t in,
                             int64_t n, int64_t values)
 {
@@ -67,6 +74,7 @@ struct outflow *carried_add(struct outflow **list, int *count, int dim, int side
     return o;
 }
 
+/* The w of the sides are theirs and stay. */
 void carried_free_list(struct outflow **list, int n)
 {
     for (int k = 0; k < n; k++) {

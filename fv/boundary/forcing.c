@@ -1,4 +1,11 @@
-/* forcing.c - see forcing.h. SPDX-License-Identifier: BSD-3-Clause */
+/* forcing.c - cells whose velocity is imposed, and fluxes through their interface. Made at the
+ * start and whenever sph.box moves. `forced' says what each cell is, `layer' how far an imposed one
+ * is from the free cells; lists of cells (local, set, partner) and of faces between free and
+ * imposed cells (face[a]) serve everything else. In a stage: forcing_velocity imposes the values at
+ * its time, forcing_fluxes those of the interface before the projection, corrected so that the
+ * pressure equation has a solution (balance). In 2D and 3D, on uniform cells and blocks alike;
+ * gradients beside imposed cells are those of forcing_fixes.c and given_cells.c.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
 #include <math.h>
@@ -16,6 +23,7 @@
     for (const struct part *p = (s)->grid.part; p < (s)->grid.part + (s)->grid.nparts; p++)        \
         PART_ALL (p, at, c)
 
+/* Whether it is a cell of the part, not a ghost. */
 static bool is_local(const struct part *p, const int *at)
 {
     for (int a = 0; a < 3; a++)
@@ -26,7 +34,8 @@ static bool is_local(const struct part *p, const int *at)
 
 static double *new_field(const struct fv *s) { return NEW(double, s->size); }
 
-/* 1: inside the box, 2: behind a closed side, 0: free. */
+/* What an even cell is with one box: 1 inside the box, 2 behind a closed side, 0 free. Of a
+ * periodic axis the image counts that is not below the box. */
 static unsigned char kind_of(const struct block *b, const int *at, const double (*box)[3])
 {
     const double *const lo = box[0], *const hi = box[1];
@@ -45,7 +54,7 @@ static unsigned char kind_of(const struct block *b, const int *at, const double 
     return inside;
 }
 
-/* In any of n boxes. */
+/* The same with n boxes: in any of them. */
 static unsigned char kind_in(const struct block *b, const int *at, int n, const double (*box)[2][3])
 {
     unsigned char kind = 0;
@@ -54,6 +63,8 @@ static unsigned char kind_in(const struct block *b, const int *at, int n, const 
     return kind;
 }
 
+/* Fills `forced' for all cells and ghosts, and counts free cells over all ranks. Returns the number
+ * of imposed cells, ghosts included, of all ranks. */
 static int64_t count_kind(const struct fv *s, struct forcing *f, int n, const double (*box)[2][3])
 {
     static const unsigned char kinds[] = {
@@ -72,6 +83,7 @@ static int64_t count_kind(const struct fv *s, struct forcing *f, int n, const do
     return forced;
 }
 
+/* Whether one of the up to 26 neighbours has this layer. */
 static bool beside_layer(const struct part *p, const double *field, const int *at, double layer)
 {
     int d[3];
@@ -87,7 +99,8 @@ static bool beside_layer(const struct part *p, const double *field, const int *a
     return false;
 }
 
-/* Layers by spreading from the free cells over faces and corners; halo by way of a field. */
+/* Layers by spreading from the free cells over faces and corners; halo by way of a field. 99 marks
+ * imposed cells not yet reached, 999 those that are no cells. */
 static void find_layers(const struct fv *s, struct forcing *f)
 {
     double *field = new_field(s), *const fields[1] = {field};
@@ -105,14 +118,15 @@ static void find_layers(const struct fv *s, struct forcing *f)
     mem_free(field);
 }
 
-/* Behind a wall or an opening: bc.c gives the values. */
+/* Whether the cell lies behind a wall or an opening, whose ghosts bc.c fills. */
 static bool has_bc(const struct fv *s, const int *at)
 {
     return bc_behind(s, at, 0) || bc_behind(s, at, 1) || bc_behind(s, at, 2);
 }
 
-/* Whether a free cell has a cell of the hole within two cells along an axis; on askew cells the
- * fluxes want those beside such lines, too. */
+/* Whether a free cell has a cell of the hole within two cells along an axis; on curved cells those
+ * beside such lines count, too, for the products of fluxes read them. Partners give it values, for
+ * fluxes alone. */
 static bool is_rim(const struct fv *s, const struct part *p, const struct forcing *f, int64_t c)
 {
     bool rim = false;
@@ -126,6 +140,7 @@ static bool is_rim(const struct fv *s, const struct part *p, const struct forcin
     return rim && !f->forced[c];
 }
 
+/* A halo of a field of ones, so that ghosts are marked as well. */
 static void mark_known(const struct fv *s, struct forcing *f)
 {
     double *field = new_field(s), *const fields[1] = {field};
@@ -138,6 +153,7 @@ static void mark_known(const struct fv *s, struct forcing *f)
     mem_free(field);
 }
 
+/* The free cells beside the interface come after the imposed ones, see struct forcing. */
 static void list_partner(const struct fv *s, struct forcing *f)
 {
     FLOW_ROWS_AT (s, part, j, at, n)
@@ -153,6 +169,8 @@ static void list_partner(const struct fv *s, struct forcing *f)
     }
 }
 
+/* set: exact values, of cells near the free ones and of ghosts without a condition of their own;
+ * partner: those of a partner. */
 static void list_cells(const struct fv *s, struct forcing *f)
 {
     int at[3];
@@ -178,7 +196,9 @@ static void list_cells(const struct fv *s, struct forcing *f)
     MPI_Allreduce(MPI_IN_PLACE, &f->imposed, 1, MPI_C_BOOL, MPI_LOR, s->comm);
 }
 
-/* Whether the face between two cells, one of them free, the other not, is of the outline. */
+/* Whether the face between a free cell and one that is not is of the interface with imposed cells:
+ * neither of a physical side nor of a box that is cut out. At an outflow it sets open to 2, since
+ * psi is 0 on the face, half a cell away. */
 static bool is_outline(const struct fv *s, struct forcing *f, const int *at, int a, int64_t c,
                        int64_t d)
 {
@@ -193,7 +213,8 @@ static bool is_outline(const struct fv *s, struct forcing *f, const int *at, int
     return !kind && f->forced[here ? c : c - d] != 3;
 }
 
-/* Faces between free and forced cells along axis a. */
+/* Faces between free and forced cells along axis a. sign is +1 where the imposed cell is above;
+ * open is 1 between free cells, 0 elsewhere. */
 static void list_faces(const struct fv *s, struct forcing *f, int a)
 {
     int at[3];
@@ -224,8 +245,8 @@ struct closed {
     double *sum;
 };
 
-/* Vectors, inwards, of closed sides behind cells of the hole, deep ones too: nothing flows there.
- */
+/* Adds the vectors, inwards, of walls behind cells of the hole, deep ones too: nothing flows
+ * there. */
 static void add_closed(const struct side_face *f, void *with)
 {
     const struct closed *x = with;
@@ -238,8 +259,9 @@ static void add_closed(const struct side_face *f, void *with)
         x->sum[e] += (f->side % 2 ? -1.0 : 1.0) * S[e];
 }
 
-/* By whether the vectors of the outline's faces sum to zero, with those of the walls that close it
- * or with those of the sides of blocks: it has a whole inside, or the rest of the fluid has. */
+/* Which faces take the net flux: by whether the vectors of the interface's faces sum to zero, with
+ * those of the walls that close it or with those of the sides of blocks: it has a whole inside, or
+ * the rest of the fluid has. 1e-9 of the sum of sizes is rounding. Collective. */
 static enum net_flux net_of(const struct fv *s, const struct forcing *f)
 {
     const bool open = sides_give_pressure(s);
@@ -269,6 +291,7 @@ static enum net_flux net_of(const struct fv *s, const struct forcing *f)
     return closes && !open ? NET_SIDES : NET_OTHERS;
 }
 
+/* On blocks what cells are comes from the mesh's status, on uniform cells from the boxes. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner)
 {
     struct forcing *f = NEW(struct forcing, 1);
@@ -330,7 +353,8 @@ void forcing_zero(const struct forcing *f, double *q)
         q[f->local[i]] = 0.0;
 }
 
-/* Partner's velocity at t: linear over the window, or through the window before, too. */
+/* A partner's velocity at t, linear over the coupling step [t0, t1], or with `quadratic' the
+ * parabola through the one before, too. */
 static double partner_value(const struct forcing *f, bool quadratic, int a, int64_t i, double t)
 {
     const double T = f->t1 - f->t0, x = T > 0.0 ? (t - f->t0) / T : 0.0;
@@ -343,6 +367,8 @@ static double partner_value(const struct forcing *f, bool quadratic, int a, int6
     return linear + x * (x - 1.0) * second;
 }
 
+/* With differences d0, d1 over the last two steps the new v_next is v + T (d0 + (T + h) bend), bend
+ * = (d0 - d1)/(h + g): Newton's form of the parabola. Arrays take turns. */
 void forcing_shift(struct forcing *f, double t0, double t1)
 {
     const double h = t0 - f->t0, g = f->t0 - f->t_old, T = t1 - t0;
@@ -364,7 +390,8 @@ void forcing_shift(struct forcing *f, double t0, double t1)
     f->levels = f->levels < 3 ? f->levels + 1 : 3;
 }
 
-/* One round: listed cells without a value take the mean of their neighbours that have one. */
+/* One round: listed cells without a value take the mean of their neighbours that have one.
+ * Neighbours over faces only; next[] says who has a value afterwards. */
 static void fill_round(const struct fv *s, const double *has, double *next)
 {
     const struct forcing *f = s->forcing;
@@ -386,6 +413,7 @@ static void fill_round(const struct fv *s, const double *has, double *next)
     }
 }
 
+/* As many rounds as there are layers of cells; each needs a halo, since chains cross ranks. */
 void forcing_fill(const struct fv *s, const unsigned char *mask)
 {
     const struct forcing *f = s->forcing;
@@ -434,6 +462,7 @@ void forcing_subtract(const struct forcing *f, double *const u[3], double *const
     }
 }
 
+/* Average of the exact velocity over the lower face along a of c, times the area on blocks. */
 static double exact_flux(const struct fv *s, int64_t c, int a, double t)
 {
     double x[3], h[3], v[3];
@@ -447,12 +476,13 @@ static double exact_flux(const struct fv *s, int64_t c, int a, double t)
     return v[a];
 }
 
+/* Whether the flux of a face comes from the exact solution. */
 static bool is_exact(const struct forcing *f, int64_t c, int64_t d)
 {
     return f->forced[c] == 2 || f->forced[c - d] == 2 || !f->from_partner;
 }
 
-/* A partner's values at t, two cells to both sides of the outline. */
+/* Sets given[] to a partner's values at t, in the cells two deep on both sides of the interface. */
 static void look_at_partner(const struct fv *s, double t)
 {
     const struct forcing *f = s->forcing;
@@ -469,12 +499,13 @@ static bool is_partners(const struct forcing *f, int64_t c, int64_t d)
            f->known[c + d];
 }
 
+/* Face value of averages, fourth order. */
 static double partner_flux(const double *u, int64_t d)
 {
     return (7.0 * (u[-d] + u[0]) - (u[-2 * d] + u[d])) / 12.0;
 }
 
-/* U of a face of the outline, less `excess' m/s outwards. */
+/* Takes `excess' m/s outwards off U of a face of the interface. */
 static void take_off(const struct fv *s, int a, int64_t i, double excess, double *U)
 {
     const struct forcing *f = s->forcing;
@@ -483,7 +514,8 @@ static void take_off(const struct fv *s, int a, int64_t i, double excess, double
         f->sign[a][i] * excess * (grid_face_area(&s->grid, c, a) / grid_flow_area(&s->grid, c, a));
 }
 
-/* The part that the computed cell beside a face of the outline lies in; 0 where there are none. */
+/* The part that the computed cell beside a face of the interface lies in; 0 where there are
+ * none. */
 static int face_part(const struct fv *s, int a, int64_t i)
 {
     const struct forcing *f = s->forcing;
@@ -493,7 +525,8 @@ static int face_part(const struct fv *s, int a, int64_t i)
     return f->parted->of[f->sign[a][i] > 0 ? c - grid_part(&s->grid, c, NULL)->stride[a] : c];
 }
 
-/* Net flux of the outline's faces of each part outwards, m^dim/s, and their area; of this rank. */
+/* Net flux of the interface's faces of each part outwards, m^dim/s, and their area; of this
+ * rank. */
 static void sum_outline(const struct fv *s, double *const U[3], double sums[2][PARTS_MAX])
 {
     const struct forcing *f = s->forcing;
@@ -508,7 +541,7 @@ static void sum_outline(const struct fv *s, double *const U[3], double sums[2][P
             }
 }
 
-/* U of the outline less the excess of each part, m/s outwards. */
+/* Takes the excess of each part, m/s outwards, off U of its faces. */
 static void take_off_all(const struct fv *s, const double *excess, double *const U[3])
 {
     const struct forcing *f = s->forcing;
@@ -538,8 +571,9 @@ static void balance_parts(const struct fv *s, double *const U[3])
     take_off_all(s, excess, U);
 }
 
-/* Takes the net flux out, where the outline does and no surface lets it in; sides: theirs counts.
- */
+/* Makes the net flux through the interface what the rest of the fluid leaves, by one velocity added
+ * to all its faces; not where a surface or an outflow takes the difference. sides: theirs counts.
+ * Collective. */
 static void balance(const struct fv *s, bool sides, double *const U[3])
 {
     const struct forcing *f = s->forcing;
@@ -572,6 +606,7 @@ static bool partners_flux(const struct fv *s, int64_t c, int a, int64_t d, doubl
     return true;
 }
 
+/* Faces neither exact nor a partner's keep what was interpolated. */
 void forcing_fluxes(const struct fv *s, double t, double *const U[3])
 {
     const struct forcing *f = s->forcing;
@@ -590,6 +625,7 @@ void forcing_fluxes(const struct fv *s, double t, double *const U[3])
     balance(s, true, U);
 }
 
+/* 0 where the flux is imposed; a partner's interface is balanced as before. */
 void forcing_fluxes_variation(const struct fv *s, double *const U[3])
 {
     const struct forcing *f = s->forcing;

@@ -1,6 +1,10 @@
 /* forcing_fixes.c - what free cells make of imposed ones beside them: one-sided gradients of even
  * cells and rows (of blocks: given_cells.c), and a field that is extrapolated into the imposed
- * cells. SPDX-License-Identifier: BSD-3-Clause */
+ * cells. For each free cell whose stencil (8 (q_1 - q_-1) - (q_2 - q_-2))/(12 h) reaches imposed
+ * cells, a ghost or a box, the weights are made once: those of the plain form taken off, those of
+ * the extrapolated values added (struct fix). forcing_gradient then adds them to the plain
+ * gradient.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
 #include "../../common/base/mem.h"
@@ -8,14 +12,15 @@
 #include "bc.h"
 #include "blocked.h"
 
-/* A cell along an axis of which a gradient goes on into forced cells. */
+/* A cell along an axis whose gradient goes on into imposed cells. */
 struct line_at {
     const struct rows *rows; /* NULL: even along this axis */
     int row, way;            /* local row of the cell; the way outwards */
 };
 
 /* Adds to the weights, counted from cell 0 outwards, g times the ghost `depth' = 1, 2 cells beyond
- * the free cell at `edge', behind which `run' free cells stand in line. */
+ * the free cell at `edge', behind which `run' free cells stand in line. evenly: zero gradient, from
+ * two cells; else the polynomial through up to four. */
 static void spread_ghost(const struct line_at *l, int edge, int run, int depth, double g,
                          bool evenly, double *to)
 {
@@ -27,14 +32,14 @@ static void spread_ghost(const struct line_at *l, int edge, int run, int depth, 
         to[REACH + l->way * (edge - m)] += g * w[m];
 }
 
-/* Boundary that the two cells beside a cell reach, if any. */
+/* The boundary that the two cells beside a cell reach, if any. */
 struct beside {
     enum mesh_side kind;
     double pressure; /* m^2/s^2: of an outflow */
 };
 
-/* The same where the pressure is given on the face: p by the cubic through it, psi odd; and at a
- * slip wall, where both are even. */
+/* Ghosts where the pressure is given on the face: p by the cubic through it, psi antisymmetric; at
+ * a slip wall both are mirrored. Fewer than three free cells in line: antisymmetric, too. */
 static void spread_mirror(const struct beside *side, int edge, int run, int depth, double g,
                           struct fix *x, int way)
 {
@@ -52,7 +57,8 @@ static void spread_mirror(const struct beside *side, int edge, int run, int dept
 }
 
 /* Adds what the two cells on one side of a free cell c have beyond the plain weights, 1/m: plain[m]
- * of the m-th cell that way. False if both are free. */
+ * of the m-th cell that way. False if both are free. run counts free cells in line inwards from the
+ * last one, at most four. */
 static bool add_side(const struct forcing *f, int64_t c, int64_t d, const struct line_at *l,
                      const double *plain, const struct beside *side, struct fix *x)
 {
@@ -78,6 +84,7 @@ static bool add_side(const struct forcing *f, int64_t c, int64_t d, const struct
     return true;
 }
 
+/* By what the second cell in direction `way' lies behind. */
 static struct beside beside(const struct fv *s, const struct forcing *f, int64_t c, int a, int way)
 {
     const struct block *b = &s->b;
@@ -102,6 +109,7 @@ static void plain_weights(const struct block *b, int a, int j, double w[5])
         w[m] = a == 1 && b->rows ? b->rows->gradient[j][m] : even[m] / b->h[a];
 }
 
+/* All cells of this rank, along axis a; both directions may add to one fix. */
 void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
 {
     const struct block *b = &s->b;
@@ -130,6 +138,7 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
         }
 }
 
+/* given holds an outflow's pressure; psi and variations have none. */
 void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
                       double *out)
 {
@@ -145,17 +154,19 @@ void forcing_gradient(const struct fv *s, int a, enum continuation how, const do
     }
 }
 
+/* Sum and number of what lines say. */
 struct line_sum {
     double sum, n;
 };
 
+/* Free, or a layer that was filled before. */
 static bool is_known(const struct forcing *f, int64_t c, int layer)
 {
     return !f->forced[c] || (f->layer[c] && f->layer[c] < layer);
 }
 
-/* What the known lines along the axes say: cubic where three cells behind are known, else constant.
- */
+/* What the known lines along the axes say: quadratic where three cells behind are known, else
+ * constant. */
 static struct line_sum along_axes(const struct forcing *f, const struct part *part, int64_t c,
                                   int layer, const double *p)
 {
@@ -173,7 +184,7 @@ static struct line_sum along_axes(const struct forcing *f, const struct part *pa
     return all;
 }
 
-/* Of a corner cell: its diagonal neighbours. */
+/* The same of a corner cell from its diagonal neighbours in the plane of the first two axes. */
 static struct line_sum across(const struct forcing *f, const struct part *part, int64_t c,
                               int layer, const double *p)
 {
@@ -188,7 +199,8 @@ static struct line_sum across(const struct forcing *f, const struct part *part, 
     return all;
 }
 
-/* A cell takes the mean of what its known lines say. */
+/* A cell takes the mean of what its known lines say. Layer by layer, with a halo before each.
+ * Collective. */
 void forcing_extend(const struct fv *s, int layers, double *p)
 {
     const struct forcing *f = s->forcing;

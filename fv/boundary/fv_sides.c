@@ -1,4 +1,6 @@
-/* fv_sides.c - see fv_sides.h. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_sides.c - physical sides, whatever the cells. Each function asks s->sides (blocks) or s->bc
+ * (uniform cells) and nothing else.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv_sides.h"
 
 #include <math.h>
@@ -6,6 +8,7 @@
 #include "blocked.h"
 #include "mesh_bc.h"
 
+/* Of all blocks, on all ranks alike. */
 unsigned sides_kinds(const struct fv *s)
 {
     unsigned kinds = 0;
@@ -28,6 +31,7 @@ bool sides_slide(const struct fv *s)
     return any;
 }
 
+/* On blocks the other way round: ghosts at sides need the fringe and the halo first. */
 void sides_velocity(const struct fv *s, enum bc_value what, double *const u[3])
 {
     if (!s->sides) /* ghosts of corners go on to other ranks */
@@ -60,6 +64,7 @@ void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, vo
         bc_visit(s, visit, with);
 }
 
+/* A face is visited from its free cell, by the rank that has it. */
 void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                        void *with)
 {
@@ -82,12 +87,14 @@ void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face 
             }
 }
 
+/* What add_passing needs. */
 struct passing {
     const struct fv *s;
     double (*share)(const struct fv *s, int64_t c);
     double *sums;
 };
 
+/* Openings only; in > 0 comes in. */
 static void add_passing(const struct side_face *f, void *with)
 {
     const struct passing *p = with;

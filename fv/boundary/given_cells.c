@@ -30,11 +30,13 @@ struct window {
     double w[WINDOW_CELLS];
 };
 
+/* Offset in a field of a step along the indices. */
 static int64_t step_to(const struct part *p, const int *at)
 {
     return at[0] + at[1] * p->stride[1] + at[2] * p->stride[2];
 }
 
+/* What the cell at `at' from home is. */
 static unsigned char status_at(const struct window *w, const int *at)
 {
     return w->m->status[w->c + step_to(w->p, at)];
@@ -50,7 +52,8 @@ static void add(struct window *w, const int *at, double g)
     w->w[(at[0] + REACH) + WINDOW * ((at[1] + REACH) + WINDOW * (at[2] + REACH))] += g;
 }
 
-/* Adds g times q `depth' = 1, 2 cells beyond the free cell `edge', away from home along a. */
+/* Adds g times q `depth' = 1, 2 cells beyond the free cell `edge', away from home along a. run
+ * counts free cells in line within the window; at least one is there. */
 static void add_beyond(struct window *w, const int *edge, int a, int way, int depth, double g)
 {
     int at[3] = {edge[0], edge[1], edge[2]}, run = 0;
@@ -70,7 +73,7 @@ static void add_beyond(struct window *w, const int *edge, int a, int way, int de
         add(w, at, g * beyond[k]);
 }
 
-/* Adds g times q m cells from home along a. */
+/* Adds g times q m cells from home along a. The first imposed cell on the way ends the line. */
 static void add_in_line(struct window *w, const int *home, int a, int m, double g)
 {
     const int way = m < 0 ? -1 : 1;
@@ -94,7 +97,8 @@ static void add_face(struct window *w, const int *home, int a, int up, double g)
         add_in_line(w, home, a, k - 2 + up, g * value[k]);
 }
 
-/* The same of the cell one step `way' along t; if that is given, from the lines on this side. */
+/* The same of the cell one step `way' along t; if that is given, from the lines on this side. How
+ * many lines are used depends on the continuation: one, or up to three. */
 static void add_face_beside(struct window *w, int a, int up, int t, int way, double g)
 {
     int home[3] = {0, 0, 0}, run = 0;
@@ -114,7 +118,8 @@ static void add_face_beside(struct window *w, int a, int up, int t, int way, dou
     }
 }
 
-/* Adds the pressure's force along e on the lower or upper face along a, over the cell's volume. */
+/* Adds the pressure's force along e on the lower or upper face along a, over the cell's volume. S
+ * with the products of mesh_ops.c along the face. */
 static void add_force(struct window *w, int a, int up, int e)
 {
     static const int home[3] = {0, 0, 0};
@@ -132,6 +137,7 @@ static void add_force(struct window *w, int a, int up, int e)
     }
 }
 
+/* Two cells along all indices: as far as any of its face values reach. */
 static bool is_beside_given(const struct mesh *m, const struct part *p, int64_t c)
 {
     const int deep = m->dim == 3 ? 2 : 0;
@@ -144,7 +150,8 @@ static bool is_beside_given(const struct mesh *m, const struct part *p, int64_t 
     return false;
 }
 
-/* Enters the weights of one cell; room: of weights. */
+/* Enters the weights of one cell; room: of weights. Six weights a value: three components evenly,
+ * three by a cubic. */
 static void add_cell(const struct mesh *m, const struct part *p, int64_t c, struct one_sided *g,
                      int64_t *room)
 {
@@ -180,6 +187,7 @@ static void add_cell(const struct mesh *m, const struct part *p, int64_t c, stru
     g->first[g->n] = n;
 }
 
+/* Pass 0 counts. */
 void given_rows_create(const struct fv *s, struct forcing *f)
 {
     struct one_sided *g = f->gradient = NEW(struct one_sided, 1);
@@ -213,6 +221,7 @@ void given_rows_free(struct one_sided **gp)
     *gp = NULL;
 }
 
+/* Replaces, not adds. */
 void given_gradient(const struct fv *s, enum continuation how, const double *q, double *const g[3])
 {
     const struct one_sided *of = s->forcing->gradient;
@@ -239,6 +248,7 @@ bool given_stencil(const struct forcing *f, int64_t i, int64_t *cell, int64_t *n
     return true;
 }
 
+/* Before and after: sources may be ghosts, and ghosts copy the result. */
 void given_mirror(const struct fv *s, double *psi)
 {
     const struct forcing *f = s->forcing;
@@ -256,7 +266,7 @@ void given_mirror(const struct fv *s, double *psi)
     mesh_halo(s->m, 1, &psi);
 }
 
-/* The vector of a face along a from the derivatives of the map there. */
+/* u.S of a face along a from the derivatives of the map there; S from cofactors. */
 static double flux_at(double dx[3][3], int a, int dim, const double *u)
 {
     const int p = (a + 1) % 3, q = (a + 2) % 3;
@@ -268,6 +278,7 @@ static double flux_at(double dx[3][3], int a, int dim, const double *u)
     return sum;
 }
 
+/* Two Gauss points a tangent. */
 double given_exact_flux(const struct fv *s, int64_t c, int a, double t)
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
@@ -294,6 +305,7 @@ static double face_value(const double *q, int64_t d)
     return (7.0 * (q[-d] + q[0]) - (q[-2 * d] + q[d])) / 12.0;
 }
 
+/* Products along tangents where a partner knows all their values. */
 double given_flux_of(const struct fv *s, double *const v[3], int64_t c, int a)
 {
     const struct mesh *m = s->m;

@@ -1,4 +1,11 @@
-/* levels.c - see levels.h. SPDX-License-Identifier: BSD-3-Clause */
+/* levels.c - openings of given pressure under a free surface. On the face of an opening, less the
+ * pressure of water at rest,
+ *   p/rho = g (L - L_0) + c (u - U) - min(u_f, 0)^2/2 (+ min(u, 0)^2/2 at inlets),
+ * L the level outside, L_0 that of the run, c the speed of long waves, u the mean velocity outwards
+ * of the opening's water, U its mean over the last TRANSITS transits, u_f that of the face.
+ * levels_set makes p before a stage, levels_fluxes applies it to U, so that the solve has psi = 0
+ * on the face, and levels_ghosts or levels_gradient to psi's gradients.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "levels.h"
 
 #include <math.h>
@@ -10,6 +17,7 @@
 #include "carried.h"
 #include "still.h"
 
+/* Transits of a wave through the domain over which U is averaged. */
 #define TRANSITS 2.0
 
 /* Visits the openings of this kind: o. */
@@ -42,7 +50,8 @@ static double velocity_out(const struct fv *s, const struct outflow *o, int64_t 
     return (o->in < 0 ? U : -U) / (s->m ? carried_area(o, i) : 1.0);
 }
 
-/* m/s: mean velocity outwards of the water in each opening. */
+/* m/s: mean velocity outwards of the water in each opening. By the projected fluxes, weighted with
+ * the wet area. Collective. */
 static void mean_velocities(struct fv *s)
 {
     double sums[2][LEVEL_GROUPS] = {{0.0}};
@@ -82,6 +91,8 @@ static void start_own(const struct fv *s)
     }
 }
 
+/* In the order in which later ones overrule: the run's level, walls of the scene, blocks' own
+ * outflows, given levels. */
 void levels_start(struct fv *s)
 {
     struct levels *l = s->levels;
@@ -108,7 +119,8 @@ void levels_start(struct fv *s)
         l->past[k] = l->mean[k];
 }
 
-/* s: of a wave on its way through the domain and back. */
+/* s: of a wave on its way through the domain and back. Against the flow c - |u|, with it c + |u|:
+ * together L (1/(c - |u|) + 1/(c + |u|))/2 = L/(c (1 - Fr^2)) a transit; Fr at most 0.9. */
 static double memory_of(const struct fv *s, int k)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -118,6 +130,7 @@ static double memory_of(const struct fv *s, int k)
                             : 0.0;
 }
 
+/* U relaxes towards u within T; without waves it is u. */
 void levels_begin(struct fv *s, double dt)
 {
     if (!levels_set_any(s))
@@ -152,7 +165,8 @@ static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
     return fv_still_pressure(s, x) / s->run->scene.fluid.rho;
 }
 
-/* m^2/s^2: p/rho on a face, less that of water at rest. */
+/* m^2/s^2: p/rho on a face, less that of water at rest. Only water that comes in loses its dynamic
+ * pressure. */
 static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i)
 {
     const struct levels *l = s->levels;
@@ -166,7 +180,8 @@ static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i
            0.5 * u * u + (l->inlet[k] ? 0.5 * all * all : 0.0);
 }
 
-/* Flux outwards by a unit of psi on a face over that in the cell: half a cell away. */
+/* Flux outwards by a unit of psi on a face over that in the cell: half a cell away. m on blocks
+ * (G), 1/m on uniform cells. */
 static double conductance(const struct fv *s, const struct outflow *o, int64_t i)
 {
     return 2.0 * (s->m ? s->m->G[o->a][o->a][o->cell[i] + o->face] : 1.0 / o->h[i]);
@@ -183,6 +198,7 @@ void levels_set(struct fv *s, double t)
             s->levels->p[o->cell[i] - o->in] = pressure_on(s, o, i);
 }
 
+/* Faces without water are left alone. */
 void levels_fluxes(struct fv *s, double tau)
 {
     if (!levels_set_any(s))
@@ -195,6 +211,7 @@ void levels_fluxes(struct fv *s, double tau)
                                                     s->levels->p[o->cell[i] - o->in];
 }
 
+/* Ghosts at an outflow are antisymmetric about 0 on the face; about p they are 2 p more. */
 void levels_ghosts(const struct fv *s, double *psi)
 {
     if (!levels_set_any(s))
@@ -205,6 +222,8 @@ void levels_ghosts(const struct fv *s, double *psi)
                 psi[o->cell[i] - m * o->in] += 2.0 * s->levels->p[o->cell[i] - o->in];
 }
 
+/* What 2 p in the first two ghosts adds to (8 (q_1 - q_-1) - (q_2 - q_-2))/12 h: 14/12 in the first
+ * cell, 2/12 in the second. */
 void levels_gradient(const struct fv *s, int a, double *out)
 {
     if (!levels_set_any(s))

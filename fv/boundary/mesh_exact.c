@@ -5,7 +5,8 @@
 #include "forcing.h"
 #include "mesh_bc.h"
 
-/* Couette flow in a ring: u_theta = A r + B/r. */
+/* Couette flow in a ring: u_theta = A r + B/r. A and B from the spins of both walls; p from dp/dr =
+ * rho u^2/r, up to a constant. */
 static void ring_at(const struct fv *s, const double *x, double *u, double *p, double *w)
 {
     const struct mesh_block_params *b = s->m->block[0].prm;
@@ -33,6 +34,7 @@ void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, dou
         exact_point(&s->exact, x, t, u, p, w);
 }
 
+/* Averages over the cell's index space (not its volume) by two Gauss points an index. */
 static void average(const struct fv *s, const struct part *p, const int *i, double t, double *u,
                     double *pressure, double *w)
 {

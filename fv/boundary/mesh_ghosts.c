@@ -1,6 +1,8 @@
 /* mesh_ghosts.c - physical sides of blocks: ghosts as in bc.c, along the indices across the side.
  * No-slip, inflow, exact: the cubic through the average w on the face and three cells; slip: the
- * normal component mirrored oddly; outflow: evenly, with p/rho = 0 on the face.
+ * normal component mirrored oddly; outflow: evenly, with p/rho = 0 on the face. mesh_bc_velocity is
+ * called after halo and fringe were filled, for every operator; the others fill ghosts of
+ * pressures, level sets and other scalars.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
@@ -9,7 +11,8 @@
 #include "../../common/base/mem.h"
 #include "ghosts.h"
 
-/* wS: flux that the wall itself makes. */
+/* Ghosts behind a slip side: the component along S is antisymmetric about the wall's own flux wS,
+ * the rest is mirrored. */
 static void slip(const struct mesh *m, const struct side *d, int64_t c, double wS,
                  double *const u[3])
 {
@@ -26,6 +29,7 @@ static void slip(const struct mesh *m, const struct side *d, int64_t c, double w
     }
 }
 
+/* The value on a side for this kind of field. */
 static double wanted(const struct side *d, int q, int64_t at, enum bc_value what)
 {
     switch (what) {
@@ -49,7 +53,8 @@ static bool accelerates(const struct fv *s, const struct side *d)
 }
 
 /* What a place of such a wall gains across it while the projection acts, times the area: in rk3 in
- * a stage, with backward differences in dt/c0. Its cell inside: c. */
+ * a stage, with backward differences in dt/c0. Its cell inside: c. S is the face's vector, so that
+ * the result is a flux, m^dim/s. */
 static double gain(const struct fv *s, const struct side *d, int64_t at, int64_t c)
 {
     const double r = s->step.dt > 0.0 ? s->step.dt_now / s->step.dt : 0.0,
@@ -60,6 +65,7 @@ static double gain(const struct fv *s, const struct side *d, int64_t at, int64_t
     return share * sum;
 }
 
+/* |S|^2 of the face beside cell c. */
 static double area2(const struct mesh *m, const struct side *d, int64_t c)
 {
     double S2 = 0.0;
@@ -68,6 +74,8 @@ static double area2(const struct mesh *m, const struct side *d, int64_t c)
     return S2;
 }
 
+/* psi gets the slope rise per cell that balances the wall's acceleration, in ghosts l = 1, 2, .. (2
+ * l - 1) times. */
 void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
 {
     const struct mesh *m = s->m;
@@ -97,7 +105,7 @@ void mesh_bc_slope_fluxes(const struct fv *s, double tau, int a, double *F)
     }
 }
 
-/* Of a slip wall that moves. */
+/* Flux that a slip wall that moves makes, m^dim/s. */
 static double flux_wanted(const struct mesh *m, const struct side *d, int64_t at, int64_t c,
                           enum bc_value what)
 {
@@ -108,6 +116,7 @@ static double flux_wanted(const struct mesh *m, const struct side *d, int64_t at
     return sum;
 }
 
+/* late: what an accelerating wall's fluid gains only in the projection. */
 void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3])
 {
     const struct mesh *m = s->m;
@@ -134,6 +143,7 @@ void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3]
     }
 }
 
+/* odd: antisymmetric at outflows, for psi. */
 void mesh_bc_even(const struct fv *s, bool odd, double *q)
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -145,7 +155,8 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
     }
 }
 
-/* Whether a level surface meets the face at a slant. */
+/* Whether a level surface meets the face at a slant. 1e-8 of cos^2: 0.006 degrees from horizontal
+ * or vertical. */
 static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
 {
     const double *g = s->run->scene.fluid.gravity;
@@ -160,6 +171,7 @@ static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
     return cosine2 > 1e-8 && cosine2 < 1.0 - 1e-8;
 }
 
+/* keep: with the slope of the last call, for fields that are reinitialised. */
 void mesh_bc_level(const struct fv *s, bool keep, double *phi)
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -176,6 +188,7 @@ void mesh_bc_level(const struct fv *s, bool keep, double *phi)
     }
 }
 
+/* Ghosts by the quadratic through the last three cells, 3 (q_0 - q_1) + q_2. */
 static void extended(double *q, int64_t in)
 {
     for (int l = 1; l <= MESH_GHOSTS; l++)
@@ -193,6 +206,7 @@ void mesh_bc_extend(const struct fv *s, double *q)
     }
 }
 
+/* Outflows have their pressure on the face, the rest is extrapolated. */
 void mesh_bc_pressure(const struct fv *s, double *p)
 {
     for (int k = 0; k < s->sides->n; k++) {

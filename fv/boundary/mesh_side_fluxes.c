@@ -1,9 +1,12 @@
-/* mesh_side_fluxes.c - what flows through the physical sides of blocks.
+/* mesh_side_fluxes.c - what flows through the physical sides of blocks. U in m^dim/s, all sums over
+ * this rank's faces; those that are collective say so in mesh_bc.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
 #include <math.h>
 
+/* Of walls the flux of the moving grid, or 0; other sides keep what was interpolated from
+ * ghosts. */
 void mesh_bc_fluxes(const struct fv *s, double *const U[3])
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -17,6 +20,7 @@ void mesh_bc_fluxes(const struct fv *s, double *const U[3])
     }
 }
 
+/* As convection_beside_walls, by the cubic through four faces within the fluid. */
 void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, double *f)
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -39,6 +43,8 @@ bool mesh_bc_slides(const struct fv *s)
     return any;
 }
 
+/* Largest rate at which given velocities cross the cells beside sides, 1/s, relative to the moving
+ * grid; *speed is raised to the largest of them. */
 double mesh_bc_rate(const struct fv *s, double *speed)
 {
     const struct mesh *m = s->m;
@@ -84,7 +90,7 @@ void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, 
     }
 }
 
-/* <w.S> of one face, outwards. */
+/* <w.S> of one face, outwards. Products along the tangents as in mesh_ops.c. */
 static double given_flux(const struct mesh *m, const struct side *d, int64_t at, int64_t c)
 {
     double sum = 0.0;
@@ -99,6 +105,7 @@ static double given_flux(const struct mesh *m, const struct side *d, int64_t at,
     return d->k % 2 ? sum : -sum;
 }
 
+/* Inflows and exact sides, outwards. */
 double mesh_bc_given_flux(const struct fv *s)
 {
     double sum = 0.0;
@@ -113,6 +120,7 @@ double mesh_bc_given_flux(const struct fv *s)
     return sum;
 }
 
+/* Of computed cells only. Collective. */
 double mesh_bc_net_flux(const struct fv *s)
 {
     double sum = 0.0;
@@ -127,6 +135,7 @@ double mesh_bc_net_flux(const struct fv *s)
     return sum;
 }
 
+/* Sum of the outward vectors of sides beside computed cells. Collective. */
 void mesh_bc_vectors(const struct fv *s, double sum[3])
 {
     sum[0] = sum[1] = sum[2] = 0.0;

@@ -11,6 +11,7 @@
 #include "carried.h"
 #include "levels.h"
 
+/* No overlap, join or period. */
 static bool is_physical(enum mesh_side k)
 {
     return k != MESH_OVERLAP && k != MESH_JOINED && k != MESH_PERIODIC;
@@ -22,7 +23,8 @@ static bool slips(enum mesh_side k)
     return is_physical(k) && k != MESH_SLIP && k != MESH_OUTFLOW;
 }
 
-/* Gradients of the tangential indices at the centre of the face: cofactors / J. */
+/* Sets grad_xi at a place: gradients of the tangential indices at the centre of the face, cofactors
+ * over J. */
 static void set_slopes(const struct fv *s, const struct side *d, int i, int j, int64_t to)
 {
     int at[3];
@@ -41,6 +43,7 @@ static void set_slopes(const struct fv *s, const struct side *d, int i, int j, i
         }
 }
 
+/* For all places of a side; again after a block has turned. */
 static void turn_slopes(const struct fv *s, const struct side *d)
 {
     SIDE_PLACES (d, 1, i, j, at, c) {
@@ -49,7 +52,7 @@ static void turn_slopes(const struct fv *s, const struct side *d)
     }
 }
 
-/* Places of an opening. */
+/* Places of an opening. h is the cell's height across the face, V/S by the metric. */
 static struct outflow *list_places(struct fv *s, const struct side *d, struct outflow **list,
                                    int *count)
 {
@@ -80,6 +83,7 @@ static void add_outflow(struct fv *s, const struct side *d)
         o->w[q] = d->w[q];
 }
 
+/* Only if this part touches the block's side k; arrays cover ghosts of the tangents. */
 static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int k)
 {
     const struct mesh_block *b = s->m->block + p->block;
@@ -114,7 +118,8 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
         list_places(s, d, &s->levels->of, &s->levels->n);
 }
 
-/* That of a lid comes last: its ghosts go on through the corners (set_turns in bc.c). */
+/* Axis that is filled at this turn: the one with the fastest sliding wall comes last, whose ghosts
+ * then go on through the corners (set_turns in bc.c). */
 static int axis_of_turn(const struct mesh *m, int part, int turn)
 {
     const struct mesh_block *b = m->block + m->part[part].block;
@@ -132,7 +137,9 @@ static int axis_of_turn(const struct mesh *m, int part, int turn)
     return turn < last ? turn : turn + 1;
 }
 
-/* Who has the ghost behind the wall at a place beyond the side; false: the wall ends there. */
+/* Who has the ghost behind the wall at a place beyond the side; false: the wall ends there. outside
+ * counts directions in which the resolved cell still lies beyond a block: one is a wall, more are a
+ * corner. */
 static bool find_wall(const struct mesh *m, const struct side *d, int i, int j,
                       struct mesh_request *r)
 {
@@ -153,6 +160,7 @@ static bool find_wall(const struct mesh *m, const struct side *d, int i, int j,
     return outside == 1;
 }
 
+/* For every side that slips, all places beyond its real faces; then one exchange. Collective. */
 static void find_beyond(struct mesh *m, struct mesh_bc *bc)
 {
     struct mesh_request *request = NULL, one = {0};
@@ -176,6 +184,7 @@ static void find_beyond(struct mesh *m, struct mesh_bc *bc)
     mem_free(request);
 }
 
+/* pressure_given and slip_anywhere come from all blocks, so that all ranks agree. */
 void mesh_bc_create(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -231,6 +240,7 @@ bool mesh_bc_has_walls(const struct mesh *m)
     return false;
 }
 
+/* Velocity wanted at x, m/s. */
 static void value_at(const struct fv *s, const struct side *d, const double *x, double t, double *w)
 {
     if (d->kind == MESH_EXACT)
@@ -239,7 +249,7 @@ static void value_at(const struct fv *s, const struct side *d, const double *x, 
         mesh_side_velocity(s->run, s->m->block + d->p->block, d->k, x, w);
 }
 
-/* Gauss points of the face at a place. */
+/* Gauss points of the face at a place. Returns their number, 2 or 4. */
 static int face_points(const struct fv *s, const struct side *d, int i, int j, double x[4][3])
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
@@ -258,6 +268,8 @@ static int face_points(const struct fv *s, const struct side *d, int i, int j, d
     return n;
 }
 
+/* Sets w at all places to averages over Gauss points at time t; slides where a wall moves other
+ * than its block does. */
 static void set_values(const struct fv *s, struct side *d, double t)
 {
     SIDE_PLACES (d, 1, i, j, m, c) {
@@ -279,6 +291,7 @@ static void set_values(const struct fv *s, struct side *d, double t)
     }
 }
 
+/* w_old are the values before; at the first call they are the same. */
 void mesh_bc_time(struct fv *s, double t)
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -298,7 +311,7 @@ void mesh_bc_time(struct fv *s, double t)
 }
 
 /* tau times the gradient of psi along the side, of psi on the face, (7 psi_1 - psi_2)/6; c: cell
- * inside. */
+ * inside. The component across the face is taken out. */
 static void slip_at(const struct fv *s, const struct side *d, int64_t at, int64_t c, double tau,
                     const double *psi)
 {
@@ -344,7 +357,7 @@ static void take_slip(const struct fv *s)
 }
 
 /* Where a wall ends at one without slip or at an overlap, the stencils reach one place beyond; the
- * slip further on is 0. */
+ * slip further on is 0. Collective where any rank has a place beyond. */
 void mesh_bc_set_slip(const struct fv *s, double tau, const double *psi)
 {
     for (int k = 0; k < s->sides->n; k++) {

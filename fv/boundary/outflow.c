@@ -2,7 +2,10 @@
  * step's start, by the quadratic through the face's average and those of two cells: third order,
  * and stable at any step. Under a surface the mean over the water goes on with U + sqrt(g H): waves
  * are nearly uniform from the surface to the bottom, and what is not is of the flow; carried as
- * fast as waves, differences between neighbours grow. SPDX-License-Identifier: BSD-3-Clause */
+ * fast as waves, differences between neighbours grow. In a step: outflow_begin fits the lines
+ * inside, outflow_set gives w at each stage's time. On the face w goes on as w(t + dt) = q(U dt), q
+ * the quadratic w + b x + c x^2 inwards in cells.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "outflow.h"
 
 #include <math.h>
@@ -14,6 +17,8 @@
 #include "fv_sides.h"
 #include "mesh_bc.h"
 
+/* Depths that a wave travels while the mean velocity returns to what the level asks for: k h of
+ * waves that feel it is below 1, where shallow water is right. */
 #define RETURN 2.0 /* depths: kh of waves that feel it is below 1, where it is right */
 
 /* Visits the sides of this kind: o. */
@@ -21,7 +26,8 @@
     for (struct outflow *o = (s)->outflows ? (s)->outflows->of : NULL;                             \
          o && o < (s)->outflows->of + (s)->outflows->n; o++)
 
-/* Flux through these faces of this rank, and with the other sides'. */
+/* Sums what flows out through these faces of this rank, and with the other sides' given fluxes; the
+ * side's own sum is kept for the balance of imposed cells. */
 static double sum_up(struct fv *s)
 {
     double sum = 0.0;
@@ -36,13 +42,15 @@ static double sum_up(struct fv *s)
     return s->outflows->all;
 }
 
+/* Whether something else takes what comes in too much. */
 static bool pressure_given(const struct fv *s)
 {
     return s->outflows->level_free || sides_give_pressure(s);
 }
 
-/* Net flux of all sides to nothing, evenly over these; where cells are forced their fluxes are what
- * is corrected, and a given pressure lets through what is too much. */
+/* Distributes the net flux of all sides uniformly over the convective ones, so that it is 0. Where
+ * cells are imposed their fluxes are corrected instead, and a given pressure lets through what is
+ * too much. Collective. */
 static void balance(struct fv *s)
 {
     double sums[3] = {sum_up(s), 0.0, 0.0}; /* flux, area, forced faces */
@@ -64,6 +72,7 @@ static void balance(struct fv *s)
     sum_up(s);
 }
 
+/* Copies w to the field `kept', for restart files. */
 static void keep(struct fv *s)
 {
     OUTFLOWS (s, o)
@@ -79,6 +88,8 @@ static double discharged(const struct fv *s, const struct outflow *o, int q, int
     return size > 0.0 && all > 0.0 ? o->discharge / all * o->S[q][i] / size : 0.0;
 }
 
+/* Convective sides start with the value extrapolated from three cells, (11 u_0 - 7 u_1 + 2
+ * u_2)/6. */
 void outflow_start(struct fv *s)
 {
     if (!s->outflows)
@@ -109,7 +120,8 @@ void outflow_restore(struct fv *s)
     sum_up(s);
 }
 
-/* Averages over the first two cells: w + b/2 + c/3 and w + 3 b/2 + 7 c/3. */
+/* Averages over the first two cells: w + b/2 + c/3 and w + 3 b/2 + 7 c/3. The three unknowns follow
+ * from these and w on the face. */
 static void take_lines(const struct fv *s, struct outflow *o)
 {
     for (int q = 0; q < s->dim; q++)
@@ -141,6 +153,7 @@ static void mean_velocities(const struct fv *s, double mean[6])
         mean[k] = sums[0][k] / fmax(sums[1][k], 1e-300);
 }
 
+/* rest = u - 2 c, the invariant of shallow water that comes in from outside. */
 void outflow_meet_level(struct fv *s)
 {
     struct outflows *all = s->outflows;
@@ -155,7 +168,8 @@ void outflow_meet_level(struct fv *s)
 /* What leaves as it is carried knows no level: all errors of the discharge would stay in the
  * domain. The wave that comes in from outside, u - 2 sqrt(g H) in shallow water, is that of the
  * start for good: the mean velocity returns to what this makes of the level, in the time that a
- * wave takes for RETURN depths. Where the flow is as fast as waves nothing comes in. */
+ * wave takes for RETURN depths. Where the flow is as fast as waves nothing comes in. pull: by how
+ * much the mean velocity is off; hurry: how fast it returns, 1/s. */
 static void find_pull(const struct fv *s, int k, double mean)
 {
     struct outflows *all = s->outflows;
@@ -169,6 +183,7 @@ static void find_pull(const struct fv *s, int k, double mean)
     all->hurry[k] = fmax(0.0, 1.0 - fabs(mean) / c) * g / (RETURN * c);
 }
 
+/* Only flow outwards carries: flow is at least 0. */
 void outflow_begin(struct fv *s)
 {
     double mean[6];
@@ -191,8 +206,8 @@ static double along_line(const struct outflow *o, int q, int64_t i, double dista
 }
 
 /* m/s: what the mean velocity of each side's water gains on what stands on it when that goes on
- * with the flow alone: waves, whose velocity is nearly the same from the surface to the bottom,
- * run ahead of it, and the pull; or what a given discharge is more. */
+ * with the flow alone: waves, whose velocity is nearly the same from the surface to the bottom, run
+ * ahead of it, and the pull; or what a given discharge is more. Collective under a surface. */
 static void find_waves(struct fv *s, double dt, double gain[6])
 {
     struct outflows *all = s->outflows;
@@ -215,6 +230,7 @@ static void find_waves(struct fv *s, double dt, double gain[6])
                   (all->given_out[k] ? 0.0 : all->pull[k] * -expm1(-all->hurry[k] * dt));
 }
 
+/* change is the difference to the w before, for increments (BC_CHANGE). */
 void outflow_set(struct fv *s, double dt)
 {
     double gain[6];

@@ -1,5 +1,8 @@
 /* parted.c - see parted.h. Parts are told apart by layers of cells across an axis that are imposed
- * from end to end. SPDX-License-Identifier: BSD-3-Clause */
+ * from end to end. Computed cells on both sides of such a layer are joined by nothing but the
+ * partner. number_layers numbers the parts along the axis; of a periodic axis the first and last
+ * are one.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "parted.h"
 
 #include <string.h>
@@ -37,7 +40,8 @@ static int number_layers(const struct block *b, int a, const double *computed, i
     return joined && n > 1 ? n - 1 : n;
 }
 
-/* The axis that is cut, its parts by layers; 0: none is cut. */
+/* Finds the axis that is cut and the part of each of its layers; returns the number of parts, 0:
+ * none is cut. The first such axis counts. */
 static int find_cut(const struct fv *s, const unsigned char *forced, int *axis, int *part)
 {
     int n = 1;
@@ -63,6 +67,8 @@ static bool is_fed(const struct fv *s, const int *at)
     return fed;
 }
 
+/* Computed cells of each part, and whether any of them is beside a side of given pressure.
+ * Collective. */
 static void count_parts(const struct fv *s, const unsigned char *forced, struct parted *p)
 {
     double sums[2 * PARTS_MAX] = {0.0};
@@ -91,6 +97,7 @@ static int layer_of(const struct block *b, int a, int64_t c)
     return b->periodic[a] ? (i + n) % n : i < 0 ? 0 : i >= n ? n - 1 : i;
 }
 
+/* Whether some part has no side that gives its pressure. */
 static bool any_floats(const struct parted *p)
 {
     bool any = false;
@@ -99,6 +106,7 @@ static bool any_floats(const struct parted *p)
     return any;
 }
 
+/* A part that all sides reach is no part: NULL. */
 struct parted *parted_create(const struct fv *s, const unsigned char *forced)
 {
     const struct block *b = &s->b;
@@ -171,6 +179,7 @@ void parted_net_fluxes(const struct parted *p, const struct fv *s, double *const
     MPI_Allreduce(MPI_IN_PLACE, net, p->n, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
+/* Both pressures, for outputs extrapolate between them. */
 void parted_shift(const struct parted *p, struct fv *s, const double more[PARTS_MAX])
 {
     for (int64_t c = 0; c < s->size; c++) {

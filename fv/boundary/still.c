@@ -1,4 +1,6 @@
-/* still.c - gravity and the pressure of water at rest, which the equations leave out.
+/* still.c - gravity and the pressure of water at rest, which the equations leave out. Equations
+ * solve for the rest: fv_pressure returns it, fv_still_pressure adds rho g.(x - level) where a full
+ * pressure is wanted (outputs, forces, gauges).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "still.h"
 #include "../fv.h"
@@ -7,6 +9,8 @@
 
 #include "../../common/scene/scene_fluid.h"
 
+/* level: the case's, or without one the height of the highest point of the domain, against
+ * gravity. */
 struct gravity still_split(const struct scene *scene)
 {
     struct gravity split = {.level = 0.0};
@@ -26,6 +30,7 @@ struct gravity still_split(const struct scene *scene)
     return split;
 }
 
+/* rho (|g| level + g.x), Pa; the level is a height against gravity, times |g|. */
 double still_pressure(const struct scene *scene, const struct gravity *split, const double *x)
 {
     const double *still = split->hydrostatic;
@@ -37,6 +42,7 @@ double still_pressure(const struct scene *scene, const struct gravity *split, co
     return scene->fluid.rho * (sqrt(g) * split->level + sum);
 }
 
+/* From the scene's gravity, whichever axes are periodic. */
 int still_upright(const struct scene *scene)
 {
     double g[3];
@@ -52,6 +58,7 @@ static double size_of(const double still[3])
     return sqrt(still[0] * still[0] + still[1] * still[1] + still[2] * still[2]);
 }
 
+/* 1e-3 of |g| across is a lean; rounding is not. */
 bool still_leans(const double still[3])
 {
     const double g = size_of(still);
@@ -61,6 +68,7 @@ bool still_leans(const double still[3])
     return leans;
 }
 
+/* nu/(h sqrt(g h)), 0 without viscosity. */
 double still_creep(const double still[3], double nu, double h)
 {
     const double fall = h * sqrt(h * size_of(still));
@@ -78,7 +86,8 @@ double fv_still_in_exact(const struct fv *s, const double *x)
 }
 
 /* rk3's pressure belongs to t - dt/6, on blocks with a surface to the middle of the step: carried
- * on along the last step's change, if the cell had a pressure then. */
+ * on along the last step's change, if the cell had a pressure then. Without the hydrostatic
+ * part. */
 double fv_pressure(const struct fv *s, int64_t c)
 {
     const bool wet = s->surface && s->m;
