@@ -1,4 +1,10 @@
-/* fv_watches.c - looks at the flow on any grid. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_watches.c - what is looked at in the flow, on any grid: energy, odd-even waves, a surface or a
+ * lid that went. Called at the end of every step (fv_watches_look); most figures are sums over all
+ * cells and one reduction, hence every 10, 20 or 50 steps. watches.c judges them. The energy's
+ * account is
+ *   E(t) - E(0) = int (power of gravity + openings + walls + zones) dt - dissipation,
+ * so that E less the work may only fall; powers are over rho, m^(dim+2)/s^3.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "watches.h"
 
 #include <math.h>
@@ -19,6 +25,8 @@
  * outflow, 22 m/s in a current of 0.4 m/s, 0.06. */
 #define OPEN_GAIN 0.03
 
+/* Whether no side and no surface does work: bits below MESH_WALL are overlaps, joins and
+ * periods. */
 static bool is_periodic(const struct fv *s, unsigned sides)
 {
     return !s->surface && !s->blocked && sides < 1u << MESH_WALL;
@@ -75,13 +83,15 @@ struct watches *fv_watches_create(const struct fv *s)
 
 /* --- energy --- */
 
+/* Whether side k of the domain is this rank's and not periodic. */
 static bool closed_here(const struct block *b, int k)
 {
     const int a = k / 2;
     return !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
 }
 
-/* Sums of a row of cells: velocity and its square, times the weights (NULL: 1). */
+/* Sums of a row of cells: velocity and its square, times the weights (NULL: 1). sums[0 .. 2]: u,
+ * [3]: u^2/2, [4]: the weights themselves. */
 static void add_row(const struct fv *s, int64_t c, int64_t n, const double *weight, double *sums)
 {
     for (int a = 0; a < s->dim; a++) {
@@ -100,7 +110,8 @@ static void add_row(const struct fv *s, int64_t c, int64_t n, const double *weig
 }
 
 /* Share of water in a row of cells where phi is all that is known: as if the surface were parallel
- * to one of their faces, to tell mixed cells. */
+ * to one of their faces, to tell mixed cells. share = 1/2 - phi/|step of phi across the cell|, cut
+ * to [0, 1]. */
 static void share_row(const struct fv *s, int64_t c, int64_t n, double *restrict wet)
 {
     const struct block *b = &s->b;
@@ -114,6 +125,7 @@ static void share_row(const struct fv *s, int64_t c, int64_t n, double *restrict
     }
 }
 
+/* Fractions where they are carried; else by phi, and exactly in mixed cells. */
 static void water_of_row(const struct fv *s, int64_t c, int64_t n, double *w)
 {
     const struct fraction *f = s->surface->fraction;
@@ -139,13 +151,15 @@ static double *weights_of_row(const struct fv *s, int64_t c, int64_t n, int j)
     return s->surface || s->m ? w : NULL;
 }
 
+/* Weights on blocks have the volume already. */
 static double volume_of_row(const struct fv *s, int j)
 {
     return s->m ? 1.0 : block_volume(&s->b, j);
 }
 
 /* int u_a dV of a cell by the fluxes of its faces, sum of (x_f - x_c) U_f, over its volume: what
- * the surface follows; beside an edge averages miss it by tenths. */
+ * the surface follows; beside an edge averages miss it by tenths. On uniform cells that is the mean
+ * of the two faces. */
 static double by_faces(const struct fv *s, const struct part *p, int64_t c, int a)
 {
     if (!s->m)
@@ -186,7 +200,7 @@ static double head_of(const struct fv *s, int64_t c)
            (0.5 * square + (fv_pressure(s, c) + fv_still_pressure(s, x)) / s->run->scene.fluid.rho);
 }
 
-/* What water brings in through openings less what it takes along. */
+/* What water brings in through openings less what it takes along. This rank's. */
 static double power_of_openings(const struct fv *s)
 {
     double sums[2] = {0.0, 0.0};
@@ -194,7 +208,8 @@ static double power_of_openings(const struct fv *s)
     return sums[0];
 }
 
-/* m^dim+2/s^3: work over rho that zones do which make waves. */
+/* m^dim+2/s^3: work over rho that zones do which make waves. rate (u_w - u).u per volume, over the
+ * water. */
 static double power_of_zones(struct fv *s)
 {
     double sum = 0.0;
@@ -216,6 +231,7 @@ static double power_of_zones(struct fv *s)
     return sum;
 }
 
+/* sums[0 .. 2] momentum, [3] kinetic energy, [4] volume, [5] power; this rank. */
 static void sum_energy(struct fv *s, double sums[6])
 {
     FLOW_ROWS_AT (s, part, j, c, n) {
@@ -233,6 +249,7 @@ static void sum_energy(struct fv *s, double sums[6])
         sums[5] = flow_power(s);
 }
 
+/* Gravity's power is g.(momentum); with a surface across closed sides as well. Collective. */
 static struct flow_energy energy_of(struct fv *s)
 {
     double sums[6] = {0.0};
@@ -250,7 +267,7 @@ static struct flow_energy energy_of(struct fv *s)
 /* --- waves of two cells: fourth differences over 16, 1 on them, 5e-4 on waves of eight. On blocks
  * cells count alike: far ones, much larger, would drown those that matter --- */
 
-/* 1 where something flows, 0 behind closed sides, too. */
+/* 1 where something flows, 0 behind closed sides, too. 1 or 0, with ghosts; s->flux is scratch. */
 static const double *mask_of(struct fv *s)
 {
     const unsigned char *idle = s->surface   ? s->surface->layer
@@ -307,6 +324,8 @@ static void moments(const struct fv *s, const double *q, const double *flows, do
     }
 }
 
+/* The fourth difference over 16 passes a wave of two cells whole. sums[0, 1] velocity, [2]
+ * pressure, [3 .. 5] volume, sum and squares of the pressure; this rank. */
 static void sum_waves(struct fv *s, double sums[6])
 {
     const double *flows = mask_of(s);
@@ -324,6 +343,7 @@ static void sum_waves(struct fv *s, double sums[6])
     moments(s, s->p, flows, sums + 3);
 }
 
+/* The pressure's own size is about its mean. Collective. */
 static void look_at_waves(struct fv *s, int64_t step, struct diagnosis *d)
 {
     double sums[6] = {0.0};
@@ -334,6 +354,7 @@ static void look_at_waves(struct fv *s, int64_t step, struct diagnosis *d)
     watches_waves(s->watches, &v, sums[3], s->t, step, d);
 }
 
+/* Once more at the end, so that the summary has a last value. */
 void fv_watches_end(struct fv *s)
 {
     struct diagnosis d = {0};
@@ -341,7 +362,8 @@ void fv_watches_end(struct fv *s)
     watches_summarise(s->watches, s->run->summary);
 }
 
-/* Once: with an outlet it flows on, as in a pipe, but the level that the case has is gone. */
+/* Once: with an outlet it flows on, as in a pipe, but the level that the case has is gone. cuts and
+ * wet are of all ranks. */
 static void look_for_surface(struct fv *s, int64_t step)
 {
     struct watches *w = s->watches;
@@ -356,11 +378,13 @@ static void look_for_surface(struct fv *s, int64_t step)
                  : "");
 }
 
+/* A closed side that water has reached. */
 struct lid {
     const struct fv *s;
     int side; /* of the domain; -1: no water is there */
 };
 
+/* assumed: fv closed the side itself. */
 static void look_at_lid(const struct side_face *f, void *with)
 {
     struct lid *lid = with;
@@ -387,6 +411,7 @@ static void look_for_lid(struct fv *s, int64_t step)
                  s->t, (long long)step, scene_side_names[lid.side]);
 }
 
+/* step counts the one that is just done. */
 void fv_watches_look(struct fv *s, struct diagnosis *d)
 {
     struct watches *w = s->watches;

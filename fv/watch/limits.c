@@ -1,10 +1,12 @@
-/* limits.c - see limits.h.
- * rk3: the convective terms are stable while the sum over the axes of |u_a| dt/h_a is below
- * sqrt(3)/1.372 = 1.262 in every cell: the stability limit of the scheme on the imaginary axis over
- * the largest modified wave number of fourth-order differences, (8 sin x - sin 2x)/6.
- * bdf2: extrapolated convection amplifies every wave a little, which viscosity must outweigh; the
- * linear limit of the sum is close to 0.9 Re^(-1/3), Re = |u| h/nu of a cell (0.42, 0.20, 0.097 at
- * 10, 100, 1000), and 0 without viscosity.
+/* limits.c - see limits.h. rk3: the convective terms are stable while the sum over the axes of
+ * |u_a| dt/h_a is below sqrt(3)/1.372 = 1.262 in every cell: the stability limit of the scheme on
+ * the imaginary axis over the largest modified wave number of fourth-order differences, (8 sin x -
+ * sin 2x)/6. bdf2: extrapolated convection amplifies every wave a little, which viscosity must
+ * outweigh; the linear limit of the sum is close to 0.9 Re^(-1/3), Re = |u| h/nu of a cell (0.42,
+ * 0.20, 0.097 at 10, 100, 1000), and 0 without viscosity. limits_of gives the next step from the
+ * state as it was measured, limits_estimate one from the scene alone, for --check; both take the
+ * least of the bounds and name it. A bound of the kind "rate now and rise per second" is solved for
+ * the time in which dt (rate + rise dt) reaches cfl (limits_time).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "limits.h"
 
@@ -45,12 +47,14 @@ const char *limit_name(enum limit by)
     return names[by];
 }
 
+/* fv.cfl, or the integrator's own. */
 double limits_cfl(const struct fv_params *p)
 {
     static const double own[] = {RK3_CFL, BDF2_CFL, NEWTON_CFL};
     return p->cfl > 0.0 ? p->cfl : own[p->integrator];
 }
 
+/* Bounds of stability; bdf2 has none without viscosity. */
 void limits_check(const struct run *r, const struct fv_params *p, struct faults *f)
 {
     const bool bdf2 = p->integrator == INTEGRATOR_BDF2;
@@ -64,12 +68,14 @@ void limits_check(const struct run *r, const struct fv_params *p, struct faults 
                      "bdf2 has no stable step without viscosity: rk3, or fluid.nu > 0");
 }
 
+/* The positive root of rise dt^2 + rate dt = cfl, in the form without cancellation. */
 double limits_time(double cfl, double rate, double rise)
 {
     const double sum = rate + sqrt(rate * rate + 4.0 * cfl * rise);
     return sum > 0.0 ? 2.0 * cfl / sum : INFINITY;
 }
 
+/* Replaces the bound by dt if that is shorter. */
 static void lower(struct step_limit *l, double dt, enum limit by)
 {
     if (dt < l->dt)
@@ -86,6 +92,7 @@ static double size_of(const double *v, int dim)
     return sqrt(sum);
 }
 
+/* Largest side of the domain, m. */
 static double length_of(const struct scene *s)
 {
     double L = 0.0;
@@ -108,7 +115,7 @@ double limits_pressure_difference(const struct scene *s)
 
 /* The scene's own where something moves or can fall: nothing does without a surface, where the
  * pressure takes gravity across sides, but for a partner's fluid, which sound compresses; or what
- * enters through blocks' sides. */
+ * enters through blocks' sides. At least a thousandth of the domain in the run's time. */
 double limits_reference(const struct run *r)
 {
     const struct scene *s = &r->scene;
@@ -134,6 +141,8 @@ double limits_upwind(const struct run *r, bool walls, double cells)
     return walls || s->initial.U * h > 200.0 * s->fluid.nu ? 1.0 : 0.0;
 }
 
+/* The reference may grow by 2 % a step, so that a burst does not raise its own limit; ten times it
+ * is the limit. */
 double limits_follow(double *reference, double most)
 {
     *reference = fmax(*reference, fmin(most, 1.02 * *reference));
@@ -192,7 +201,7 @@ static double gradient_along(const struct scene *s, const struct fv_params *p, i
 }
 
 /* What forces add to that in a second, 1/s^2: gravity where it moves the fluid, differences of
- * pressure between sides. */
+ * pressure between sides. h: sizes along the axes. */
 static double rise_of(const struct scene *s, const struct fv_params *p, bool surface,
                       const double *h)
 {
@@ -204,6 +213,7 @@ static double rise_of(const struct scene *s, const struct fv_params *p, bool sur
     return sum;
 }
 
+/* VISCOUS_MOST h^2/nu with the least size. */
 static double viscous_time(double nu, const double *h, int dim)
 {
     double least = INFINITY;
@@ -241,7 +251,8 @@ static double bdf2_time(double rate, double Re)
     return rate > 0.0 ? 0.8 / (cbrt(Re) * rate) : INFINITY;
 }
 
-/* s: of the slowest layer between walls that exert friction, L^2/(pi^2 nu); INFINITY: none do. */
+/* s: of the slowest layer between walls that exert friction, L^2/(pi^2 nu); INFINITY: none do. The
+ * slowest mode of diffusion between two walls. */
 static double friction_time(const struct scene *s)
 {
     double T = INFINITY;
@@ -292,6 +303,7 @@ void limits_warn(const struct run *r, const struct fv_params *p, double h)
              Re, RK3_CFL / bdf2_time(1.0, Re));
 }
 
+/* Convection and forces, and under a surface waves and viscosity. */
 static struct step_limit bulk_limit(const struct scene *s, const struct fv_params *p, double rate,
                                     bool surface, const double *h)
 {
@@ -306,7 +318,7 @@ static struct step_limit bulk_limit(const struct scene *s, const struct fv_param
     return l;
 }
 
-/* 1/s: of uniform cells between walls. */
+/* 1/s: of uniform cells between walls. 0 without walls. */
 static double friction_rate(const struct fv *s)
 {
     double sum = 0.0;
@@ -317,7 +329,8 @@ static double friction_rate(const struct fv *s)
 
 /* After a sudden start layers of sqrt(nu t) grow from walls; steps that pass over them leave the
  * pressure, which each step corrects once, behind the walls' friction: 15 steps and more. 1/s:
- * largest eigenvalue of the viscous terms. */
+ * largest eigenvalue of the viscous terms. The first steps are START_STIFF over that eigenvalue,
+ * later ones grow in proportion to the time since. */
 static void lower_start(struct step_limit *l, const struct fv *s)
 {
     const double stiffest = viscous_stiffest(s) > 0.0 ? viscous_stiffest(s) : friction_rate(s);
@@ -356,6 +369,8 @@ static struct step_limit limit_on_blocks(const struct fv *s)
 
 double limits_next_motion(const struct fv *s) { return grid_motion_event(&s->grid, s->t); }
 
+/* Largest |u_a| to count with along axis a, m/s: of the flow, of sides, or what drives it will
+ * make. */
 double fv_speed(const struct fv *s, int a)
 {
     const bool driven = s->gravity.periodic[a] != 0.0 || (s->bc && s->bc->driven);
@@ -363,6 +378,7 @@ double fv_speed(const struct fv *s, int a)
                 driven ? s->speed.scene : 0.0);
 }
 
+/* The size is that of the smallest cells; bdf2's Reynolds number that of the largest. */
 struct step_limit limits_of(const struct fv *s)
 {
     if (s->m)
@@ -384,6 +400,7 @@ struct step_limit limits_of(const struct fv *s)
     return l;
 }
 
+/* As limits_of from the scene's own velocities. */
 struct step_limit limits_estimate(const struct run *r, const struct fv_params *p, const double *h)
 {
     const struct scene *s = &r->scene;
@@ -405,6 +422,7 @@ struct step_limit limits_estimate(const struct run *r, const struct fv_params *p
     return l;
 }
 
+/* The likely cause when a run has blown up: before and after are sums of |u_a| dt/h_a. */
 void limits_explain(const struct fv_params *p, enum limit by, double before, double after,
                     bool surface, char *text, size_t size)
 {

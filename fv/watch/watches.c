@@ -1,4 +1,7 @@
-/* watches.c - see watches.h; levels and what they were measured against: README.md.
+/* watches.c - levels of the watches of fv, and how their figures are made; README.md has what they
+ * were measured against. A watch (common/run/watch.h) has a figure, a level of warning, one that
+ * ends the run and one above which it is not accepted at its end. fv_watches.c measures, this file
+ * scales and judges; no reductions here.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "watches.h"
 
@@ -11,7 +14,7 @@
 
 enum { WATCHES = 5 };
 
-/* Of a surface, whose jets and films are thinner than cells: waves of two cells, over the flow. */
+/* Warning level of odd-even waves with a surface, whose jets and films are thinner than cells. */
 #define SPRAY 0.10
 /* With a surface: an impact whose jets are thinner than cells swings to 0.1 and back within some
  * steps; in a run that blows up, and in water at rest that grows, most of the energy comes from
@@ -54,7 +57,7 @@ static const char *const names[WATCHES] = {"energy gain [-]", "odd-even velocity
                                            "odd-even pressure [-]", "growth [-]",
                                            "volume put back [-]"};
 
-/* The k-th watch; NULL: this scene has it not. */
+/* The k-th watch; NULL: this scene has it not. The order is that of kinds and names. */
 static const struct watch *watch_of(const struct watches *w, int k)
 {
     const struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
@@ -89,6 +92,8 @@ void watches_open(struct watches *w)
     w->energy.stop = INFINITY;
 }
 
+/* Levels that depend on the scene: surface, openings, walls. speed and damping are the scales of
+ * scale_of. */
 struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
                                bool surface)
 {
@@ -153,7 +158,8 @@ static double scale_of(const struct watches *w, const struct flow_energy *e, dou
 /* In a periodic domain the energy about the mean flow, which no force even in space changes; else
  * all of it less the work of sides and gravity, by the trapezoidal rule between looks. With a
  * surface no more than what the kinetic energy has risen to beyond its largest before: gravity's
- * work on waves of a few cells swings by half of their energy, grow or not. */
+ * work on waves of a few cells swings by half of their energy, grow or not. The first 100 steps of
+ * a run with a surface have no scale yet and are not judged. */
 void watches_energy(struct watches *w, const struct flow_energy *e, double t, int64_t step,
                     struct diagnosis *d)
 {
@@ -191,6 +197,7 @@ void watches_waves(struct watches *w, const struct flow_waves *v, double volume,
                 t, step, d);
 }
 
+/* From the seventh step on: a start from rest grows. */
 void watches_growth(struct watches *w, double sum, double t, int64_t step, struct diagnosis *d)
 {
     const double before = fmax(w->sum_before, 0.1 * w->speed);
@@ -217,6 +224,7 @@ int watches_values(const struct watches *w, double *values)
     return n;
 }
 
+/* The volume restored is a condition of acceptance with a text of its own. */
 void watches_summarise(const struct watches *w, struct summary *to)
 {
     for (int k = 0; k < WATCHES; k++)
@@ -235,6 +243,7 @@ void watches_save(struct watches *w, struct h5 *f)
             h5_attribute_real(f, watch_of(w, k)->key, watch_of(w, k)->worst);
 }
 
+/* Budgets start anew after a restart; the worst values go on. */
 void watches_load(struct watches *w, struct h5 *f)
 {
     struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
