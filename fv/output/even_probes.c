@@ -1,5 +1,7 @@
 /* even_probes.c - what gauges read on uniform cells and layers: linear between the centres of cells
- * and beyond them at a wall; past boxes that are cut out.
+ * and beyond them at a wall; past boxes that are cut out. A gauge is read by the rank that has the
+ * lower one of the cells around it; all others give 0, and one sum over ranks has the value
+ * (fv_probes.c). Weights go beyond [0, 1] at walls, which extrapolates linearly.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
@@ -8,7 +10,7 @@
 #include "../surface/levelset.h"
 #include "probe_flow.h"
 
-/* Row below y, so that it and the next one are rows of the grid; *weight of the next. */
+/* The layer below y, so that it and the next one are layers of the grid; *weight of the next. */
 static int row_below(const struct block *b, double y, double *weight)
 {
     const double *e = b->rows->edge;
@@ -32,13 +34,15 @@ static int base(const struct block *b, int a, double x, double *weight)
     return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
 }
 
-/* The cell that x lies in, of those about it. */
+/* The cell that x lies in, of those about it. More than half a cell away from the lower centre it
+ * is the upper one. */
 static void host_of(const int *i, const double *w, int host[3])
 {
     for (int a = 0; a < 3; a++)
         host[a] = i[a] + (w[a] > 0.5); /* no weight beyond dim */
 }
 
+/* Its index in a field. */
 static int64_t host_at(const struct fv *s, const int *i, const double *w)
 {
     int host[3];
@@ -57,7 +61,7 @@ static bool is_solid(const struct fv *s, const int *at)
 }
 
 /* A gauge that lies in a box, whose faces went to those of cells, belongs to the given face that is
- * next: the first free cell there. */
+ * next: the first free cell there. Ties go to the lower axis. */
 static void leave_box(const struct fv *s, const double *x, int *host)
 {
     const int box = s->blocked->box[block_at(&s->b, host[0], host[1], host[2])] - 1;
@@ -78,7 +82,8 @@ static void leave_box(const struct fv *s, const double *x, int *host)
         host[axis] += way;
 }
 
-/* The two cells along each axis: free ones, where a box is next beyond it two on this side. */
+/* The two cells along each axis: free ones, where a box is next beyond it two on this side. Weights
+ * may be outside of [0, 1] then. */
 static void look_past_boxes(const struct fv *s, const double *x, int *i, double *w)
 {
     const struct block *b = &s->b;
@@ -105,7 +110,8 @@ static double corner_of(const struct fv *s, const double *q, const int *at, cons
     return q ? q[c] : fv_pressure(s, c);
 }
 
-/* The cells about x and their weights. false: the lower one is another rank's. */
+/* The cells about x and their weights. false: the lower one is another rank's. i counts from this
+ * rank's first cell. */
 static bool locate(const struct fv *s, const double *x, int i[3], double w[3])
 {
     const struct block *b = &s->b;
@@ -121,6 +127,7 @@ static bool locate(const struct fv *s, const double *x, int i[3], double w[3])
     return true;
 }
 
+/* Sum over the 2^dim cells about the gauge; q NULL: pressure, Pa. */
 static double linear(const struct fv *s, const double *q, const int *i, const double *w)
 {
     double sum = 0.0;
@@ -159,7 +166,8 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
     here[nq] = -1.0;
 }
 
-/* This rank's samples; those in boxes are dry. */
+/* This rank's samples; those in boxes are dry. v[3]: the level set, or -step without a surface, so
+ * that all of it is wet. */
 static double discharge_of(struct fv *s, const struct scene_probe *g)
 {
     struct flow_samples f = flow_samples_create(s, g);

@@ -45,8 +45,8 @@ static void draw_side(const struct mesh_block *b, int up, int side, struct pictu
     mem_free(line);
 }
 
-/* Around cells lo to hi of a block, vertex by vertex; a ring once around outside, and back inside.
- */
+/* The outline of cells lo to hi of a block as a polygon, vertex by vertex; a ring is once around
+ * outside, and back inside. */
 static void tell_around(const struct mesh_block *b, int up, const int lo[2], const int hi[2],
                         struct picture *p)
 {
@@ -67,7 +67,7 @@ static void tell_around(const struct mesh_block *b, int up, const int lo[2], con
     mem_free(line);
 }
 
-/* Of the cells that are no holes: the block, or the runs of its rows. */
+/* Polygons of the cells that are no holes: the whole block, or the runs of its rows of cells. */
 static void tell_cells(const struct mesh_block *b, int up, struct picture *p)
 {
     const int64_t cells = (int64_t)b->n[0] * b->n[1] * b->n[2],
@@ -89,6 +89,7 @@ static void tell_cells(const struct mesh_block *b, int up, struct picture *p)
         }
 }
 
+/* Rank 0 makes the mesh for itself alone. */
 static void draw_blocks(const struct run *r, const struct fv_params *prm, struct picture *p)
 {
     struct run alone = *r; /* rank 0 draws */
@@ -109,7 +110,7 @@ static void draw_blocks(const struct run *r, const struct fv_params *prm, struct
     mesh_free(&m);
 }
 
-/* What particles have of a coupled job. Rank 0 asks alone. */
+/* Boxes of the particles of a coupled job. Rank 0 asks alone. */
 static void draw_particles(const struct run *r, struct picture *p)
 {
     struct run alone = *r;
@@ -141,6 +142,7 @@ static void draw_blocked(const struct blocked_params *b, int up, struct picture 
     picture_text(p, b->min, b->name);
 }
 
+/* Called by --check --picture on rank 0. */
 void fv_draw(const struct run *r, const struct fv_params *prm, struct picture *p)
 {
     const struct scene_domain *d = &r->scene.domain;

@@ -17,7 +17,7 @@
 #include "mesh_output.h"
 #include "output.h"
 
-/* What a cell has: its volume, m^dim, 0 where none is computed, and its centre. */
+/* A cell's volume, m^dim, 0 where none is computed, and its centre. */
 struct cell {
     double volume, x[3];
 };
@@ -38,6 +38,8 @@ static struct cell cell_at(const struct fv *s, const struct part *p, const int *
         PART_CELLS (p, i, c)                                                                       \
             for (struct cell of = cell_at(s, p, i, c); of.volume > 0.0; of.volume = 0.0)
 
+/* n: velocity, pressure, vorticity. On blocks u, p and vorticity are averages over indices, and so
+ * are the exact ones. Collective. */
 void fv_errors(struct fv *s, struct norm n[NORMS])
 {
     double *vorticity = NEW(double, s->size), u[3], p, w;
@@ -56,6 +58,8 @@ void fv_errors(struct fv *s, struct norm n[NORMS])
     norm_reduce(n, NORMS, s->comm);
 }
 
+/* sum[0]: int u^2/2, sum[1]: of the exact velocities, m^(dim+2)/s^2; with a surface of the water
+ * alone. Collective. */
 void fv_energies(struct fv *s, double sum[2])
 {
     double u[3] = {0.0, 0.0, 0.0}, p, w;
@@ -75,7 +79,8 @@ void fv_energies(struct fv *s, double sum[2])
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
-/* Over the cells outside of the partner's part; where blocks overlap those of the latest count. */
+/* Over the cells outside of the partner's part; where blocks overlap those of the latest count. A
+ * cell counts by the share that no box of a partner counts. Collective. */
 void fv_tell(void *state, struct summary *report)
 {
     static const char *const names[] = {"sum.kinetic", "sum.enstrophy", "sum.signal",

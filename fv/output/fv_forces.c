@@ -22,7 +22,8 @@ static const char *body_name(const struct fv_params *prm, int k)
 }
 
 /* Whether those on a body have columns of their own: on a box that is cut out; on a block's own
- * where other sides are closed, too, so that the sum is not this body's. */
+ * where other sides are closed, too, so that the sum is not this body's. Otherwise they would
+ * repeat the sum. */
 static bool has_own_forces(const struct run *r, const struct fv_params *prm, int k)
 {
     int n = 0;
@@ -36,6 +37,8 @@ static bool has_own_forces(const struct run *r, const struct fv_params *prm, int
     return n > 1 && mesh_block_is_body(r, prm->blocks.of + k);
 }
 
+/* All walls and bodies together first, then each body; moments on blocks alone. The order must be
+ * that of fv_forces. */
 int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const names[] = {"force x [N]", "force y [N]", "force z [N]",
@@ -56,6 +59,8 @@ int fv_force_columns(const struct run *r, const struct fv_params *prm, const cha
     return n;
 }
 
+/* Also keeps the sum over the bodies of blocks for summarise_swing. Returns the number of
+ * values. */
 int fv_forces(struct fv *s, double *values)
 {
     const int dim = s->dim, moment = s->prm.blocks.n > 0;
@@ -81,8 +86,9 @@ int fv_forces(struct fv *s, double *values)
     return n;
 }
 
-/* Mean and half range of the forces on bodies and no-slip walls over the second half of the run,
- * frequency of the one along y by the crossings of its mean. */
+/* Mean and half range of the forces on the bodies of blocks over the second half of the run, by the
+ * trapezoidal rule; frequency of the one along y by upward crossings of its mean. Fewer than eight
+ * rows give nothing. */
 static void summarise_swing(const struct fv *s)
 {
     struct summary *to = s->run->summary;

@@ -16,6 +16,7 @@
 #include "../operators/flow_measures.h"
 #include "../surface/levelset.h"
 
+/* Whether output.fields has this word. */
 bool fv_field_wanted(const struct run *r, const char *name)
 {
     const size_t n = strlen(name);
@@ -37,6 +38,7 @@ static void velocity(struct fv *s, double *const q[3])
     }
 }
 
+/* Full pressure, Pa: with the hydrostatic part and a partner's level. */
 static void pressure(struct fv *s, double *const q[3])
 {
     FLOW_ROWS (s, c, n)
@@ -80,11 +82,13 @@ static void exact_vorticity(struct fv *s, double *const q[3])
 
 static bool has_level(const struct fv *s) { return s->surface; }
 
+/* phi, m, negative in water. */
 static void level(struct fv *s, double *const q[3])
 {
     memcpy(q[0], s->surface->phi, (size_t)s->size * sizeof(double));
 }
 
+/* On blocks holes have no numbers anyway. */
 static bool has_forced(const struct fv *s) { return s->forcing && !s->m; }
 
 static void forced(struct fv *s, double *const q[3])
@@ -93,6 +97,7 @@ static void forced(struct fv *s, double *const q[3])
         q[0][c] = s->forcing->forced[c];
 }
 
+/* Fields that a snapshot can have; output_field counts them in this order. */
 static const struct field {
     const char *name, *unit;
     int ncomp;
@@ -139,6 +144,7 @@ static const struct part *range(const struct fv *s, int k, int lo[3], int hi[3])
     return p < end ? p : NULL;
 }
 
+/* One dataset for each block, collective: ranks without cells take part with an empty range. */
 static void write(const struct fv *s, struct h5 *f, int k, const struct field *of, double *const *q)
 {
     int lo[3], hi[3], i[3];
@@ -155,6 +161,7 @@ static void write(const struct fv *s, struct h5 *f, int k, const struct field *o
     mem_free(v);
 }
 
+/* The last rank along an axis writes the end's vertices, too. */
 static void write_vertices(const struct fv *s, struct h5 *f, int k)
 {
     int lo[3], hi[3], n[3], i[3];
@@ -195,6 +202,7 @@ static void write_frame(const struct fv *s, struct h5 *f)
                       false);
 }
 
+/* Only rank 0 has x. */
 static void view(const struct fv *s, struct xdmf *x, const char *file, int n,
                  const struct xdmf_field *of)
 {
@@ -210,6 +218,7 @@ static void view(const struct fv *s, struct xdmf *x, const char *file, int n,
         xdmf_block(x, s->t, file, b->cells, b->origin, b->h, b->rows ? b->rows->edge : NULL, n, of);
 }
 
+/* Fields are made one at a time, each with memory of its own, in the order of the list. */
 void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct fv *s = state;

@@ -1,5 +1,7 @@
 /* fv_lines.c - extrema of velocity on the centre lines of the block, as cavities are compared by
- * (Botella & Peyret 1998); with a list of blocks, of the domain.
+ * (Botella & Peyret 1998); with a list of blocks, of the domain. From averages: middle and
+ * in_layers take point values out of them to fourth order and more, since a column of averages
+ * would hide an extremum between cells.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
@@ -15,7 +17,8 @@
 enum { POINTS = 4000 }; /* at which a line is looked at */
 
 /* Value at the middle of the domain along the stride, from the cell c right of it (or around it,
- * for an odd count): face average, or centre of a cell average. */
+ * for an odd count): face average, or centre of a cell average. Even count: the middle is a
+ * face. */
 static double middle(const double *q, int64_t d, bool odd)
 {
     if (odd)
@@ -24,7 +27,7 @@ static double middle(const double *q, int64_t d, bool odd)
 }
 
 /* Value at y between the edges of n layers with averages q: the derivative of the polynomial
- * through their integral at the six edges around. */
+ * through their integral at the six edges around. Six edges, five layers: fifth order. */
 static double in_layers(const double *edge, const double *q, int n, double y)
 {
     int first = 0;
@@ -64,8 +67,9 @@ static double middle_of_layers(const struct block *b, const double *q, int layer
     return in_layers(b->rows->edge + layer - 2, near, 5, b->origin[1] + 0.5 * b->length[1]);
 }
 
-/* Averages along the line of component q at the middle of axis `across', cell by cell along the
- * other one, on all ranks; NEW, with a ghost on each side. */
+/* Values of component q on the line through the middle of axis `across', averages cell by cell
+ * along the other one, on all ranks; owned by the caller, with an empty place on each side.
+ * Collective. */
 static double *line_of(const struct fv *s, int q, int across)
 {
     const struct block *b = &s->b;
@@ -89,7 +93,8 @@ static double *line_of(const struct fv *s, int q, int across)
 }
 
 /* Largest value of sign f(x), f the quartic through the five points around the largest one; the
- * points from the averages by a second difference. */
+ * points from the averages by a second difference. The three outermost cells at either end are left
+ * out, where there are walls. The quartic is searched in steps of 1e-3 of a cell. */
 static double extremum(const double *line, int n, double sign)
 {
     double *f = NEW(double, n), best = -INFINITY;
@@ -124,6 +129,7 @@ static double extremum_in_layers(const struct block *b, const double *line, doub
     return sign * best;
 }
 
+/* found: least u on the vertical line, most and least v on the horizontal one. */
 static void on_even_cells(const struct fv *s, double found[3])
 {
     double *const lines[2] = {line_of(s, 0, 0), line_of(s, 1, 1)};
@@ -136,7 +142,8 @@ static void on_even_cells(const struct fv *s, double found[3])
 }
 
 /* Least and largest value of component q on the line through the middle along the other axis: the
- * cubics through the averages, looked at closely. */
+ * cubics through the averages, looked at closely. POINTS places, each by the rank that has the
+ * cells. Collective. */
 static void search_line(const struct fv *s, const struct overset *o, int q, double ends[2])
 {
     const double *min = s->run->scene.domain.min, *max = s->run->scene.domain.max;

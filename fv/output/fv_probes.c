@@ -1,5 +1,8 @@
 /* fv_probes.c - gauges of the case in series.csv: pressure and velocity at a point, level of the
- * water, discharge, whatever the cells. SPDX-License-Identifier: BSD-3-Clause */
+ * water, discharge, whatever the cells. Each rank adds its share (share_of), one reduction sums all
+ * gauges, then each rank reads out the same values (read_out). Uniform cells and blocks differ in
+ * struct probe_reader alone.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
 #include <math.h>
@@ -11,6 +14,7 @@
 #include "output.h"
 #include "probe_flow.h"
 
+/* Gauges that another program reads are left out. */
 int fv_probe_columns(const struct run *r, const char **columns)
 {
     static char names[3 * PROBES_MAX][PARAM_TEXT_SIZE + 12];
@@ -36,7 +40,8 @@ static struct scene_probe placed(const struct fv *s, const struct scene_probe *p
     return now;
 }
 
-/* A gauge's share of this rank; returns how many numbers there are. */
+/* A gauge's share of this rank; returns how many numbers there are. A point has its values and the
+ * level set's sign, -1 for water. */
 static int share_of(struct fv *s, const struct scene_probe *g, double *here)
 {
     const struct probe_reader *of = s->m ? &mesh_reader : &even_reader;
@@ -49,7 +54,8 @@ static int share_of(struct fv *s, const struct scene_probe *g, double *here)
     return 1;
 }
 
-/* What it reads, of the sum over all ranks; returns as share_of. */
+/* What it reads, of the sum over all ranks; returns as share_of. Dry: velocity nan, pressure 0;
+ * outside of blocks that move nan. */
 static int read_out(const struct fv *s, const struct scene_probe *g, const double *sum,
                     double *values)
 {
@@ -66,6 +72,7 @@ static int read_out(const struct fv *s, const struct scene_probe *g, const doubl
     return nq + 1;
 }
 
+/* Halos first, since gauges lie between cells of two ranks. Collective. */
 void fv_probe(struct fv *s, double *values)
 {
     const struct scene *scene = &s->run->scene;

@@ -1,4 +1,6 @@
-/* fv_report.c - rows of the series and the summary. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_report.c - rows of the series and the summary. fv_columns and fv_row list the same columns in
+ * the same order; fv_finish writes the summary. All but fv_columns are collective.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 
 #include <math.h>
@@ -26,6 +28,7 @@ static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity
 
 static double relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }
 
+/* Relative to the exact norm, or to the case's U where that vanishes. */
 static double velocity_error(const struct run *r, const struct norm *n)
 {
     const double U = r->scene.initial.U;
@@ -50,6 +53,7 @@ static void summarise_norms(const struct run *r, const struct norm n[3])
     }
 }
 
+/* Absolute ones over U, for pressures with and without their mean. */
 static void summarise_errors(struct fv *s)
 {
     const struct run *r = s->run;
@@ -117,6 +121,8 @@ void fv_row(void *state, double *values)
     watches_values(s->watches, values + n);
 }
 
+/* Rates per cell and step over the timers of the steps, in all and outside of the pressure
+ * solver. */
 static void summarise_cost(const struct fv *s, double cells)
 {
     static const char *const parts[] = {"operators", "convection", "viscous",
@@ -135,6 +141,7 @@ static void summarise_cost(const struct fv *s, double cells)
     summary_real(r->summary, "viscous_iterations", (double)s->totals.viscous_iterations / steps);
 }
 
+/* The last row has been written; the state is that at time.end. */
 void fv_finish(void *state)
 {
     struct fv *s = state;

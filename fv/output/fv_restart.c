@@ -1,4 +1,7 @@
-/* fv_restart.c - restart files: what a step starts from, on any number of ranks.
+/* fv_restart.c - restart files: what a step starts from, on any number of ranks. Fields with all
+ * their ghosts (so that the same ranks go on bit for bit; others gather them by layout.h), numbers
+ * by name (kept_numbers), then what watches, moving blocks, zones of waves and the coupling keep of
+ * their own.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
@@ -46,6 +49,7 @@ static void add(struct kept_numbers *to, const char *of, const struct kept_numbe
 
 #define ADD(to, of, list) add(to, of, list, (int)(sizeof(list) / sizeof *(list)))
 
+/* Volumes, fractions and a partner's surface as far as this run has them. */
 static void add_surface(struct kept_numbers *to, struct surface *f)
 {
     const struct kept_number volumes[] = {
@@ -90,6 +94,7 @@ static void add_newton(struct kept_numbers *to, struct newton *w)
     ADD(to, "state of Newton's method", newton);
 }
 
+/* One list for saving and loading: members of the state, as pointers. */
 static struct kept_numbers numbers_of(struct fv *s)
 {
     struct kept_numbers all = {0};
@@ -123,6 +128,7 @@ static bool there(bool good, const char *what)
     return good;
 }
 
+/* A number that is missing names what it belongs to. */
 static bool load_numbers(struct fv *s, struct h5 *f)
 {
     const struct kept_numbers all = numbers_of(s);
@@ -158,6 +164,7 @@ static int boxes_of(const struct fv *s, struct layout_box *of)
     return n;
 }
 
+/* Collective; nothing in the state changes. */
 void fv_checkpoint(void *state, struct h5 *f)
 {
     struct fv *s = state;
@@ -177,7 +184,8 @@ void fv_checkpoint(void *state, struct h5 *f)
         coupling_save(s, f);
 }
 
-/* A field of all grids; ghosts behind sides of blocks are those that were beside the same cells. */
+/* A field of all grids; ghosts behind sides of blocks are those that were beside the same cells. to
+ * points at the part's first ghost. */
 static bool gather(const struct fv *s, const struct layout *l, struct h5 *f, const char *name,
                    double *q)
 {
@@ -207,6 +215,7 @@ static bool restore_fields(struct fv *s, struct h5 *f, const struct layout *l)
     return true;
 }
 
+/* false: another grid, or an older file of another number of ranks. */
 static bool restore_grids(struct fv *s, struct h5 *f)
 {
     struct layout *l = layout_load(f, "layout");
@@ -224,6 +233,8 @@ static bool restore_grids(struct fv *s, struct h5 *f)
     return fits;
 }
 
+/* First where sph.box stands, since it decides which cells are imposed; then fields, numbers,
+ * blocks that move; what follows from them is rebuilt. */
 bool fv_restore(struct fv *s, struct h5 *f)
 {
     if (!there(coupling_stand(s, f), "place of sph.box") || !restore_grids(s, f))

@@ -20,6 +20,8 @@
 #include "../surface/fraction.h"
 #include "../watch/limits.h"
 
+/* Whether a later block computes the flow at x, so that an earlier one's cell there must not
+ * count. */
 bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
 {
     int cell[3];
@@ -33,6 +35,9 @@ bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, c
     return false;
 }
 
+/* This rank's share of the value at x by the block with the smallest cell there; wanted: width of
+ * the stencil, 0: 4 cells, or 2 where these are not computed; q NULL: pressure. The sum over ranks
+ * is the value, 0 if no block has it. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
                      const double *q)
 {
@@ -69,6 +74,7 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
     return value;
 }
 
+/* Position of the centre of rotation and angles of each block with a motion of its own. */
 int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
     static const char *const axes[2][6] = {
@@ -102,6 +108,7 @@ int mesh_places(const struct fv *s, double *values)
     return n;
 }
 
+/* At outflows the net flux is what the solve left. */
 void mesh_summarise(struct fv *s)
 {
     struct summary *to = s->run->summary;
@@ -115,7 +122,8 @@ void mesh_summarise(struct fv *s)
     summary_real(to, "poisson_retries", (double)s->totals.retries);
 }
 
-/* Least distance of opposite faces of a computed cell, m, about: volume over the largest face. */
+/* Least distance of opposite faces of a computed cell, m, about: volume over the largest face.
+ * Collective. */
 static double least_height(const struct mesh *m)
 {
     double least = INFINITY;
@@ -168,7 +176,8 @@ static void describe_scene(const struct run *r, const struct fv_params *prm, con
 /* Of a cell and step, over that of the uniform grid: the cavity on 48 x 48 cells. */
 #define BLOCK_COST 3.6
 
-/* Speed of the scene and of the blocks' sides across the smallest cell. */
+/* Speed of the scene and of the blocks' sides across the smallest cell. An estimate: the flattest
+ * cell need not be where the flow is fastest. */
 static void describe_step(const struct run *r, const struct fv_params *prm, const struct mesh *m)
 {
     double speed = limits_reference(r);
@@ -192,6 +201,7 @@ static void describe_step(const struct run *r, const struct fv_params *prm, cons
                  ceil(r->scene.time.end * speed / (cfl * h)));
 }
 
+/* The mesh is left for the run to take (mesh_leave). */
 void mesh_describe(const struct run *r, const struct fv_params *prm)
 {
     static const char *const shapes[] = {"box", "stretched box", "ring", "sheared box", "file"};

@@ -1,4 +1,6 @@
-/* mesh_probes.c - gauges of the case on blocks: level, pressure, velocity, discharge.
+/* mesh_probes.c - gauges of the case on blocks: level, pressure, velocity, discharge. Positions are
+ * looked for in all blocks (struct overset in s->output); values are linear between cells, by the
+ * block with the smallest cell there.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
@@ -11,6 +13,7 @@
 #include "output.h"
 #include "probe_flow.h"
 
+/* Whether some block has computed cells around x; from what all ranks know. */
 static bool mesh_covers(const struct fv *s, const struct overset *o, const double *x)
 {
     for (int k = 0; k < s->m->nblocks; k++) {
@@ -27,6 +30,8 @@ static bool mesh_covers(const struct fv *s, const struct overset *o, const doubl
  * are. */
 enum { ALONG = 400 };
 
+/* Values of phi at ALONG + 1 positions along gravity over x, from the top of the domain down; 0, as
+ * on a surface, where no cells are. Collective. */
 static void levels_along(struct fv *s, const double *at, int up, bool down, double *phi)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -39,7 +44,8 @@ static void levels_along(struct fv *s, const double *at, int up, bool down, doub
     MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
-/* Whether some cell over x is computed: a partner's part moves, and has no level of FV's. */
+/* Whether some cell over x is computed: a partner's part moves, and has no level of FV's. True
+ * where no box moves. */
 static bool is_known(const struct fv *s, const double *at, int up)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -52,8 +58,8 @@ static bool is_known(const struct fv *s, const double *at, int up)
     return !s->partners.past[0][0];
 }
 
-/* Place along gravity of the highest water over x; the domain's end if there is none, NAN where
- * FV does not compute. */
+/* Coordinate along gravity's axis of the highest water over x, linear between samples; the domain's
+ * end if there is none, NAN where FV does not compute. */
 static double level_at(struct fv *s, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -73,7 +79,7 @@ static double level_at(struct fv *s, const double *x)
     return end;
 }
 
-/* Velocity and distance to the surface at a place: this rank's share. */
+/* Velocity and distance to the surface at a position: this rank's share. */
 static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUES])
 {
     for (int a = 0; a < s->dim; a++)
@@ -94,6 +100,7 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
     here[nq] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : -1.0;
 }
 
+/* The samples are summed over ranks here, so that only rank 0 returns the result. */
 static double discharge_of(struct fv *s, const struct scene_probe *g)
 {
     struct flow_samples f = flow_samples_create(s, g);

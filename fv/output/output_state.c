@@ -1,4 +1,6 @@
-/* output_state.c - what outputs keep from row to row. SPDX-License-Identifier: BSD-3-Clause */
+/* output_state.c - what outputs keep from row to row. The search of blocks for gauges is made once;
+ * blocks that move are searched in their own frame (overset_search.c).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "output.h"
 
 #include "../../common/base/mem.h"

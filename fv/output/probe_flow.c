@@ -1,4 +1,7 @@
-/* probe_flow.c - see probe_flow.h. SPDX-License-Identifier: BSD-3-Clause */
+/* probe_flow.c - samples of a section through which a gauge measures the discharge. 400 in 2D, 100
+ * x 100 in 3D, in the middle of equal parts. The sum of u.n counts each by how much of it is water,
+ * by the level set over the samples' distance: a share between 0 and 1 next to the surface.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "probe_flow.h"
 
 #include <math.h>
@@ -8,6 +11,7 @@
 
 enum { ALONG_LINE = 400, ALONG_SIDE = 100 };
 
+/* Position k of the sample runs along the section's tangents; across is its unit normal. */
 struct flow_samples flow_samples_create(const struct fv *s, const struct scene_probe *g)
 {
     const struct probe_section c = probe_section_of(g, s->dim);
@@ -38,6 +42,7 @@ void flow_samples_free(struct flow_samples *f)
     mem_free(f->value);
 }
 
+/* m^dim/s: area of a sample times the sum. */
 double flow_samples_sum(const struct flow_samples *f, int dim)
 {
     double sum = 0.0;

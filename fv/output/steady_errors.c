@@ -12,7 +12,8 @@
 
 enum { HARMONICS = 5 }; /* 1, cos, sin, cos 2, sin 2 */
 
-/* Heights of all columns along x over the still level, means over z, and which of them are FV's. */
+/* Heights of the water in all columns along x over the level at rest, means over z, and which of
+ * them are FV's. Returns their number. Collective. */
 static int columns(const struct fv *s, double **eta, double **is)
 {
     const struct block *b = &s->b;
@@ -31,9 +32,10 @@ static int columns(const struct fv *s, double **eta, double **is)
     return n;
 }
 
+/* x of the middle of column i, m. */
 static double place(const struct fv *s, int i) { return s->b.origin[0] + (i + 0.5) * s->b.h[0]; }
 
-/* Crest of the parabola through the highest column and those beside it. */
+/* Crest of the parabola through the highest column and those beside it. *x is its position. */
 static double crest(const struct fv *s, int n, const double *eta, const double *is, double *x)
 {
     int top = 1;
@@ -46,6 +48,8 @@ static double crest(const struct fv *s, int n, const double *eta, const double *
     return eta[top] + 0.5 * slope * at;
 }
 
+/* What lies more than 0.75 wave lengths behind the crest has been left behind; errors over the
+ * crest's height, the position's over the depth. */
 static void solitary(struct fv *s, int n, const double *eta, const double *is)
 {
     const struct steady *w = &s->exact.steady;
@@ -67,7 +71,8 @@ static void solitary(struct fv *s, int n, const double *eta, const double *is)
     summary_real(to, "error.level", count > 0.0 ? fabs(sum) / count / w->crest : 0.0);
 }
 
-/* Least squares over the columns: coefficients f[HARMONICS]. */
+/* Least squares over the columns: coefficients f[HARMONICS]. Gauss-Jordan elimination of the 5 x 5
+ * normal equations. */
 static void harmonics(const struct fv *s, int n, const double *eta, const double *is, double *f)
 {
     double A[HARMONICS][HARMONICS + 1] = {{0.0}};
@@ -90,6 +95,8 @@ static void harmonics(const struct fv *s, int n, const double *eta, const double
         f[p] = A[p][HARMONICS] / A[p][p];
 }
 
+/* Compares with the same fit of the exact wave on the same columns, so that gaps in them do not
+ * count as errors; free: what neither has, as an amplitude. */
 static void regular(struct fv *s, int n, const double *eta, const double *is)
 {
     const struct steady *w = &s->exact.steady;
@@ -117,6 +124,7 @@ static void regular(struct fv *s, int n, const double *eta, const double *is)
     mem_free(exact);
 }
 
+/* Uniform cells and layers alone. */
 void steady_summarise(struct fv *s)
 {
     double *eta, *is;

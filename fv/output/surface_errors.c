@@ -15,6 +15,7 @@
 #include "../surface/surface_forced.h"
 #include "output.h"
 
+/* m^(dim+2)/s^2, over rho. Collective. */
 double surface_energy(const struct fv *s)
 {
     double sum = 0.0;
@@ -33,7 +34,7 @@ double surface_energy(const struct fv *s)
 }
 
 /* Where along a the water ends that is in cell c, m from its centre; the end must be within `most'
- * cells. NAN: it is not. */
+ * cells. NAN: it is not. Linear between the last wet and the first dry centre. */
 static double end_of_water(const struct fv *s, int64_t c, int a, int most)
 {
     const double *phi = s->surface->phi;
@@ -47,7 +48,8 @@ static double end_of_water(const struct fv *s, int64_t c, int a, int most)
 }
 
 /* The same on the wall that cell (i, j, k) touches across a: the foot of a tongue lies before its
- * end half a cell higher, by as much as that lies before the one in the next row. */
+ * end half a cell higher, by as much as that end lies before the one in the next layer, at most a
+ * cell. */
 static double foot_of_water(const struct fv *s, const int *at, int64_t c, int a)
 {
     const struct block *b = &s->b;
@@ -67,7 +69,7 @@ static double foot_of_water(const struct fv *s, const int *at, int64_t c, int a)
 }
 
 /* What foot_of_water adds, on blocks: to the place `end' along axis a of the surface between cell i
- * of a part and that at step d. */
+ * of a part and that at step d. out[] marks cells behind sides. */
 static double foot_on_blocks(const struct fv *s, const struct part *p, int64_t i, int64_t d, int a,
                              double end)
 {
@@ -89,7 +91,7 @@ static double foot_on_blocks(const struct fv *s, const struct part *p, int64_t i
     return more;
 }
 
-/* Cells of the flow, and a partner's. */
+/* Whether there is water of the flow, or of a partner, in the cell. */
 static bool has_water(const struct fv *s, int64_t c)
 {
     const struct surface_forced *p = s->surface->forced;
@@ -97,7 +99,8 @@ static bool has_water(const struct fv *s, int64_t c)
            (s->m->status[c] == CELL_COMPUTED || (p && p->holds && p->holds[c]));
 }
 
-/* On blocks: to the surface along the indices, or to a wall. */
+/* On blocks: to the surface along the indices, or to a wall. Along all indices, since none need run
+ * along axis a. Collective. */
 static double reach_on_blocks(const struct fv *s, int a)
 {
     const struct surface_mesh *w = s->surface->mesh;
@@ -118,6 +121,8 @@ static double reach_on_blocks(const struct fv *s, int a)
     return most;
 }
 
+/* The largest coordinate along a that water has reached, m; cells with water next to them in that
+ * direction are skipped. Collective. */
 double surface_reach(const struct fv *s, int a)
 {
     if (s->m)
@@ -141,7 +146,8 @@ double surface_reach(const struct fv *s, int a)
 }
 
 /* Water of a cell in a column, over the cell, with what is cut out below it: a box is ground for
- * the water on it, and on the floor of the domain whether there is water or not. */
+ * the water on it, and on the floor of the domain whether there is water or not. way: +1 or -1,
+ * towards the ground; the result is in cells. */
 static double height_in_column(const struct fv *s, const int *at, int64_t c, int up, int way)
 {
     if (!s->blocked)
@@ -155,7 +161,7 @@ static double height_in_column(const struct fv *s, const int *at, int64_t c, int
 }
 
 /* The lower one of the two cells of this rank whose centres lie around x along an axis, and their
- * weights. */
+ * weights. x beyond the outermost centres takes these. */
 static int columns_beside(const struct block *b, int a, double x, double weight[2])
 {
     const double half = 0.5, top = b->cells[a] - half,
@@ -165,7 +171,8 @@ static int columns_beside(const struct block *b, int a, double x, double weight[
     return (int)place - b->lo[a];
 }
 
-/* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. */
+/* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. This
+ * rank's share of the height against gravity; the ground is added by rank 0. */
 double surface_level(const struct fv *s, const double *x)
 {
     const struct block *b = &s->b;
@@ -197,6 +204,7 @@ double surface_level(const struct fv *s, const double *x)
     return sum + (rank == 0 ? ground : 0.0); /* against gravity, as keys of levels are */
 }
 
+/* int w^2/2 over the water, m^dim/s^2. Collective. */
 static double enstrophy(const struct fv *s)
 {
     double sum = 0.0;
@@ -211,6 +219,7 @@ static double enstrophy(const struct fv *s)
     return sum;
 }
 
+/* Period and damping of the modal amplitude against the exact ones. */
 static void summarise_swing(struct fv *s)
 {
     struct summary *to = s->run->summary;
