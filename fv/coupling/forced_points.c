@@ -1,4 +1,8 @@
-/* forced_points.c - see forced_points.h. SPDX-License-Identifier: BSD-3-Clause */
+/* forced_points.c - where a partner is asked for the values of FV's cells. A cell of length L along
+ * an axis that is larger than the kernel's cell h is asked at n = ceil(L/h) positions, `apart' from
+ * each other so that their mean, each seen through a kernel of second moment h^2/12, has the second
+ * moment L^2/12 of the cell's average. Made anew when the list of imposed cells changes.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_points.h"
 
 #include <math.h>
@@ -9,8 +13,8 @@
 
 enum { MOST = 8 }; /* points of a cell along an axis */
 
-/* Points along an axis of a cell of this length: their number; *apart: from each other, in cells.
- */
+/* Number of positions along an axis of a cell of this length, at most MOST; *apart: distance of
+ * neighbours, in cells. */
 static int divide(double length, double h, double *apart)
 {
     const int n = (int)fmin(ceil(length / h * (1.0 - 1e-6)), MOST);
@@ -18,7 +22,7 @@ static int divide(double length, double h, double *apart)
     return n > 1 ? n : 1;
 }
 
-/* Points of cell i of the list: their number; x: filled, or NULL. */
+/* Positions of cell i of the list: their number; x: filled, or NULL. */
 static int points_of(const struct fv *s, int64_t i, double h, double *x)
 {
     const int64_t c = s->forcing->partner[i];
@@ -42,6 +46,8 @@ static int points_of(const struct fv *s, int64_t i, double h, double *x)
     return all;
 }
 
+/* ids are the cell's number in the whole grid times MOST^3, so that they are unique and do not
+ * depend on the ranks. */
 struct forced_points forced_points_create(const struct fv *s, double h)
 {
     const struct forcing *f = s->forcing;
@@ -69,6 +75,7 @@ void forced_points_free(struct forced_points *p)
     *p = (struct forced_points){0};
 }
 
+/* A cell has a value if any of its positions has one. */
 void forced_points_mean(const struct forced_points *p, int ncomp, const double *v,
                         const unsigned char *mask, double *to, unsigned char *has)
 {

@@ -1,4 +1,8 @@
-/* forced_restart.c - see forced_restart.h. SPDX-License-Identifier: BSD-3-Clause */
+/* forced_restart.c - a partner's velocities at three times in a restart file. v (start of the
+ * coupling step), v_next (its end) and v_old (before), for the imposed cells and those beside them,
+ * together with the cells' numbers. The same number of ranks reads its own records, another looks
+ * the numbers up.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_restart.h"
 
 #include <stdlib.h>
@@ -11,11 +15,13 @@
 static const char *const forced_names[3][3] = {
     {"v_x", "v_y", "v_z"}, {"w_x", "w_y", "w_z"}, {"o_x", "o_y", "o_z"}};
 
+/* Array m (0: v, 1: v_next, 2: v_old) of component a. */
 static double *forced_at(const struct forcing *f, int m, int a)
 {
     return m == 0 ? f->v[a] : m == 1 ? f->v_next[a] : f->v_old[a];
 }
 
+/* The clock, t0, t1, t_old and the number of known levels, is the same on all ranks. */
 void forced_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
@@ -43,8 +49,8 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Rows of the forced cells in a file of another number of ranks: row[i] of partner[i]; false if
- * one is not there. */
+/* Finds the record of each imposed cell in a file of another number of ranks: row[i] of partner[i];
+ * false on all ranks if one is not there. O(n log n). */
 static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
 {
     const struct forcing *c = s->forcing;
@@ -68,6 +74,7 @@ static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
     return good;
 }
 
+/* Every rank reads all records of a component at a time. */
 static bool gather_forced(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;

@@ -1,4 +1,9 @@
-/* fv_course.c - see fv_course.h. SPDX-License-Identifier: BSD-3-Clause */
+/* fv_course.c - how FV's fields go on in time, for a partner. A time polynomial about the newest
+ * level q[0] at t[0]: velocity through up to three other levels (the trial's end, then earlier ends
+ * of coupling steps), pressure and phi linear, towards the trial or along the smoothed trend. Order
+ * in a coupling step: course_try, course_velocity, course_pressure, course_surface (sent by
+ * fv_coupling.c), then the true step, course_take.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv_course.h"
 
 #include <math.h>
@@ -14,6 +19,7 @@
 #include "../surface/levelset.h"
 #include "../time/steps.h"
 
+/* width: velocity, pressure, and phi with a surface. */
 struct course *course_create(const struct fv *s, struct patch *p, int memory)
 {
     struct course *c = NEW(struct course, 1);
@@ -53,9 +59,9 @@ void course_free(struct course **cp)
     *cp = NULL;
 }
 
-/* Under a surface the partner knows the level of the pressure: what it is told is what stands over
- * its mean at the rim of the free cells, which would follow every swing of the level late. q: of
- * the patch; p: Pa, in the places of cells, or NULL: the exact one at t. */
+/* Under a surface the partner knows the level of the pressure itself, so that it is sent what
+ * stands over the mean in the free cells beside the interface, which would follow every oscillation
+ * of the level late. q: of the patch; p: Pa, by cells, or NULL: the exact one at t. Collective. */
 static void take_out_level(const struct fv *s, const struct course *c, const double *p, double t,
                            double *q)
 {
@@ -79,7 +85,7 @@ static void take_out_level(const struct fv *s, const struct course *c, const dou
         q[i * c->width + c->dim] -= level;
 }
 
-/* phi, as far as linear interpolation may want it. */
+/* Writes phi, cut off at four cells, as far as linear interpolation may want it. */
 static void look_at_surface(const struct fv *s, const struct course *c, double *q)
 {
     double *one = NEW(double, c->n), most = 4.0 * (s->m ? s->surface->largest : 0.0);
@@ -91,7 +97,8 @@ static void look_at_surface(const struct fv *s, const struct course *c, double *
     mem_free(one);
 }
 
-/* Velocity and whole pressure now; forced cells get a pressure continued from the free side. */
+/* Writes velocity and full pressure now to q; imposed cells get a pressure extrapolated from the
+ * free side. Collective. */
 static void look(struct fv *s, const struct course *c, double *q)
 {
     double *one = NEW(double, c->n), *p = NEW(double, s->size), x[3];
@@ -118,6 +125,7 @@ static void look(struct fv *s, const struct course *c, double *q)
     mem_free(one);
 }
 
+/* Levels move one back; the oldest array is reused for the new one. */
 static void shift(struct course *c, double t)
 {
     double *oldest = c->q[COURSE_LEVELS - 1];
@@ -128,9 +136,9 @@ static void shift(struct course *c, double t)
     c->levels = c->levels < COURSE_LEVELS ? c->levels + 1 : COURSE_LEVELS;
 }
 
-/* Pressure answers at once to every change of the forced velocities, by the change over the window,
- * and a partner to that a window later: where what comes back is larger than what went, smoothing
- * must take it away; it must keep level and trend, for a lag would feed waves. */
+/* Pressure answers at once to every change of the imposed velocities, by the change over the
+ * coupling step, and a partner to that a step later: where what comes back is larger than what
+ * went, smoothing must take it away; it must keep level and trend, for a lag would feed waves. */
 static void smooth_pressure(struct course *c)
 {
     const double h = c->t[0] - c->t[1];
@@ -143,6 +151,7 @@ static void smooth_pressure(struct course *c)
     }
 }
 
+/* After a coupling step; the trial counts no longer. */
 void course_take(struct fv *s, struct course *c)
 {
     shift(c, s->t);
@@ -152,6 +161,7 @@ void course_take(struct fv *s, struct course *c)
         smooth_pressure(c);
 }
 
+/* As `look', from the exact solution at t. */
 static void exact_level(struct fv *s, struct course *c, double t, double *q)
 {
     double x[3], u[3], p;
@@ -169,6 +179,7 @@ static void exact_level(struct fv *s, struct course *c, double t, double *q)
     take_out_level(s, c, NULL, t, q);
 }
 
+/* rate starts as the trend of the exact levels. */
 void course_start(struct fv *s, struct course *c, double before)
 {
     c->t_tried = -INFINITY;
@@ -186,7 +197,8 @@ void course_start(struct fv *s, struct course *c, double before)
     }
 }
 
-/* A trial that fails says nothing of the true window: then the past must do. */
+/* A trial that fails says nothing of the true window: then the past must do. The state, the sides
+ * and the clock are put back afterwards; totals and watches do not count in it (step.predicts). */
 void course_try(struct fv *s, struct course *c, double t1)
 {
     struct diagnosis d = {0};
@@ -209,8 +221,8 @@ void course_try(struct fv *s, struct course *c, double t1)
     sides_time(s, s->t); /* those of the start again */
 }
 
-/* The polynomial through the newest level and up to three others, value f[j] at x[j] s after it:
- * f0 + x r(x), r through (f[j] - f0)/x[j] in Newton's form. */
+/* The polynomial through the newest level and up to three others, value f[j] at x[j] s after it: f0
+ * + x r(x), r through (f[j] - f0)/x[j] in Newton's form. term[k] multiplies (t - t[0])^k. */
 static void expand(double f0, int n, const double *x, const double *f, double *term)
 {
     double r[3] = {0.0, 0.0, 0.0};
@@ -225,7 +237,7 @@ static void expand(double f0, int n, const double *x, const double *f, double *t
     term[3] = d;
 }
 
-/* The levels beside the newest: the one tried, then those before. */
+/* Lists the levels beside the newest: the trial's, then earlier ones; returns their number. */
 static int others(const struct course *c, const double **q, double *x)
 {
     int n = 0;
@@ -240,6 +252,7 @@ static int others(const struct course *c, const double **q, double *x)
     return n;
 }
 
+/* As many terms as levels; with `linear' two. */
 int course_velocity(struct course *c)
 {
     const double *q[COURSE_LEVELS];
@@ -257,8 +270,8 @@ int course_velocity(struct course *c)
     return c->linear && n > 1 ? 2 : n + 1; /* a straight line of the parabola's slope now */
 }
 
-/* Of a field in time now: towards what the trial found, or from the level before; without trials
- * that of the parabola through three levels, as BDF2 has it. */
+/* Slope of a value in time now: towards what the trial found, or from the level before; without
+ * trials that of the parabola through three levels, as BDF2 has it. */
 static double slope_of(const struct course *c, int64_t at, int n, const double **q, const double *x)
 {
     double f[COURSE_LEVELS], term[COURSE_TERMS];
@@ -299,6 +312,7 @@ int course_pressure(struct course *c)
 
 static const char *const names[] = {"level0", "level1", "level2"};
 
+/* Levels, clock and trends; the patch's box tells other ranks which cells they are. */
 void course_save(const struct fv *s, const struct course *c, struct h5 *f)
 {
     const double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
@@ -322,6 +336,7 @@ static bool load(const struct fv *s, const struct course *c, struct h5 *f, const
              : h5_read_real(f, name, c->n, ncomp, to);
 }
 
+/* A trial is never saved: the next coupling step begins with one. */
 bool course_load(const struct fv *s, struct course *c, struct h5 *f)
 {
     const bool same = layout_same_ranks(f, s->run->size);

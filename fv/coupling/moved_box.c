@@ -1,4 +1,8 @@
-/* moved_box.c - see moved_box.h. SPDX-License-Identifier: BSD-3-Clause */
+/* moved_box.c - see moved_box.h. Called at the start of a coupling step (fv_coupling.c) once a box
+ * has moved. On uniform cells new lists are made and compared with the old ones; blocks are cut
+ * anew only if the set of cells in the box has changed. Then values go from the old lists to the
+ * new ones, and the pressure equation is set up anew.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "moved_box.h"
 
 #include <stdio.h>
@@ -16,6 +20,7 @@
 #include "../time/moving.h"
 #include "../time/stages.h"
 
+/* Whether any rank's imposed cells are others. Collective. */
 static bool differs(const struct fv *s, const struct forcing *f)
 {
     int other = memcmp(f->forced, s->forcing->forced, (size_t)s->size) != 0;
@@ -23,7 +28,8 @@ static bool differs(const struct fv *s, const struct forcing *f)
     return other != 0;
 }
 
-/* The values of the new lists: the partner's, where the old lists had them, else FV's own. */
+/* Fills the new lists with the partner's values where the old lists had them, else with FV's own at
+ * the same times. */
 static void carry(const struct fv *s, struct forcing *to)
 {
     const struct forcing *from = s->forcing;
@@ -47,7 +53,7 @@ static void carry(const struct fv *s, struct forcing *to)
     to->inflow = from->inflow;
 }
 
-/* The partner's surface of the last window, where both lists have it. */
+/* Takes over the partner's surface of the last coupling step where both lists have it. */
 static void carry_surface(struct fv *s, struct surface_forced *from)
 {
     struct surface_forced *to = surface_forced_create(s);
@@ -62,8 +68,8 @@ static void carry_surface(struct fv *s, struct surface_forced *from)
 
 /* --- blocks --- */
 
-/* What the cells of all blocks are, to be freed. Those deep in the box count as given ones: where
- * they come near free cells, the partner knows them. */
+/* Copies what the cells of all blocks are (freed by the caller). Those deep in the box count as
+ * imposed: where they come near free cells, the partner has values for them. */
 static void copy_status(const struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX])
 {
     for (int k = 0; k < m->nblocks; k++) {
@@ -87,7 +93,7 @@ static void swap_status(struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX])
 
 enum { PAST = 10 };
 
-/* Velocities of now and before, and the surface. */
+/* Velocities of now and before, and the surface. Returns their number. */
 static int past_fields(const struct fv *s, double **f)
 {
     int n = 0;
@@ -101,7 +107,8 @@ static int past_fields(const struct fv *s, double **f)
     return n;
 }
 
-/* Cells that later blocks hid have values, now that the box has come to them, from those blocks. */
+/* Cells that later blocks hid and that the box has now come to get values from those blocks, as
+ * these were cut before. Collective. */
 static void fill_hidden(struct fv *s, unsigned char *was[MESH_BLOCKS_MAX])
 {
     struct mesh *m = s->m;
@@ -126,7 +133,7 @@ static void fill_hidden(struct fv *s, unsigned char *was[MESH_BLOCKS_MAX])
         mem_free(wanted[k]);
 }
 
-/* Some rank's cells without donors. */
+/* Copies to `why' what the lowest rank with a cell without donors says of it. Collective. */
 static void tell_trouble(const struct fv *s, char why[256])
 {
     int mine = *s->m->trouble ? s->run->rank : s->run->size, least;
@@ -137,13 +144,15 @@ static void tell_trouble(const struct fv *s, char why[256])
     MPI_Bcast(why, 256, MPI_CHAR, least, s->comm);
 }
 
+/* Cuts the blocks around the box and renews which cells are free. */
 static void cut(struct fv *s, const double (*box)[2][3])
 {
     mesh_recut(s->m, box);
     moving_set_free(s);
 }
 
-/* The lists of blocks cut around the box; NULL: as before. */
+/* Makes the lists of blocks cut around the box. NULL: the place is none for FV, and blocks are as
+ * before. */
 static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char why[256])
 {
     struct mesh *m = s->m;
@@ -172,6 +181,7 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char wh
     return to;
 }
 
+/* The matrix and bounds of the viscous terms belong to the old cells. */
 static void renew_pressure(struct fv *s)
 {
     viscous_solver_renew(s);
@@ -181,6 +191,8 @@ static void renew_pressure(struct fv *s)
 
 /* --- both --- */
 
+/* past has velocities at the starts of this coupling step and the one before; blocks get AHEAD more
+ * layers of imposed cells. */
 void moved_box_prepare(struct fv *s, const double (*box)[2][3])
 {
     for (int m = 0; m < 2; m++)
@@ -204,7 +216,8 @@ void moved_box_free(struct fv *s)
     s->partners = (struct fv_partners){.n = 0};
 }
 
-/* The lists for these boxes; NULL: they are the same, or none can be. */
+/* Makes the lists for these boxes; NULL: they are the same, or none can be. Pressures are extended
+ * into the imposed cells first, for those that come free. */
 static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3], char why[256])
 {
     if (s->m && !mesh_recut_wanted(s->m, box))
@@ -227,6 +240,7 @@ static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3],
     return f;
 }
 
+/* With a surface the volume before decides what surface_outline_moved restores. */
 bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
 {
     *why = '\0';

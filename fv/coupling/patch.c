@@ -1,4 +1,8 @@
-/* patch.c - see patch.h. SPDX-License-Identifier: BSD-3-Clause */
+/* patch.c - the uniform grid of cell averages that a partner gets. On fv.cells it is the grid
+ * itself; where a partner may come to unequal layers, equal ones that are made of them by cubics
+ * (blend); on blocks a box around the partners whose averages are interpolated (mesh_exchange with
+ * weights). Each rank has some of its cells; cpl.h distributes them.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "patch.h"
 
 #include <math.h>
@@ -10,13 +14,14 @@
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 
-/* Boxes of partners, as patch_create has them. */
+/* Boxes of partners, as patch_create gets them. */
 struct partners {
     int n;
     const double (*box)[2][3], (*inner)[2][3];
 };
 
-/* The four rows around the middle of a row of the patch, and their weights. */
+/* The four layers around the middle of a layer of the patch, and their weights; weights below 1e-9
+ * are rounding. */
 static struct blend blend_rows(const struct block *b, double from, double to)
 {
     const double *edge = b->rows->edge, middle = 0.5 * (from + to);
@@ -34,8 +39,7 @@ static struct blend blend_rows(const struct block *b, double from, double to)
     return x;
 }
 
-/* The even rows go on to the domain's bottom: this rank's are those with their middle in its own.
- */
+/* Equal layers go on to the domain's bottom: this rank's are those with their middle in its own. */
 static void blend_grid(const struct block *b, struct patch *p)
 {
     const struct rows *r = b->rows;
@@ -60,6 +64,7 @@ static void blend_grid(const struct block *b, struct patch *p)
             blend_rows(b, p->origin[1] + (first + j) * h, p->origin[1] + (first + j + 1) * h);
 }
 
+/* Without unequal layers below it. */
 static void of_grid(const struct fv *s, struct patch *p)
 {
     const struct block *b = &s->b;
@@ -81,7 +86,8 @@ static void of_grid(const struct fv *s, struct patch *p)
     }
 }
 
-/* Whether what the partner looks at from y = lo m on are even rows. */
+/* Whether what the partner looks at from y = lo m on are even rows. A partner looks two cells
+ * beyond its box. */
 static bool in_even_rows(const struct fv *s, double lo)
 {
     const struct rows *r = s->b.rows;
@@ -108,7 +114,7 @@ static int finest(const struct mesh *m, const struct overset *o, const double *x
     return best;
 }
 
-/* The same over the places of a raster within lo and hi. */
+/* The same over the places of a raster within lo and hi. 9 positions along each axis. */
 static int finest_within(const struct fv *s, const struct overset *o, const double *lo,
                          const double *hi, double *h)
 {
@@ -159,7 +165,7 @@ static bool is_plain(const struct mesh_block *b)
 }
 
 /* Cells along axis a: those of a plain block go on beyond it; others as large as h about. The
- * domain's walls bound them, a period that the box spans is theirs. */
+ * domain's walls bound them, a period that the box spans is theirs. b NULL: no plain block. */
 static void set_axis(const struct fv *s, const struct mesh_block *b, int a, double lo, double hi,
                      double h, struct patch *p)
 {
@@ -186,7 +192,7 @@ static void set_axis(const struct fv *s, const struct mesh_block *b, int a, doub
     p->origin[a] = from;
 }
 
-/* This rank's slab, along the last axis. */
+/* This rank's slab, along the last axis. Slabs of about equal height. */
 static void share(const struct fv *s, struct patch *p)
 {
     const int a = p->dim - 1, n = p->cells[a];
@@ -197,7 +203,7 @@ static void share(const struct fv *s, struct patch *p)
 }
 
 /* Whether the partner may look at a cell: it does not deep in its own part, which ends nowhere at
- * the domain's sides. */
+ * the domain's sides. inner: what the partner gives; two cells in it are still looked at. */
 static bool is_wanted_by(const struct fv *s, const struct patch *p, const double *place,
                          const double (*box)[3], const double (*inner)[3])
 {
@@ -224,7 +230,8 @@ static bool is_wanted(const struct fv *s, const struct patch *p, const double *p
     return wanted;
 }
 
-/* Donors of this rank's cells; false: one that is wanted has none, at `where'. */
+/* Donors of this rank's cells; false: one that is wanted has none, at `where'. Behind walls values
+ * are extrapolated by a cell at most. */
 static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
                         const struct partners *by, double *where)
 {
@@ -256,7 +263,7 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
     return good;
 }
 
-/* All ranks know the place of the lowest that has one. */
+/* Whether all ranks are good; if not, all get the place of the lowest that is not. Collective. */
 static bool agree(const struct fv *s, bool good, double *where)
 {
     int mine = good ? s->run->size : s->run->rank, least;
@@ -298,6 +305,7 @@ static void find_hull(const struct partners *by, double lo[3], double hi[3])
     }
 }
 
+/* where starts as the middle of all boxes, in case no block has it. */
 static bool create_on_blocks(const struct fv *s, const struct partners *by, struct patch *p,
                              double *where)
 {
@@ -315,6 +323,7 @@ static bool create_on_blocks(const struct fv *s, const struct partners *by, stru
     return good;
 }
 
+/* Layers are blended only if a box can come to unequal ones. */
 bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                   struct patch *p, double *where)
 {
@@ -345,6 +354,7 @@ void patch_free(struct patch *p)
     mem_free(p->blend);
 }
 
+/* x of cells beyond dim is 0. */
 void patch_centre(const struct patch *p, int64_t i, double *x)
 {
     const int at[3] = {(int)(i % p->of.n[0]), (int)(i / p->of.n[0] % p->of.n[1]),
@@ -355,6 +365,7 @@ void patch_centre(const struct patch *p, int64_t i, double *x)
                    : 0.0;
 }
 
+/* Sums of four layers at most; those with weight 0 are not read, for they may not exist. */
 static void look_at_rows(const struct fv *s, const struct patch *p, double *f, double *to)
 {
     const struct block *b = &s->b;

@@ -1,4 +1,8 @@
-/* shared_walls.c - see shared_walls.h. SPDX-License-Identifier: BSD-3-Clause */
+/* shared_walls.c - whether lines of the scene and sides of blocks are the same walls, in 2D. Both
+ * ways: positions along each line, half a cell apart, that lie in FV's flow must be near a side of
+ * a block; faces of sides within what a partner computes must be near a line or a side of the
+ * domain. Near: half of half a face's length. Once, at the start.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "shared_walls.h"
 
 #include <math.h>
@@ -11,6 +15,7 @@
 
 #define APART 0.5 /* of half a face's length: how far one wall may lie from the other */
 
+/* Whether x lies in one of n boxes. */
 static bool is_in(int dim, int n, const double (*box)[2][3], const double *x)
 {
     for (int q = 0; q < n; q++) {
@@ -23,6 +28,7 @@ static bool is_in(int dim, int n, const double (*box)[2][3], const double *x)
     return false;
 }
 
+/* Distance to the nearest line, m. */
 static double to_lines(const struct scene *c, const double *x)
 {
     double least = INFINITY;
@@ -33,7 +39,8 @@ static double to_lines(const struct scene *c, const double *x)
     return least;
 }
 
-/* A point of the scene's lines that lies in FV's flow and on no side; false: none. */
+/* A point of the scene's lines that lies in FV's flow and on no side; false: none. *wall, at: which
+ * line, and where. */
 static bool line_astray(const struct fv *s, const struct overset *o, const struct block_walls *w,
                         int n, const double (*given)[2][3], int *wall, double at[3])
 {
@@ -85,6 +92,7 @@ static bool side_astray(const struct fv *s, const struct block_walls *w, int n,
     return false;
 }
 
+/* Meshes of 3D are not compared. */
 bool shared_walls_agree(const struct fv *s, int n, const double (*given)[2][3],
                         const double (*box)[2][3], char *why, size_t size)
 {

@@ -1,4 +1,9 @@
-/* water_budget.c - see water_budget.h. SPDX-License-Identifier: BSD-3-Clause */
+/* water_budget.c - the water of both programs, and the flow that restores what is missing. With M
+ * the water missing since the start and A the wet area of the interface, the inflow for the next
+ * coupling step is
+ *   (M/tau + lasting)/A,   d lasting/dt = M/(4 tau^2),   tau = max(2 sqrt(H/g), 10 T):
+ * a proportional part and a slower integral, critically damped together.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "water_budget.h"
 
 #include <math.h>
@@ -11,9 +16,9 @@
 #include "../surface/levelset.h"
 
 /* sqrt(H/g) over which what is missing comes back. Waves last longer, 4.4 of it and more, and take
- * no part in what is missing; what drops and shifted particles take away comes steadily: a slower
- * part, four times that, takes the lasting loss away which the part in proportion leaves, without
- * swinging. */
+ * no part in what is missing; drops and shifted particles take water away steadily: a slower part,
+ * over four times that, removes the lasting loss which the proportional part leaves, without
+ * oscillating. */
 static const double memory = 2.0;
 
 struct water_budget water_budget_create(int n)
@@ -31,6 +36,7 @@ struct water_budget water_budget_create(int n)
             .stop = 0.02}};
 }
 
+/* Part of a box of centre x and size h that lies within `box' or its periodic images. */
 static double share_within(const struct fv *s, const double box[2][3], const double *x,
                            const double *h)
 {
@@ -45,7 +51,7 @@ static double share_within(const struct fv *s, const double box[2][3], const dou
     return in;
 }
 
-/* Part of a box of centre x and size h outside of n others. */
+/* Part of a box of centre x and size h outside of n others. Boxes of partners lie apart. */
 static double share_beyond(const struct fv *s, int n, const double (*box)[2][3], const double *x,
                            const double *h)
 {
@@ -67,13 +73,15 @@ static double share_outside(const struct fv *s, const struct water_budget *w, co
     return share_beyond(s, w->n, w->box, x, h);
 }
 
+/* Whether a cube of edge `far' around x meets a partner's box. */
 static bool is_beside(const struct fv *s, const struct water_budget *w, const double *x, double far)
 {
     const double h[3] = {far, far, far};
     return share_outside(s, w, x, h) < 1.0;
 }
 
-/* The same of a cell of blocks: a curved one by points, each for a box of its own. */
+/* Part of a cell of blocks outside of what partners count: of a curved cell near a box by 8^dim
+ * positions, each for a box of its own. */
 static double cell_outside(const struct fv *s, const struct water_budget *w, const struct part *p,
                            const int *i)
 {
@@ -102,6 +110,8 @@ static double cell_outside(const struct fv *s, const struct water_budget *w, con
     return sum;
 }
 
+/* FV's water outside of the partners' boxes, m^dim; cells far from the surface's wet side are
+ * skipped. Collective. */
 static double own_water(const struct fv *s, const struct water_budget *w)
 {
     double x[3], h[3], sum = 0.0;
@@ -122,7 +132,7 @@ static double own_water(const struct fv *s, const struct water_budget *w)
     return sum;
 }
 
-/* m^(dim-1): of the outline. */
+/* Wet area of the interface with imposed cells, m^(dim-1). Collective. */
 static double wet_area(const struct fv *s)
 {
     const struct forcing *f = s->forcing;
@@ -136,6 +146,7 @@ static double wet_area(const struct fv *s)
     return sum;
 }
 
+/* Drops that fell into FV's water since the last time are added to what FV conserves. */
 void water_budget_take(struct fv *s, struct water_budget *w, const double water[2])
 {
     w->partners = water[0];
@@ -143,6 +154,7 @@ void water_budget_take(struct fv *s, struct water_budget *w, const double water[
     w->drops = water[1];
 }
 
+/* The first call sets what there is at the start. */
 void water_budget_close(struct fv *s, struct water_budget *w, double T)
 {
     const double all = own_water(s, w) + w->partners - s->surface->entered, area = wet_area(s);
