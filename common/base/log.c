@@ -1,4 +1,7 @@
-/* log.c - see log.h. The terminal may be shared by many ranks: whole lines in one write each.
+/* log.c - see log.h. Who prints is decided here alone: rank_now() once log_open has said which
+ * communicator the program runs on. The terminal is shared by all ranks of all programs, so each
+ * text is put together in one buffer and handed over in a single flushed call; lines of several
+ * ranks then do not mix. Everything that ends a run from within goes through leave().
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "log.h"
 
@@ -18,6 +21,8 @@ static struct {
 
 void (*fail_hook)(const char *reason) = NULL;
 
+/* The rank that decides about printing. Before log_open it is asked of MPI each time, since MPI may
+ * come up in between. */
 static int rank_now(void)
 {
     int rank = state.rank, up = 0;
@@ -36,6 +41,7 @@ void log_open(MPI_Comm comm, const char *program)
     snprintf(state.program, sizeof state.program, "%s", program);
 }
 
+/* Line by line (_IOLBF): a run that is killed leaves all lines that it has said. */
 void log_file(const char *path)
 {
     if (state.file)
@@ -47,7 +53,7 @@ void log_file(const char *path)
         log_warn("%s: cannot be written (%s): this run keeps no log", path, strerror(errno));
 }
 
-/* One write of prefix and text, ended by a newline. */
+/* One write of prefix and text, ended by a newline. Cut to 8190 bytes. */
 static void say(bool terminal, bool file, const char *prefix, const char *fmt, va_list args)
 {
     char line[8192];
@@ -79,6 +85,8 @@ void log_say(const char *fmt, ...)
         SAY(true, true, "");
 }
 
+/* Two rounds over the list, first what is on, then what is off, into one line; the parts' first
+ * words are told apart by whether anything stands there. */
 void log_uses(const struct log_use *uses, int n)
 {
     char line[1024] = "";
@@ -115,6 +123,8 @@ void log_here(const char *fmt, ...)
     SAY(true, true, prefix);
 }
 
+/* The last thing of a failing process. MPI_Abort ends all programs of a job, which share the world;
+ * alone, _Exit leaves without the exit handlers, which could wait for other ranks. */
 static _Noreturn void leave(int code, const char *reason)
 {
     int up = 0, size = 1;

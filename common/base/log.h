@@ -12,8 +12,8 @@
  * rank 0 of MPI_COMM_WORLD does, or the process itself if MPI is not up. */
 void log_open(MPI_Comm comm, const char *program);
 /* Appends all later lines to the file `path' as well, line by line; only rank 0 opens it. The file
- * of an earlier call is closed; NULL only closes. A file that cannot be opened is left out in
- * silence. */
+ * of an earlier call is closed; NULL only closes. A file that cannot be opened is left out with a
+ * warning. */
 void log_file(const char *path);
 /* One or more whole lines of at most 8190 bytes, the rest is cut; a newline is added if there is
  * none. log_quiet writes to the file only. */

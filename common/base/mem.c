@@ -1,4 +1,6 @@
-/* mem.c - see mem.h. A header of one cache line before each block keeps its size.
+/* mem.c - see mem.h. A header of one cache line before each block keeps its size in bytes, so that
+ * mem_free can count without being told; the block itself then begins on a cache line again. Sizes
+ * are whole lines, as aligned_alloc asks for.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mem.h"
 
@@ -12,6 +14,7 @@
 enum { LINE = 64 };
 static size_t held, peak; /* bytes of this process */
 
+/* SIZE_MAX / 2 keeps n size, rounded up and with its header, from wrapping round. */
 void *mem_new(size_t n, size_t size)
 {
     if (size && n > (SIZE_MAX / 2 - 2 * LINE) / size)
