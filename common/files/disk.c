@@ -1,4 +1,7 @@
-/* disk.c - files that cannot be written, files that are damaged.
+/* disk.c - files that cannot be written, files that are damaged; see disk.h. disk_seal and
+ * disk_sealed read the whole file back once, in pieces of CHUNK bytes, on the one rank that closes
+ * or opens a restart file. The seal is kept in the machine's order of bytes, so that a restart file
+ * is good between machines of the same order alone.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "disk.h"
 
@@ -29,6 +32,8 @@ static double free_bytes(const char *path)
     return statvfs(slash ? dir : ".", &v) == 0 ? (double)v.f_bavail * (double)v.f_frsize : INFINITY;
 }
 
+/* errno is read first, before other calls change it. A file that is open keeps its blocks when its
+ * name is removed, therefore it is cut to nothing first. */
 void disk_failed(const char *path)
 {
     char reason[160];
@@ -52,7 +57,11 @@ void disk_room(const char *path, double bytes)
     disk_failed(path);
 }
 
-/* Sum of n bytes read from f, eight at a time (multiply and rotate, so that the place counts). */
+/* Sum of n bytes read from f, eight at a time (multiply and rotate, so that the place counts). With
+ * h the sum so far and w the next eight bytes (zeros behind the end): h <- rotate((h ^ w) m, 29) +
+ * c. m is odd, so that no step loses a bit of h: a change in one word always changes the sum. The
+ * length is mixed in last, for the zeros that fill the last word would else hide a file that is cut
+ * short there. It guards against accidents, not against intent. */
 static bool sum_of(FILE *f, long n, uint64_t *sum)
 {
     uint64_t h = 0x9e3779b97f4a7c15u, *words = NEW(uint64_t, CHUNK / 8);

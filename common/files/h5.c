@@ -1,5 +1,9 @@
 /* h5.c - see h5.h. Any failure of the library ends the run: a restart file that cannot be written
- * must not be missed. SPDX-License-Identifier: BSD-3-Clause */
+ * must not be missed. Every dataset is a list of records (rows) or a block of cells; each rank
+ * selects its part of the file (a hyperslab of struct h5_part) and one collective transfer moves
+ * all parts at once. So every rank must come to every call, with an empty selection where it has
+ * nothing.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "h5.h"
 
 #include <errno.h>
@@ -33,6 +37,8 @@ struct h5 {
         }                                                                                          \
     } while (0)
 
+/* What writing and reading have in common. Transfers are collective: MPI-IO may then gather the
+ * ranks' parts into large pieces. */
 static struct h5 *start(MPI_Comm comm, const char *path)
 {
     struct h5 *f = NEW(struct h5, 1);
@@ -74,6 +80,8 @@ struct h5 *h5_create_restart(MPI_Comm comm, const char *path)
     return f;
 }
 
+/* Rank 0 tries the file first, with the library's own error output off, so that a missing or
+ * foreign file is an answer rather than an abort inside a collective open. */
 struct h5 *h5_open(MPI_Comm comm, const char *path)
 {
     struct h5 *f = start(comm, path);
@@ -96,6 +104,9 @@ struct h5 *h5_open(MPI_Comm comm, const char *path)
     return f;
 }
 
+/* A file gets its own name only when it is complete on the disk: first all ranks have closed it
+ * (the first barrier), then rank 0 seals and renames it, and no rank goes on before that (the
+ * second). */
 void h5_close(struct h5 **file)
 {
     struct h5 *f = *file;
@@ -188,13 +199,17 @@ char *h5_read_attribute_text(struct h5 *f, const char *name)
 
 /* --- datasets --- */
 
-/* Where a rank's part lies in a dataset, and its shape. */
+/* Where a rank's part lies in a dataset of `rank' indices (HDF5's word for their number), the first
+ * index varying slowest: shape of the whole, first element and count of this rank's, in records or
+ * cells. empty: this rank takes part without elements. */
 struct h5_part {
     int rank;
     hsize_t shape[4], first[4], count[4];
     bool empty;
 };
 
+/* One collective read or write of a part, v holding it without gaps. The library wants a pointer
+ * that is not NULL even where nothing is selected. */
 static void transfer(struct h5 *f, hid_t set, const struct h5_part *p, hid_t type, void *v,
                      bool write)
 {
@@ -217,6 +232,8 @@ static void transfer(struct h5 *f, hid_t set, const struct h5_part *p, hid_t typ
     H5(H5Sclose(space));
 }
 
+/* Makes the dataset on all ranks alike, asks for the room of all of it (not of this rank's part:
+ * all answer alike), then writes. A dataset without elements is made, but not written. */
 static void write_part(struct h5 *f, const char *name, const char *unit, const struct h5_part *p,
                        hid_t stored, hid_t type, const void *v)
 {
@@ -238,7 +255,8 @@ static void write_part(struct h5 *f, const char *name, const char *unit, const s
     H5(H5Sclose(space));
 }
 
-/* Rows of this rank behind those of the lower ranks. */
+/* Rows of this rank behind those of the lower ranks. `first' is undefined on rank 0 after
+ * MPI_Exscan. */
 static struct h5_part rows_part(const struct h5 *f, int64_t n, int ncomp)
 {
     int64_t first = 0, all = 0;
@@ -254,6 +272,7 @@ static struct h5_part rows_part(const struct h5 *f, int64_t n, int ncomp)
     return p;
 }
 
+/* In a restart file: how many records each rank wrote, one number a rank. */
 static void write_rows(struct h5 *f, const char *name, int64_t n)
 {
     char rows[256];
@@ -279,6 +298,8 @@ void h5_write_int(struct h5 *f, const char *name, int64_t n, const int64_t *v)
     write_rows(f, name, n);
 }
 
+/* Axes turn round: cells are stored with x fastest, so axis a becomes index dim - 1 - a, and
+ * components come last. */
 void h5_write_block(struct h5 *f, const char *name, const char *unit, int dim, const int *cells,
                     const int *lo, const int *hi, int ncomp, const double *v, bool single)
 {
@@ -312,6 +333,8 @@ static int shape_of(struct h5 *f, const char *name, hsize_t shape[4])
     return rank <= 4 ? rank : 0;
 }
 
+/* False where rank or shape of the dataset are not those of p. All ranks compare the same numbers,
+ * since p->shape holds sums over the ranks, so all skip the transfer or none does. */
 static bool read_rows(struct h5 *f, const char *name, const struct h5_part *p, hid_t type, void *v)
 {
     hid_t set;
@@ -336,6 +359,8 @@ int64_t h5_rows(struct h5 *f, const char *name)
     return read_rows(f, rows, &p, H5T_NATIVE_INT64, &n) ? n : -1;
 }
 
+/* An equal share is [n r/size, n (r + 1)/size) in whole numbers: the shares of all ranks add up to
+ * n. */
 int64_t h5_share(struct h5 *f, const char *name)
 {
     hsize_t shape[4];
@@ -359,6 +384,8 @@ bool h5_read_int(struct h5 *f, const char *name, int64_t n, int64_t *v)
     return read_rows(f, name, &p, H5T_NATIVE_INT64, v);
 }
 
+/* The answer is made common by a minimum first: ranks ask for ranges of their own here, and one
+ * that does not fit must not leave the others in the transfer. */
 static bool read_at(struct h5 *f, const char *name, int64_t first, int64_t n, int ncomp, hid_t type,
                     void *v)
 {
@@ -406,7 +433,9 @@ int64_t *h5_read_all_int(struct h5 *f, const char *name, int64_t *n)
     return read_all(f, name, 1, H5T_NATIVE_INT64, n);
 }
 
-/* Sums if `sums', else the first rank's. */
+/* Of n numbers from each of f->ranks writers, on another number of ranks: their sums, on rank 0
+ * alone (the others get zeros, so that a sum over ranks is right), if `sums'; else the first
+ * writer's, on all. */
 static bool read_each(struct h5 *f, const char *name, int n, double *v, bool sums)
 {
     if (f->ranks == 0 || f->ranks == f->size)
@@ -431,6 +460,7 @@ bool h5_read_parts(struct h5 *f, const char *name, int n, double *v)
     return read_each(f, name, n, v, true);
 }
 
+/* The counts of the writers become their running sum, each before its own records. */
 int64_t *h5_first_rows(struct h5 *f, const char *name)
 {
     char rows[256];

@@ -1,4 +1,7 @@
-/* series.c - rows of series.csv. SPDX-License-Identifier: BSD-3-Clause */
+/* series.c - rows of series.csv: see series.h. A row goes out as one line at once, so that a run
+ * can be watched and a kill loses at most one line. After a restart the file continues: what the
+ * first run wrote behind the restart file's time goes, since those steps are computed again.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
 
 #include <stdio.h>
@@ -15,8 +18,9 @@ struct series {
     int ncolumns;
 };
 
-/* Keeps the header and the rows up to t of an existing file; they hold t in 12 digits.
- * A row that a kill cut short goes, too. */
+/* Keeps the header and the rows up to t of an existing file; they hold t in 12 digits. A row that a
+ * kill cut short goes, too. Twelve digits round by up to 5e-12 of t, hence 1e-11. The shorter file
+ * takes the place of the old one by rename. */
 static void drop_later_rows(const char *path, double t)
 {
     char *line = NULL, part[1100];
@@ -46,6 +50,7 @@ static void require_names(int n, const char *const *columns)
                 fail("series.csv has two columns `%s'", columns[k]);
 }
 
+/* With `keep', but no file of an earlier run, a new one begins. */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart)
 {

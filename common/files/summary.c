@@ -1,4 +1,6 @@
-/* summary.c - summary.json: keys with dots become nested objects.
+/* summary.c - summary.json: keys with dots become nested objects. The entries are a list in the
+ * order of their first setting; a key is looked up along the list, some hundred comparisons for
+ * each of some hundred entries at the end of a run.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
 
@@ -9,6 +11,7 @@
 #include "../base/mem.h"
 #include "disk.h"
 
+/* A key with its value: a number, or anything else as finished JSON text. */
 struct entry {
     char key[96];
     bool number;
@@ -68,6 +71,8 @@ void summary_int(struct summary *s, const char *key, long long v)
     snprintf(e->text, 32, "%lld", v);
 }
 
+/* v as a JSON string into `to', which needs 2 strlen(v) + 3 bytes; control characters become
+ * blanks. Returns the length without the final zero. */
 static size_t quote(char *to, const char *v)
 {
     size_t n = 0;
@@ -98,6 +103,7 @@ void summary_text(struct summary *s, const char *key, const char *v)
     quote(e->text, v);
 }
 
+/* Room: every character may need a backslash, and each text two quotes and ", ". */
 void summary_texts(struct summary *s, const char *key, int n, const char *const *v)
 {
     struct entry *e = entry(s, key);
@@ -151,7 +157,9 @@ static void print_value(FILE *f, const struct entry *e)
         fputs("null", f);
 }
 
-/* Entries [0, n) whose key begins with prefix, each object where its first key stood. */
+/* Entries [0, n) whose key begins with prefix, each object where its first key stood. Calls itself
+ * for objects within. An object is printed when its first key comes up, with all keys of it,
+ * wherever they stand in the list; its later keys are then passed over (`seen'). */
 static void print_object(FILE *f, const struct summary *s, const char *prefix, int depth)
 {
     const size_t skip = strlen(prefix);

@@ -1,4 +1,7 @@
-/* table.c - CSV files of numbers. SPDX-License-Identifier: BSD-3-Clause */
+/* table.c - CSV files of numbers: see table.h. A row is read in place; the array of all numbers
+ * doubles whenever the number of rows is a power of two. Lines are at most LINE_SIZE - 1 bytes
+ * long, some 800 numbers of 20 characters.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 
 #include <math.h>
@@ -29,6 +32,7 @@ static char *next_field(char **line)
     return at + strspn(at, " ");
 }
 
+/* The first line that is no comment: names up to " [", where the unit begins. */
 static void read_names(struct table *t, char *line)
 {
     t->ncolumns = count_fields(line);
@@ -42,6 +46,8 @@ static void read_names(struct table *t, char *line)
     }
 }
 
+/* A field that is no number, or missing because the line is short, becomes NaN; fields beyond the
+ * header's are left out. */
 static void read_row(struct table *t, char *line)
 {
     const int n = t->ncolumns, at = t->nrows * n;

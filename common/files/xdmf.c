@@ -1,4 +1,7 @@
-/* xdmf.c - see xdmf.h. Each snapshot is one piece of text; the file is head, pieces, tail.
+/* xdmf.c - see xdmf.h. Each snapshot is one piece of text; the file is head, pieces, tail. The
+ * pieces of all snapshots stay in memory, one or two kB for each, and the whole file is written
+ * anew each time: only so is it complete after every snapshot. Datasets are named with their
+ * shapes, slowest index first.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "xdmf.h"
 
@@ -21,6 +24,7 @@ struct xdmf {
     size_t n, room;
 };
 
+/* Appends formatted text; the room at least doubles, so that n pieces cost O(n) copies. */
 static void __attribute__((format(printf, 2, 3))) add(struct xdmf *x, const char *fmt, ...)
 {
     va_list args;
@@ -38,7 +42,9 @@ static void __attribute__((format(printf, 2, 3))) add(struct xdmf *x, const char
     x->n += (size_t)more;
 }
 
-/* Pieces of an existing file before t, each from its <Grid to its </Grid>. */
+/* Pieces of an existing file before t, each from its <Grid to its </Grid>. depth counts open Grids
+ * from the piece's own on: a snapshot of several blocks or surfaces has Grids within. A piece that
+ * the file's end cuts short is lost. */
 static void read_pieces(struct xdmf *x, double t)
 {
     FILE *f = fopen(x->path, "r");
@@ -82,6 +88,8 @@ void xdmf_free(struct xdmf **x)
     *x = NULL;
 }
 
+/* Under another name first, then in place of the old one, so that ParaView never reads half a
+ * file. */
 static void rewrite(const struct xdmf *x)
 {
     char part[1110];
@@ -94,6 +102,7 @@ static void rewrite(const struct xdmf *x)
         disk_failed(x->path);
 }
 
+/* One Attribute for each field: of points (center "Node") or of cells ("Cell"), stored as float. */
 static void add_fields(struct xdmf *x, const char *center, const char *shape, const char *file,
                        int nfields, const struct xdmf_field *fields)
 {
@@ -131,6 +140,7 @@ void xdmf_points(struct xdmf *x, double t, const char *file, int64_t n, int dim,
     rewrite(x);
 }
 
+/* Numbers of cells and of vertices, slowest index first, as texts. */
 static void set_shape(int dim, const int *cells, char *shape, char *nodes, size_t size)
 {
     if (dim == 2) {
@@ -160,6 +170,8 @@ static void add_edges(struct xdmf *x, const int *cells, const double *origin, co
     add(x, "</Geometry>\n");
 }
 
+/* XDMF gives origin and spacing of a regular mesh in the order of the indices, z first; coordinates
+ * of unequal planes are named by axis instead. */
 void xdmf_block(struct xdmf *x, double t, const char *file, const int *cells, const double *origin,
                 const double *spacing, const double *edges, int nfields,
                 const struct xdmf_field *fields)
@@ -197,6 +209,7 @@ void xdmf_flat(struct xdmf *x, double t, const char *file, const char *grid, con
     rewrite(x);
 }
 
+/* Block k of a snapshot, datasets with the suffix _k; `cells' of this block. */
 static void add_curved(struct xdmf *x, const char *file, int dim, int k, const int *cells,
                        int nfields, const struct xdmf_field *fields)
 {
