@@ -1,4 +1,9 @@
-/* accept.c - a case's own criteria. SPDX-License-Identifier: BSD-3-Clause */
+/* accept.c - a case's own criteria; see accept.h. Called by run.c at three moments: accept_check
+ * with the case, accept_check_columns before the first step, both so that a criterion that can
+ * never be met is told at once, and accept_judge at the end, from the files that the run has
+ * written. Measured and computed series have rows of their own; values between rows are linear
+ * throughout.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "accept.h"
 
 #include <math.h>
@@ -15,7 +20,7 @@ static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};
 
 /* --- measures --- */
 
-/* Linear between rows; t lies within the series. */
+/* Linear between rows; t lies within the series. By bisection. */
 static double value_at(struct accept_series s, double t)
 {
     int lo = 0, hi = s.n - 1;
@@ -36,6 +41,8 @@ static double largest(struct accept_series s, double from, double to)
     return most;
 }
 
+/* Trapezoids over the parts of the rows' intervals within [from, to]; exact for what is linear
+ * between rows. */
 static double integral(struct accept_series s, double from, double to)
 {
     double sum = 0.0;
@@ -55,6 +62,8 @@ static double passes(struct accept_series s, double from, double to, double leve
     return NAN;
 }
 
+/* sqrt(mean of (run - ref)^2) over the rows of the reference within [from, to], divided by the
+ * largest less the smallest value of the reference there. NaN if the reference does not change. */
 static double rms(struct accept_series run, struct accept_series ref, double from, double to)
 {
     double sum = 0.0, least = INFINITY, most = -INFINITY;
@@ -72,6 +81,8 @@ static double rms(struct accept_series run, struct accept_series ref, double fro
 
 static double relative(double a, double b) { return b != 0.0 ? fabs(a / b - 1.0) : NAN; }
 
+/* Both series are cut to the time that they share within [from, to] first, so that neither is
+ * continued beyond its ends. */
 double accept_distance(int measure, struct accept_series run, struct accept_series ref, double from,
                        double to)
 {
@@ -135,6 +146,9 @@ static bool is_column(const char *column, const char *name)
            (column[n] == '\0' || strncmp(column + n, " [", 2) == 0);
 }
 
+/* Also finds the name of a column that is nearest to the one asked for, for the message.
+ * hint_nearest keeps a pointer to the best word, and `name' is written anew for each column: the
+ * word is copied when it leads, and only its distance is kept. */
 void accept_check_columns(const struct scene *s, const struct params *p, int n,
                           const char *const *columns, struct faults *f)
 {
@@ -190,6 +204,8 @@ static struct table *find_series(const char *dir, const char *what)
     return NULL;
 }
 
+/* The distance of criterion a, NaN if a file or column is missing. The reference's rows are brought
+ * to the run's units and start first: t = start + unit[0] t_ref, v = unit[1] v_ref. */
 static double compare(const struct scene_accept *a, const char *case_dir, const char *dir)
 {
     char path[1024 + PARAM_TEXT_SIZE];

@@ -35,7 +35,8 @@ void accept_check_columns(const struct scene *s, const struct params *p, int n,
                           const char *const *columns, struct faults *f);
 /* Prints a line for each criterion and adds what was compared to the summary. false: a criterion is
  * not met, or what it names cannot be found. Series are read from the run's folder dir, in a
- * coupled job those of all programs. Called on rank 0 of a program, after the series are closed. */
+ * coupled job those of all programs. Called on rank 0, of a program alone or of the coupler, after
+ * the last rows are written. */
 bool accept_judge(const struct scene *s, const char *case_dir, const char *dir,
                   struct summary *summary);
 

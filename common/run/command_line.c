@@ -1,4 +1,7 @@
-/* command_line.c - options of a program, the place of its case and of its output.
+/* command_line.c - options of a program, the place of its case and of its output. Runs on all ranks
+ * before the case is read and before the program meets others, so it takes no part in
+ * communication; what it prints, rank 0 prints. The result is a struct command_line or the exit
+ * code to end with.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <getopt.h>
 #include <mpi.h>
@@ -54,7 +57,8 @@ static void usage(const char *name, const char *help)
            name, help, name, name);
 }
 
-/* Says what is wrong, once a job's program. */
+/* Says what is wrong. log_open comes later, so this is rank 0 of the world alone: in a job, a
+ * program without that rank says nothing. */
 static int refuse(const char *name, const char *what, const char *arg)
 {
     struct hint_nearest n = hint_nearest_start(arg);
@@ -94,6 +98,8 @@ void run_case_dir(const char *file, char *dir, size_t size)
     snprintf(dir, size, "%.*s", slash ? (int)(slash - file) : 1, slash ? file : ".");
 }
 
+/* A case's name, from which the folder of its output follows: that of the folder around a case.cfg,
+ * else the file's without .cfg. */
 void run_case_name(const char *file, char *name, size_t size)
 {
     char copy[1024];
@@ -109,6 +115,8 @@ void run_case_name(const char *file, char *name, size_t size)
     snprintf(name, size, "%s", *base && strcmp(base, ".") != 0 ? base : "case");
 }
 
+/* Prints what --help, --version or --params ask for. On rank 0 of the world alone: log_open comes
+ * later. */
 static int print_and_end(int option, const char *name, const char *help, const char *key,
                          const struct param_group *groups, int ngroups)
 {
@@ -130,6 +138,8 @@ static int print_and_end(int option, const char *name, const char *help, const c
     return RUN_DONE;
 }
 
+/* -1: go on with *c; else the exit code. opterr = 0: getopt prints nothing itself; optind = 1: it
+ * begins anew, its state is global. */
 int run_command_line(struct command_line *c, int argc, char **argv, const char *name,
                      const char *help, const struct param_group *groups, int ngroups)
 {

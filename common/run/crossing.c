@@ -1,4 +1,8 @@
-/* crossing.c - see crossing.h. SPDX-License-Identifier: BSD-3-Clause */
+/* crossing.c - see crossing.h. Called by run.c once the scene is checked: crossing_find and
+ * crossing_deal in that order, before the programs themselves look at the case. Boxes of groups of
+ * particles, also those of other programs of the job, are read from the case itself
+ * (params_peek_pair), and so all agree without a message.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "crossing.h"
 
 #include <math.h>
@@ -33,7 +37,9 @@ static int peek_boxes(const struct run *r, const char *only, double box[PARAM_KI
     return found;
 }
 
-/* Whether a box ends in the water at an upright side, or in the air. */
+/* Whether a box ends in the water at an upright side, or in the air. Axes along which the box has
+ * no extent, the third one of a plane, do not count; eps tells a box that ends on the domain's side
+ * from one that ends next to it. */
 static bool ends_inside(const struct scene *c, int up, double box[2][3])
 {
     const struct scene_domain *d = &c->domain;
@@ -99,6 +105,8 @@ static bool any_moves(const struct run *r)
     return moves;
 }
 
+/* A gauge is read here unless gauge_elsewhere says otherwise, by SPH or by FV, but not by both,
+ * except points where a box moves (`both'). */
 void crossing_deal(struct run *r)
 {
     const struct scene *c = &r->scene;
@@ -146,6 +154,8 @@ static double top_of(const struct scene_shape *h, int a, double sign)
     }
 }
 
+/* In the direction against gravity: sign turns the axis where gravity points along it, so that
+ * floor, roof and all heights grow upward. */
 double crossing_depth(const struct scene *c, int a)
 {
     const double sign = c->fluid.gravity[a] > 0.0 ? -1.0 : 1.0; /* heights are against gravity */

@@ -1,4 +1,7 @@
-/* discharge_gauges.c - see discharge_gauges.h. SPDX-License-Identifier: BSD-3-Clause */
+/* discharge_gauges.c - see discharge_gauges.h. A gauge's column is the volume per time through it,
+ * m^dim/s, positive along its normal. Called by run.c on rank 0 at the end of a run, after the last
+ * row of series.csv is written.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "discharge_gauges.h"
 
 #include <math.h>
@@ -7,7 +10,9 @@
 #include "../base/log.h"
 #include "../files/table.h"
 
-/* Volume of both signs between two rows, linear between them. */
+/* Volume of both signs between two rows, linear between them. Of a change of sign between rates a
+ * and b after the share a/(a - b) of the interval, each side of it is a triangle. volume[0] is what
+ * went forward, volume[1] what came back, both positive. */
 static void add_interval(double dt, double a, double b, double volume[2])
 {
     if (a * b >= 0.0) {
@@ -19,6 +24,7 @@ static void add_interval(double dt, double a, double b, double volume[2])
     volume[b < 0.0] += 0.5 * dt * (1.0 - share) * fabs(b);
 }
 
+/* Sums one gauge over all rows and reports it; v[-ncolumns] is the row before. */
 static void judge_one(const struct scene *s, const struct scene_probe *g, const struct table *t,
                       struct summary *summary)
 {

@@ -1,4 +1,7 @@
-/* forecast.c - run time ahead of a run. SPDX-License-Identifier: BSD-3-Clause */
+/* forecast.c - run time ahead of a run, see forecast.h: seconds per unit and step, times units,
+ * times steps. Said by the programs' describe, that is also by --check, where it costs nothing to
+ * be told that a case takes a week.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "forecast.h"
 
 #include <math.h>
@@ -26,6 +29,7 @@ void forecast_say(const char *program, int dim, double units, double steps)
 {
     char name[64];
     double seconds = NAN, s;
+    /* of several rows that fit the last one counts */
     const char *how = "about";
     int d;
     FILE *f = open_figures();

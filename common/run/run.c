@@ -1,4 +1,8 @@
-/* run.c - the life of a solver: see run.h. Data flow one way: case -> state -> step -> output.
+/* run.c - the life of a solver: see run.h. Data flow one way: case -> state -> step -> output. In
+ * order: the command line (run_main), the case with all its checks (read_case), the folder and the
+ * restart file, in a coupled job the meeting with the others, the state (program->create), the
+ * loop, alone or by coupling steps, and the end with summary and criteria. Functions act on all
+ * ranks alike; a branch that not all would take is made common first.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "run.h"
 
@@ -129,7 +133,10 @@ static void keep_text(struct life *l)
     l->files.case_text = text;
 }
 
-/* Reads and checks everything; returns the number of faults, the same on all ranks. */
+/* Reads and checks everything; returns the number of faults, the same on all ranks. The order
+ * matters: each part uses what those before it have put into the scene or found sound, and stops at
+ * the first part with faults, for those behind would report consequences. All faults of one part
+ * come together. */
 static int read_case(struct life *l)
 {
     struct run *r = &l->r;
@@ -194,7 +201,8 @@ static void banner(const struct life *l)
     (l->r.coupled ? log_quiet : log_say)("case %s -> %s", l->r.case_name, l->r.dir);
 }
 
-/* Partners compare notes: -1 to go on, else the exit code. */
+/* Partners compare notes: -1 to go on, else the exit code. A program that found faults takes part
+ * as well: the partner's meet() collects everybody's, so that all are told in one go. */
 static int meet(struct life *l, int faults)
 {
     struct run *r = &l->r;
@@ -207,6 +215,7 @@ static int meet(struct life *l, int faults)
     return code ? code : -1;
 }
 
+/* Folder and lock, and with --restart the open restart file. */
 static int open_folder(struct life *l, struct h5 **restart)
 {
     struct run *r = &l->r;
@@ -220,6 +229,7 @@ static int open_folder(struct life *l, struct h5 **restart)
     return code;
 }
 
+/* The case as it was run, with all defaults, and view.py; rank 0. */
 static void start_files(struct life *l)
 {
     struct run *r = &l->r;
@@ -238,6 +248,8 @@ static void start_files(struct life *l)
     files_view(r);
 }
 
+/* r->t is 0 or the restart file's time: rows and snapshots behind it are dropped, the snapshot at
+ * it is kept (hence 1 + 1e-9 in xdmf_create, which leaves out entries at its time and later). */
 static void start_series(struct life *l)
 {
     struct run *r = &l->r;
@@ -265,7 +277,8 @@ static void write_row(struct life *l)
     timer_stop(&l->r.timers, "output");
 }
 
-/* 1, 2, 5, 10, 30, 60 s apart as the run grows. */
+/* 1, 2, 5, 10, 30, 60 s apart as the run grows. The time left assumes that the rest of the flow
+ * costs what the part since the start of this process did, per time of flow. */
 static void say_progress(struct life *l)
 {
     static const double every[] = {1, 2, 5, 10, 30, 60},
@@ -290,7 +303,9 @@ static void say_progress(struct life *l)
                                        (int)left / 60 % 60, (int)left % 60, text);
 }
 
-/* One step; false when the state cannot be trusted. */
+/* One step; false when the state cannot be trusted. Time is set to t_stop itself when the step ends
+ * within 1e-9 dt of it, so that outputs and coupling steps are met exactly and r->t == out may be
+ * asked. */
 static bool step(struct life *l, double t_stop)
 {
     struct run *r = &l->r;
@@ -340,6 +355,8 @@ static void summarise_timers(struct run *r)
     }
 }
 
+/* Ends with the program's own figures (finish), which are not asked for after a divergence. All
+ * ranks: the timers and processor times are collected. */
 static void summarise(struct life *l)
 {
     struct run *r = &l->r;
@@ -369,6 +386,7 @@ static void write_summary(const struct life *l)
         summary_write(l->r.summary, path);
 }
 
+/* All ranks write the last state under the name _diverged, for a look at what went wrong. */
 static int diverged(struct life *l)
 {
     struct run *r = &l->r;
@@ -390,6 +408,8 @@ static double next_output(const struct life *l)
     return every > 0.0 && t < end * (1.0 - 1e-12) ? t : end;
 }
 
+/* By time of flow all ranks see the same; by wall time rank 0's clock decides. `next' is the first
+ * multiple of the interval behind now, so a long step makes no backlog. */
 static bool wants_checkpoint(struct life *l, double *next)
 {
     const struct scene_output *o = &l->r.scene.output;
@@ -408,6 +428,9 @@ static bool wants_checkpoint(struct life *l, double *next)
     return wanted;
 }
 
+/* Each step aims at the next output or restart file, whichever is first. A request to stop is taken
+ * at the end of a step: a snapshot and a restart file, then the end. The snapshot comes first, for
+ * the restart file holds the number of the next one. */
 static int loop_alone(struct life *l)
 {
     struct run *r = &l->r;
@@ -445,6 +468,9 @@ static void report_progress(const struct life *l, struct summary *s)
     summary_real(s, "steps", (double)l->r.step);
 }
 
+/* The coupler says from when to when each coupling step goes and whether an output or a restart
+ * file follows; the program takes as many steps of its own as it needs, and gives its report. After
+ * a divergence the summary is written first: fail() of the partner does not return. */
 static int loop_coupled(struct life *l)
 {
     struct run *r = &l->r;
@@ -528,6 +554,9 @@ static void judge_gauges(const struct life *l)
     discharge_gauges_judge(&l->r.scene, path, l->r.summary);
 }
 
+/* From the end of the loop to the exit code. The last row comes even where the interval of rows
+ * would skip it. Gauges and criteria read series.csv again: rows are on the disk as soon as they
+ * are written. */
 static int end(struct life *l, int code)
 {
     struct run *r = &l->r;
@@ -570,6 +599,8 @@ static void free_life(struct life *l)
     mem_free((void *)(uintptr_t)l->line.overrides);
 }
 
+/* From the state at the start to the exit code: files that need the state's columns, the partners'
+ * agreement on the coupling step (ready), the first snapshot and row, the loop. */
 static int run_state(struct life *l, struct h5 *restart)
 {
     struct run *r = &l->r;
@@ -653,7 +684,8 @@ static int draw_waves(const struct life *l)
     return RUN_DONE;
 }
 
-/* From the case to the exit code. */
+/* From the case to the exit code. What may fail for reasons of the user comes before signals and
+ * log file; a run that does not begin leaves no log. */
 static int live(struct life *l)
 {
     struct run *r = &l->r;
@@ -699,6 +731,8 @@ static int live(struct life *l)
     return run_state(l, restart);
 }
 
+/* MPI is started before the command line is read, since Open MPI may change argv; printing --help
+ * needs no partner. */
 int run_main(int argc, char **argv, const struct program *p, const struct partner *partner)
 {
     const double began = wall_time();

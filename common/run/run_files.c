@@ -1,4 +1,9 @@
-/* run_files.c - see run_files.h. SPDX-License-Identifier: BSD-3-Clause */
+/* run_files.c - see run_files.h. Two things make a restart safe: a restart file gets its name only
+ * when it is complete and sealed (h5_close), and the manifest checkpoint.txt names it only after
+ * that, itself by rename; older files go last. Whatever moment a run is killed at, the manifest
+ * names a whole file. In a coupled job the coupler writes the manifest, when all programs have
+ * saved.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "run_files.h"
 
 #include <dirent.h>
@@ -37,6 +42,8 @@ static void write_clock(const struct run_files *f, struct h5 *h)
     h5_attribute_text(h, "case", f->case_text);
 }
 
+/* The clock stands in snapshots, too, but only restart files are sealed and carry what the ranks
+ * wrote. */
 void files_snapshot(struct run_files *f, const char *what)
 {
     struct run *r = f->run;
@@ -60,6 +67,7 @@ void files_snapshot(struct run_files *f, const char *what)
         log_quiet("  output at t = %g s: %s", r->t, path);
 }
 
+/* Rank 0 of a program that runs alone: which restart file counts. */
 static void write_manifest(const struct run *r, int64_t n, const char *file)
 {
     char path[1100], part[1110];
@@ -69,6 +77,7 @@ static void write_manifest(const struct run *r, int64_t n, const char *file)
     if (!f)
         disk_failed(part);
     fprintf(f, "step %lld\nt %.17g\n%s %s\n", (long long)n, r->t, r->name, file);
+    /* on the disk before the name is: else a crash of the machine may leave an empty manifest */
     if (fflush(f) != 0 || fsync(fileno(f)) != 0 || fclose(f) != 0 || rename(part, path) != 0)
         disk_failed(path);
 }
@@ -129,7 +138,8 @@ static bool ends_before(const struct run *r, struct h5 *h)
     return true;
 }
 
-/* Says why this program does not read the file. */
+/* Says why this program does not read the file. format: that of the file; meaning: of the program's
+ * data in it, raised when a newer program would read the same numbers otherwise. */
 static bool reads(const struct program *p, struct h5 *h)
 {
     int64_t format = 0, meaning = 0;
@@ -149,6 +159,8 @@ static bool reads(const struct program *p, struct h5 *h)
     return false;
 }
 
+/* Rank 0 reads manifest and seal for all. A file that is missing passes the seal's check, so that
+ * h5_open's answer names it as missing, not as damaged. */
 struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *window)
 {
     char file[300], path[1400];
@@ -222,6 +234,8 @@ static bool next_key(struct keys *k)
     return false;
 }
 
+/* Goes along both texts together; they list the same keys in the same order unless a list differs
+ * in length, and from there on nothing can be compared. */
 void files_tell_difference(const struct run_files *f, struct h5 *h)
 {
     char *text = h5_read_attribute_text(h, "case");
@@ -240,7 +254,8 @@ void files_tell_difference(const struct run_files *f, struct h5 *h)
     mem_free(text);
 }
 
-/* Ranks of a host share its memory; the hosts are taken to be alike. */
+/* Ranks of a host share its memory; the hosts are taken to be alike. Beyond 1e9 on a rank its
+ * indices, which are int, come near their end, 2^31. */
 void run_check_memory(const struct run *r, struct faults *f, const char *key, double n,
                       const char *unit, double bytes)
 {
@@ -298,6 +313,8 @@ static long long checkpoint_number(const char *file, const char *name)
     return end > 0 && !file[n + (size_t)end] ? number : -1;
 }
 
+/* Removes restart files older than `newest' except `older', the one before it: if the newest turns
+ * out to be unreadable, there is one left. */
 void run_prune(const char *dir, const char *name, const char *newest, const char *older)
 {
     const long long last = checkpoint_number(newest, name);
@@ -314,6 +331,7 @@ void run_prune(const char *dir, const char *name, const char *newest, const char
         closedir(d);
 }
 
+/* Makes the folders above, too. */
 bool run_make_folder(const char *dir)
 {
     char path[1024];
@@ -360,7 +378,8 @@ static int find_ours(const char *dir, const char *name, bool removed)
 
 /* Whether another process has the folder. If not, this one has it until it ends, however it does:
  * the descriptor stays open, and the system drops its lock. Where there are no locks, no folder is
- * taken. */
+ * taken. The lock belongs to the process (fcntl), so rank 0 of each program has its own file,
+ * .NAME.lock. */
 static bool is_taken(const char *dir, const char *name)
 {
     char path[1400];
@@ -370,6 +389,8 @@ static bool is_taken(const char *dir, const char *name)
     return at >= 0 && fcntl(at, F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
 }
 
+/* Rank 0: from the folder's state and the options to 0 or an exit code, after saying why. Files of
+ * an earlier run go only once the lock is held. */
 static int prepare(const char *dir, const char *name, bool force, bool restart)
 {
     const bool there = access(dir, F_OK) == 0;

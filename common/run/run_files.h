@@ -12,7 +12,7 @@ struct run_files {
     const struct program *program;
     void *state;
     struct xdmf *xdmf;
-    char *case_text; /* the case as params_text has it, on rank 0; "" on others */
+    char *case_text; /* the case as params_text has it, on every rank */
     int next;        /* number of the next snapshot */
     char last[256]; /* name of the last restart file of a program that runs alone, without folder */
 };
@@ -31,7 +31,7 @@ struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *w
  * them. */
 bool files_read_clock(struct run_files *f, struct h5 *h);
 /* Logs the keys, five at most, in which the case of a restart file differs from this one; the
- * groups time and output are left out, for a restart may change them. Rank 0 knows the text. */
+ * groups time and output are left out, for a restart may change them. */
 void files_tell_difference(const struct run_files *f, struct h5 *h);
 /* Writes view.py, a script for ParaView, into the folder. */
 void files_view(const struct run *r);

@@ -26,6 +26,9 @@ static void write_folder(FILE *f, const char *dir)
     free(path);
 }
 
+/* What view.py must know of the scene, as assignments of Python: dimensions and the direction
+ * against gravity, corners of the domain, walls given by points, the fields to show first, whether
+ * there is a surface and whether the box of the domain is to be drawn. */
 static void write_scene(FILE *f, const struct scene *s)
 {
     const double *g = s->fluid.gravity, *a = s->domain.min, *b = s->domain.max;

@@ -71,6 +71,8 @@ static void print_hint(void)
     *state.hint = '\0'; /* once */
 }
 
+/* The first to fail creates the file, all others find it there (O_EXCL) and leave it as it is: one
+ * cause, not its consequences. Uses only what is safe in a handler, as on_fault needs. */
 static void leave_note(const char *what)
 {
     const int fd = *state.note ? open(state.note, O_WRONLY | O_CREAT | O_EXCL, 0644) : -1;
@@ -99,6 +101,10 @@ static void stopped_early(int signal)
     _exit(RUN_STOPPED);
 }
 
+/* SIGINT, SIGTERM and SIGUSR1 ask for an orderly end: the flag is read once a step (signals_stop).
+ * After SIGTERM the note of a partner that failed is printed, if there is one, and the process
+ * leaves. Without one the alarm is set for the case that the others do not answer, but only if the
+ * launcher sent the signal, which kills next. */
 static void on_stop(int signal, siginfo_t *info, void *context)
 {
     (void)context;
@@ -119,6 +125,8 @@ static void on_stop(int signal, siginfo_t *info, void *context)
     errno = error;
 }
 
+/* 0.8 s after the launcher's SIGTERM without the orderly end having begun (signals_handled): a
+ * collective call waits for a rank that is gone, and no step will end. */
 static void on_alarm(int signal)
 {
     (void)signal;
@@ -157,6 +165,8 @@ static pid_t find_launcher(void)
     return parent;
 }
 
+/* MPI_Init with a limit of START seconds, since it waits for ever where a program of the job is no
+ * MPI program, and with handlers that say what a stop in that time means. */
 void signals_start_mpi(int *argc, char ***argv, const char *program)
 {
     snprintf(state.who, sizeof state.who, "%s", program);
@@ -185,6 +195,7 @@ static const char *fault_name(int signal)
                               : "abort";
 }
 
+/* Says which fault it was and ends as it would have ended. */
 static void on_fault(int signal)
 {
     leave_note(fault_name(signal));
@@ -206,6 +217,9 @@ static void install_stop(int signal)
     sigaction(signal, &a, NULL);
 }
 
+/* For the time of the run; fail() leaves a note as well. Handlers of faults are taken back at their
+ * first call (SA_RESETHAND), so that raise() then ends the process as the fault would have, with
+ * its core file. SA_RESTART: writes that a signal interrupts go on. */
 void signals_install(const char *program, int rank)
 {
     snprintf(state.who, sizeof state.who, "%s rank %d", program, rank);
@@ -227,6 +241,8 @@ void signals_note_path(const char *path) { snprintf(state.note, sizeof state.not
 
 void signals_hint(const char *text) { snprintf(state.hint, sizeof state.hint, "%s", text); }
 
+/* Written next to the text in use, then switched over in one assignment: a handler may come in
+ * between at any time. */
 void signals_heard(const char *text)
 {
     const int next = 1 - state.heard_now;

@@ -1,4 +1,7 @@
-/* solids.c - see solids.h. SPDX-License-Identifier: BSD-3-Clause */
+/* solids.c - see solids.h. Only for jobs with several programs of particles; solids_deal is called
+ * when the case has been checked and all programs have agreed on it. What a program does not have
+ * it does not build particles for.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "solids.h"
 
 #include <math.h>
@@ -6,7 +9,8 @@
 
 #include "crossing.h"
 
-/* Box around a body or wall as the case has it; false: a side of the domain. */
+/* Box around a body or wall as the case has it; false: a side of the domain. Points of polygons lie
+ * in the plane: their third axis stays empty (lo > hi), which no box refuses. */
 static bool extent(const struct scene *s, enum mesh_owner owner, int k, double lo[3], double hi[3])
 {
     const struct scene_mesh *m = scene_mesh_of(s, owner, k);
@@ -65,6 +69,8 @@ static void give_gauges(struct run *r, const char *body)
             r->gauge_elsewhere[k] = true;
 }
 
+/* Lists are closed up in place, walls first, then bodies; the meshes are told the new indices,
+ * since they know their solid by its number. */
 void solids_deal(struct run *r)
 {
     struct scene *s = &r->scene;

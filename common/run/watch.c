@@ -1,4 +1,7 @@
-/* watch.c - figures that stay small in a sound run. SPDX-License-Identifier: BSD-3-Clause */
+/* watch.c - figures that stay small in a sound run: see watch.h. Called by the programs at the end
+ * of a step with a figure that is the same on all ranks. All comparisons are written as !(value <=
+ * level), which is true for NaN as well: a figure that is no number is never taken for a small one.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "watch.h"
 
 #include <math.h>
@@ -31,6 +34,8 @@ bool watch_judge(struct watch *w, double value, double t, int64_t step, struct d
     return stop;
 }
 
+/* The last value decides about the run, the worst one is only reported: a passing peak, say of an
+ * impact, does not spoil a run. */
 void watch_summary(const struct watch *w, struct summary *s)
 {
     const double sound = w->unsound > 0.0 ? w->unsound : w->warn;
@@ -44,6 +49,9 @@ void watch_summary(const struct watch *w, struct summary *s)
     summary_text(s, "not_accepted", text);
 }
 
+/* Instead of the last WATCH_STEPS values it keeps the minimum of each of WATCH_SLOTS slots of them,
+ * so that the window's length is right to one slot, about 3 steps. As steps do not decrease, the
+ * slots in use are in order and the newest is the last. */
 double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_less_work)
 {
     const int64_t slot = step * WATCH_SLOTS / WATCH_STEPS;

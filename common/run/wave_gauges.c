@@ -1,4 +1,8 @@
-/* wave_gauges.c - see wave_gauges.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_gauges.c - see wave_gauges.h. The check runs with the case; the evaluation at the end of a
+ * run, on rank 0, over a whole number of periods that end with the run: onward and returning waves
+ * from the amplitudes at all gauges of a group (common/waves/reflection.h), heights by zero
+ * crossings (wave_statistics.h), spectra by Welch's method.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_gauges.h"
 
 #include <math.h>
@@ -15,7 +19,8 @@
 #include "../waves/sea.h"
 #include "../waves/wave_statistics.h"
 
-/* The probes of a group by name; -1: a name is none; their number. */
+/* The probes of a group by name; -1: a name is none; their number. The list is cut at blanks and
+ * commas. */
 static int probes_of(const struct scene *s, const struct scene_gauges *g, int probe[GAUGE_PROBES],
                      char wrong[PARAM_TEXT_SIZE])
 {
@@ -36,6 +41,8 @@ static int probes_of(const struct scene *s, const struct scene_gauges *g, int pr
     return n;
 }
 
+/* s: the group's own, else that of the waves that are made, a sea's at its peak; 0: no waves and
+ * none given. Regular waves may be given by their length, so the wave itself is solved for. */
 static double period_of(const struct scene *s, const struct scene_gauges *g)
 {
     if (g->period > 0.0 || !s->has_waves)
@@ -89,6 +96,8 @@ static int apart(const bool *elsewhere, int n, const int *probe)
     return -1;
 }
 
+/* A group whose gauges stand badly is only warned of: the amplitudes are not told apart, but
+ * heights and spectra are good. */
 void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struct params *p,
                        struct faults *f)
 {
@@ -190,6 +199,10 @@ static bool separate(const struct history *h, int n, const double *x, double ome
     return r.condition >= 0.15;
 }
 
+/* In regular waves one frequency, that of the period. In a sea every line j/all of the record from
+ * 0.6 to 2 times the frequency of the peak, where nearly all the energy is; a line for which the
+ * gauges stand badly (condition) is left out, in both sums alike. Amplitudes are roots of the sums
+ * of squares. The larger sum is taken as incident: waves may run against waves.direction. */
 static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
                             const struct history *h, int n, const int *probe, double period,
                             struct summary *summary)
@@ -225,6 +238,8 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
 
 static bool makes_sea(const struct scene *s) { return s->has_waves && s->waves.kind == WAVE_SEA; }
 
+/* Statistics of each gauge alone; the error of the significant height only where the case asks for
+ * a sea of a certain height. */
 static void tell_heights(const struct scene *s, const struct history *h, int n, const int *probe,
                          struct summary *summary)
 {
@@ -248,6 +263,9 @@ static void tell_heights(const struct scene *s, const struct history *h, int n, 
     }
 }
 
+/* Segments of about 12 periods that overlap by half: `segments' of them cover the record. More of
+ * them smooth the estimate, longer ones resolve its peak. Frequencies up to 8 times that of the
+ * period are written. */
 static void write_spectra(const struct scene *s, const struct scene_gauges *g,
                           const struct history *h, int n, const int *probe, double period,
                           const char *dir)
@@ -281,6 +299,9 @@ static void write_spectra(const struct scene *s, const struct scene_gauges *g,
     fclose(file);
 }
 
+/* Without `from', the second half of the run is evaluated, cut to whole periods at its end. 16 rows
+ * a period are needed for the crests; fewer get a warning with the interval of rows that would
+ * do. */
 void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
                        struct summary *summary)
 {

@@ -9,7 +9,8 @@
 
 /* Adds a fault for names that are no level gauges, groups of fewer than two, gauges that move with
  * a body or of which a partner reads some (elsewhere, of each probe), an unknown depth or period,
- * less than two periods of evaluation, and distances that do not separate the two waves. */
+ * and less than two periods of evaluation; warns of distances that do not separate the two
+ * waves. */
 void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struct params *p,
                        struct faults *f);
 /* Reads the series at `path' and writes to the summary, of each group: reflection.NAME.incident
