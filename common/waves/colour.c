@@ -1,4 +1,8 @@
-/* colour.c - see colour.h. SPDX-License-Identifier: BSD-3-Clause */
+/* colour.c - see colour.h. With W the kernel of support R, F(s) is its share in the half space
+ * below a plane at the distance s under the point: the kernel integrated over planes, summed up
+ * from the lowest. Made once at the start (colour_profile); each look-up is a bisection in the
+ * table.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "colour.h"
 
 #include <math.h>
@@ -12,7 +16,8 @@ static double kernel(int dim, double r)
     return r < 1.0 ? c * a * a * a * a * (1.0 + 4.0 * r) : 0.0;
 }
 
-/* Its integral over the plane (in 2D the line) that passes at z. */
+/* Its integral over the plane (in 2D the line) that passes at z. Midpoint rule in PARTS rings (dim
+ * 3) or pairs of points (dim 2). */
 static double layer(int dim, double z)
 {
     enum { PARTS = 200 };
@@ -25,6 +30,8 @@ static double layer(int dim, double z)
     return sum;
 }
 
+/* table[k] belongs to the height s = R (2 k/COLOUR_PARTS - 1): 1 deep under the surface, 0 above
+ * it. Divided by its own sum, so that the kernel's factor and the rule's error drop out. */
 void colour_profile(int dim, double *table)
 {
     const double h = 2.0 / COLOUR_PARTS;
@@ -40,6 +47,8 @@ void colour_profile(int dim, double *table)
     table[COLOUR_PARTS] = 0.0;
 }
 
+/* The table falls throughout, so its inverse is found between two entries, linear between them.
+ * Where it is flat, at its ends, the middle is as good as any place. */
 double colour_height(const double *table, double R, double share)
 {
     int low = 0, high = COLOUR_PARTS;

@@ -1,4 +1,10 @@
-/* evolution.c - see evolution.h. SPDX-License-Identifier: BSD-3-Clause */
+/* evolution.c - see evolution.h. Between steps the state is the modes of eta + i phi_s. A step
+ * turns them exactly by the linear waves' operator and takes Runge-Kutta stages for the rest: with
+ * z = e^(Lt) y, y' = e^(-Lt) N(e^(Lt) y), so that dt is bounded by the nonlinear terms and not by
+ * the fastest ripple. Products of fields are formed in points; modes beyond `highest' are dropped
+ * after each step. It is two thirds of what the points can hold (wave_field.c), so that what
+ * products of two fields fold back falls into the part that is dropped.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "evolution.h"
 
 #include <math.h>
@@ -10,6 +16,9 @@ enum { FIELDS = 4 }; /* eta + i phi_s, their x- and y-derivatives, linear W */
 
 static const double tolerance = 1e-6; /* of the layer's residual */
 
+/* linear[] is W of a small wave as the code computes it, with the layer's error of few nodes
+ * (layer_flat_rise). It is taken off the rates where the exact operator is put in its place (turn),
+ * so that small waves have the exact dispersion and the layer serves the differences. */
 struct evolution *evolution_create(const struct evolution_spec *of, struct wave_grid *grid)
 {
     struct evolution *e = NEW(struct evolution, 1);
@@ -80,7 +89,9 @@ void evolution_restore(struct evolution *e, long step, const double *modes)
     e->looked = false;
 }
 
-/* eta and phi_s, their slopes and what W is of linear waves: z [cells][2][FIELDS] of modes. */
+/* eta and phi_s, their slopes and what W is of linear waves: z [cells][2][FIELDS] of modes. A
+ * mode's partner m (mirror, -k) tells the two real fields apart: of eta + i phi_s, eta's mode is (z
+ * + conj m)/2 and phi_s' is (z - conj m)/(2i). */
 static void expand(struct evolution *e, const double *modes)
 {
     const struct wave_grid *g = e->grid;
@@ -103,7 +114,8 @@ static void expand(struct evolution *e, const double *modes)
 static double slope2_of(const double *q) { return q[1] * q[1] + q[2] * q[2]; }
 
 /* (1 + |grad eta|^2) W and (1 + |grad eta|^2) W^2 of the fields into work[0], [2][cells]. solved:
- * the layer has their potential. */
+ * the layer has their potential. hos gives both products consistently in order; the layer gives W,
+ * and they are formed point by point. */
 static bool find_rise(struct evolution *e, bool solved)
 {
     const int n = e->grid->cells;
@@ -134,8 +146,9 @@ static bool find_rise(struct evolution *e, bool solved)
     return true;
 }
 
-/* Rates of the modes without their linear part; first: of the state that was looked
- * at, with its energy. */
+/* Rates of the modes without their linear part; first: of the state that was looked at, with its
+ * energy. With q the fields in points: eta_t less the linear W, and phi_t less -g eta, which turn()
+ * has. energy is the mean of (phi_s eta_t + g eta^2)/2, kinetic and potential energy over rho. */
 static bool find_rates(struct evolution *e, const double *modes, bool first, double *rate)
 {
     const int n = e->grid->cells;
@@ -156,7 +169,9 @@ static bool find_rates(struct evolution *e, const double *modes, bool first, dou
     return isfinite(energy);
 }
 
-/* Linear waves after dt: eta' = c eta + s (k t/w) phi, phi' = c phi - s (g/w) eta, t = tanh kh. */
+/* Linear waves after dt: eta' = c eta + s (k t/w) phi, phi' = c phi - s (g/w) eta, t = tanh kh.
+ * Mode and mirror at once, as eta and phi_s are real fields. w = 0, the mean: s is dt, eta stays
+ * and phi_s falls by g eta dt. */
 static void turn(const struct evolution *e, double *modes, double dt)
 {
     for (int i = 0; i < e->grid->cells; i++) {
@@ -186,7 +201,9 @@ static void add(const struct evolution *e, double *to, double a, const double *o
         to[i] += a * of[i];
 }
 
-/* Runge-Kutta stages of what is turned to the middle of the step. */
+/* Runge-Kutta stages of what is turned to the middle of the step. k1 at the start turned half a
+ * step on, k2 and k3 in the middle, k4 at the end; all are added up in evolution_step where they
+ * belong. */
 static bool stages(struct evolution *e)
 {
     const double dt = e->of.dt;
@@ -211,6 +228,8 @@ static bool stages(struct evolution *e)
     return find_rates(e, z, false, k[3]);
 }
 
+/* Cold start of the solver (warm false): the result must not depend on what was solved before, so
+ * that a restart finds the same bits. */
 bool evolution_look(struct evolution *e)
 {
     const int n = e->grid->cells;
@@ -231,6 +250,9 @@ bool evolution_look(struct evolution *e)
     return e->looked;
 }
 
+/* The factor exp(-(k/(0.9 highest))^30) leaves modes up to 0.6 of the highest as they are, to 1e-5
+ * a step; and and those beyond 0.9 of it lose most within a few steps: energy that breaking would
+ * take does not pile up there. */
 bool evolution_step(struct evolution *e)
 {
     const double dt = e->of.dt;

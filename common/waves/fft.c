@@ -32,6 +32,7 @@ int fft_size(int n)
     return n;
 }
 
+/* Radix 4 first: it needs the fewest operations. n has no other factors (fft_size). */
 struct fft *fft_create(int n)
 {
     static const int radices[] = {4, 2, 3, 5};
@@ -64,7 +65,8 @@ struct butterfly {
     double turn[RADIX][2], root[RADIX][2];
 };
 
-/* One block of `batch' values: radix r is a constant of each caller. */
+/* One block of `batch' values: radix r is a constant of each caller. Complex products in real
+ * numbers, since those of C look for NaN. */
 static inline __attribute__((always_inline)) void sum_terms(const struct butterfly *of, const int r,
                                                             int at, int batch)
 {
@@ -122,6 +124,7 @@ static inline __attribute__((always_inline)) void sum_four(const struct butterfl
     }
 }
 
+/* One radix for all blocks: s inner of them. */
 static void sum_blocks(const struct butterfly *of, int r, double sign, int blocks, int batch)
 {
     for (int i = 0; i < blocks; i++) {
@@ -137,6 +140,11 @@ static void sum_blocks(const struct butterfly *of, int r, double sign, int block
     }
 }
 
+/* Stockham's form: every factor reads one array and writes the other in the order of its result, so
+ * that no rows need to be swapped at the end. inner: neighbours in memory that are transformed
+ * alike (the other axis of a plane), batch: fields at once; both are innermost loops, real and
+ * imaginary parts `batch' apart, which a compiler turns into vector operations. O(n sum of the
+ * factors) for each field. */
 void fft_run(const struct fft *f, int sign, int inner, int batch, double *z, double *work)
 {
     const size_t block = (size_t)inner * 2 * (size_t)batch;

@@ -1,4 +1,8 @@
-/* hos.c - see hos.h. SPDX-License-Identifier: BSD-3-Clause */
+/* hos.c - see hos.h. A call costs for each order m one transform to modes and (order - m + 2)/2
+ * transforms back, two derivatives in each as real and imaginary part. Terms of eta^q times k^q
+ * grow before they cancel: hence the orders up to 9 and the bound on steepness (waves.c). Called by
+ * evolution.c four times a step.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "hos.h"
 
 #include <math.h>
@@ -8,6 +12,7 @@
 
 enum { TERMS = HOS_ORDERS + 1 };
 
+/* Work arrays. Order m of W and phi stands at [m][cells]. */
 struct hos {
     const struct wave_grid *grid;
     int order;
@@ -74,7 +79,8 @@ static void derive(struct hos *h, const double *phi, int n)
     wave_grid_to_fields(h->grid, half, h->z, h->work);
 }
 
-/* phi <- its modes up to `highest'. */
+/* phi <- its modes up to `highest'. Products of the orders below fill modes beyond `highest'; left
+ * in, they would be raised by k^q in the next order. */
 static void cut(struct hos *h, double *phi)
 {
     const int cells = h->grid->cells;
@@ -107,7 +113,8 @@ static void spread_order(struct hos *h, int m, const double *eta)
     }
 }
 
-/* Sums W^(i) and W^(i) W^(j), i + j, up to an order. */
+/* Sums W^(i) and W^(i) W^(j), i + j, up to an order. Products beyond the order are left out, so
+ * that all terms kept are of the order that is right. */
 static void sums(const struct hos *h, int cell, int most, double *rise, double *square)
 {
     const double *W = h->W + cell;
@@ -121,6 +128,8 @@ static void sums(const struct hos *h, int cell, int most, double *rise, double *
         *square += W[(size_t)i * n] * below[most - i];
 }
 
+/* Orders one after the other: phi^(m) is complete once all below it have been spread. |grad eta|^2
+ * is of order 2, so it multiplies sums up to order - 2. */
 void hos_rise(struct hos *h, const double *eta, const double *phi, const double *slope2,
               double *rise, double *square)
 {

@@ -1,4 +1,9 @@
-/* layer.c - see layer.h. SPDX-License-Identifier: BSD-3-Clause */
+/* layer.c - see layer.h. layer_shape sets the surface and all coefficients, layer_solve the
+ * potential below it, and layer_rise and layer_velocity read that solution. The unknown of the
+ * solver is y = P f with P the operator of the flat surface, so one product forms f and its
+ * derivatives from y in Fourier space (layer_solver_flat) and then the equations column by column
+ * in real space.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "layer.h"
 
 #include <math.h>
@@ -7,12 +12,16 @@
 #include "../base/mem.h"
 #include "layer_solver.h"
 
+/* Down to 1/k, where waves have fallen to a third: below, the surface's shape is hardly felt and
+ * each mode goes on by itself; but 2.5 amplitudes at least, so that troughs stay well above the
+ * lower end. */
 double layer_height(double k, double amplitude, double depth)
 {
     return fmin(depth, fmax(1.0 / k, 2.5 * amplitude));
 }
 
-/* x- and y-derivatives and the Laplacian of v[cells]. */
+/* x- and y-derivatives and the Laplacian of v[cells]. v is transformed with a zero beside it, the
+ * room for the second result. */
 static void differentiate(const struct sigma_layer *l, const double *v, double *vx, double *vy,
                           double *lap)
 {
@@ -42,6 +51,8 @@ static void differentiate(const struct sigma_layer *l, const double *v, double *
     mem_free(work);
 }
 
+/* rows is nodes rounded up to a multiple of 4: two real rows are one complex one (layer_solver.c),
+ * and columns stay aligned to vectors. */
 static struct sigma_layer *make(const struct wave_grid *grid, double depth, double a, int nodes)
 {
     struct sigma_layer *l = NEW(struct sigma_layer, 1);
@@ -127,7 +138,10 @@ static double bend(const struct sigma_layer *l, int i, double s, double sx, doub
     return -(lap + 2.0 * (sx * Dx + sy * Dy)) / l->D[i];
 }
 
-/* The equations of a column, from f + i f_y (level) and f_x + i lap f (slopes). */
+/* The equations of a column, from f + i f_y (level) and f_x + i lap f (slopes). r[0] is the
+ * condition on the surface, r[1 .. last-1] Laplace's equation, r[last] the lower end. All are
+ * scaled by (D/a)^2 or D/a, so that for a flat surface A = P and the preconditioned operator is the
+ * identity. */
 static void column_product(const struct sigma_layer *l, int i, const double *level,
                            const double *slopes, double *r)
 {
@@ -167,6 +181,8 @@ void layer_product(struct sigma_layer *l, const double *y, double *r)
                        l->solver->slopes + (size_t)i * 2 * rows, r + (size_t)i * rows);
 }
 
+/* Derivatives at constant sigma as the solver has left them; phi_s along sigma by the
+ * differentiation matrix. */
 static void keep_solution(struct sigma_layer *l)
 {
     const size_t rows = (size_t)l->rows;
@@ -184,6 +200,8 @@ static void keep_solution(struct sigma_layer *l)
     }
 }
 
+/* b holds phi_s in each column's first row, the flux in its last. A cold start is y = b, the
+ * solution for a flat surface. */
 int layer_solve(struct sigma_layer *l, const double *phi_s, const double *flux, double tolerance,
                 bool warm)
 {
@@ -215,6 +233,7 @@ double layer_flat_rise(const struct sigma_layer *l, double k)
     return s->flat[i] + (at - i) * (s->flat[i + 1] - s->flat[i]);
 }
 
+/* The chain rule: u = f_x + sigma_x f_s, w = f_s/D, v = f_y + sigma_y f_s. */
 void layer_velocity(const struct sigma_layer *l, int cell, double *x, double *up, double *y)
 {
     const struct sigma_column c = column_at(l, cell);

@@ -1,5 +1,8 @@
 /* layer_solver.c - see layer_solver.h. GMRES is preconditioned from the right: its residual is that
- * of the equations. SPDX-License-Identifier: BSD-3-Clause */
+ * of the equations. The inverses of the flat operator, one full matrix of nodes^2 for each size of
+ * k, are made once; a product costs transforms of a few values for each node, and some nodes^2
+ * operations for each column. Every rank solves the same problem, so nothing is communicated.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "layer_solver.h"
 
 #include <lapacke.h>
@@ -13,7 +16,9 @@
 
 enum { PLANE_KINDS = 2049 };
 
-/* Trefethen's differentiation matrix on cos(pi i/N), for (y - 1)/2. */
+/* Trefethen's differentiation matrix on cos(pi i/N), for (y - 1)/2. Negative sums on the diagonal
+ * make the derivative of a constant exactly zero (Baltensperger & Trummer, SIAM J. Sci. Comput. 24,
+ * 2003). D2 = D1 D1. */
 void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double *D2)
 {
     const int N = nodes - 1;
@@ -35,7 +40,8 @@ void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double 
                 D2[j * rows + i] += D1[k * rows + i] * D1[j * rows + k];
 }
 
-/* The flat operator of modes of the size k. */
+/* The flat operator of modes of the size k. Row 0: f = 1 there; row n-1: f_s/a - K f; between:
+ * f_ss/a^2 - k^2 f. flat[kind] is W of the mode with f = 1 on the surface, over k tanh kh. */
 static void invert(const struct sigma_layer *l, const struct layer_solver *s, double depth,
                    int kind)
 {
@@ -61,6 +67,8 @@ static void invert(const struct sigma_layer *l, const struct layer_solver *s, do
     mem_free(A);
 }
 
+/* Over a plane the sizes of k are too many for a matrix each: PLANE_KINDS of them, of which the
+ * nearest serves, since a preconditioner need not be exact. */
 struct layer_solver *layer_solver_create(const struct sigma_layer *l, double depth)
 {
     struct layer_solver *s = NEW(struct layer_solver, 1);
@@ -166,6 +174,8 @@ static void spread(struct sigma_layer *l, int mode, const double *re, const doub
     }
 }
 
+/* Each mode with its mirror: rows are multiplied by the inverse of their kind, and the derivatives
+ * of f that column_product needs are written, two real fields as one complex one. */
 void layer_solver_flat(struct sigma_layer *l, const double *y)
 {
     struct layer_solver *s = l->solver;
@@ -202,7 +212,8 @@ static void add(size_t n, double a, const double *restrict x, double *restrict y
         y[i] += a * x[i];
 }
 
-/* Turns column j of the Hessenberg matrix by the rotations so far and one more. */
+/* Turns column j of the Hessenberg matrix by the rotations so far and one more. Givens' rotation
+ * that makes H upper triangular; |g[j + 1]| is then the norm of the residual. */
 static void rotate(double H[][LAYER_VECTORS], double turn[][2], double *g, int j)
 {
     for (int i = 0; i < j; i++) {
@@ -240,7 +251,8 @@ static double *vector(struct layer_solver *s, size_t n, int i)
     return s->vectors[i];
 }
 
-/* Up to LAYER_VECTORS products; the residual that is left. */
+/* Up to LAYER_VECTORS products; the residual that is left. Gram-Schmidt in its modified form. What
+ * begins is the true residual, so that errors of one cycle do not enter the next. */
 static double cycle(struct sigma_layer *l, const double *b, double enough, double *y, int *products)
 {
     struct layer_solver *s = l->solver;
@@ -275,6 +287,8 @@ static double cycle(struct sigma_layer *l, const double *b, double enough, doubl
     return fabs(g[m]);
 }
 
+/* At most LAYER_RESTARTS cycles: waves that need more are about to break, and the caller takes that
+ * for the answer. */
 int layer_solver_gmres(struct sigma_layer *l, const double *b, double tolerance, double *y)
 {
     const size_t n = (size_t)l->grid->cells * (size_t)l->rows;

@@ -1,4 +1,6 @@
-/* reflection.c - see reflection.h. SPDX-License-Identifier: BSD-3-Clause */
+/* reflection.c - see reflection.h. Pure functions on samples that the caller has read; used by
+ * common/run/wave_gauges.c at the end of a run.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "reflection.h"
 
 #include <lapacke.h>
@@ -6,6 +8,9 @@
 
 enum { TERMS = 5 };
 
+/* Normal equations of five unknowns: mean, cosine and sine of omega and 2 omega. The second
+ * harmonic is fitted along because steep waves have one, and a record that is no whole number of
+ * periods would else lay part of it upon the first. */
 double complex reflection_amplitude(int n, const double *t, const double *v, double omega)
 {
     double A[TERMS * TERMS] = {0.0}, b[TERMS] = {0.0};
@@ -26,6 +31,8 @@ double complex reflection_amplitude(int n, const double *t, const double *v, dou
     return b[1] + I * b[2];
 }
 
+/* Minimises sum_g |A_g - a e^(-ikx_g) - b e^(ikx_g)|^2; with S = sum e^(2ikx_g) its 2 x 2 normal
+ * equations have the determinant n^2 - |S|^2. */
 struct reflection reflection_separate(int n, const double *x, const double complex *A, double k)
 {
     double complex S = 0.0, minus = 0.0, plus = 0.0;
@@ -44,6 +51,7 @@ struct reflection reflection_separate(int n, const double *x, const double compl
     return r;
 }
 
+/* Sum of the squares of what a and b leave at the gauges. */
 static double left(int n, const double *x, const double complex *A, double k)
 {
     const struct reflection r = reflection_separate(n, x, A, k);
@@ -56,6 +64,8 @@ static double left(int n, const double *x, const double complex *A, double k)
     return sum;
 }
 
+/* By golden section: sixty steps shrink the interval to its rounding, and no derivative is
+ * needed. */
 double reflection_fit_number(int n, const double *x, const double complex *A, double k,
                              double share)
 {

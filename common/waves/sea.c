@@ -1,4 +1,8 @@
-/* sea.c - the components: see sea.h. SPDX-License-Identifier: BSD-3-Clause */
+/* sea.c - the components of a sea or a group: see sea.h. Frequencies are multiples of 1/repeat from
+ * half to three times that of the peak, outside of which JONSWAP's spectrum has next to no energy;
+ * so the sea repeats itself after `repeat' seconds and not before. Every rank draws the same random
+ * numbers.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "sea.h"
 
 #include <math.h>
@@ -27,7 +31,8 @@ enum { DIRECTIONS = 400 };
 static const double widest = 75.0 * M_PI / 180.0; /* waves along a side leave no zone before it */
 
 /* Directions of a sea, one of each component, by the share of D(b) ~ cos^2s(b/2) below them; the
- * phases are those of the same sea without them. */
+ * phases are those of the same sea without them. By inversion of the summed distribution, linear
+ * within its DIRECTIONS steps. */
 static void draw_directions(const struct wave_spec *of, int n, struct wave_component *c)
 {
     double share[DIRECTIONS + 1] = {0.0};
@@ -46,6 +51,8 @@ static void draw_directions(const struct wave_spec *of, int n, struct wave_compo
     }
 }
 
+/* Scaled so that its integral over the components' range is height^2/16, as sea_components scales
+ * the amplitudes. */
 double sea_spectrum(const struct wave_spec *of, double f)
 {
     enum { PARTS = 2000 };
@@ -59,6 +66,9 @@ double sea_spectrum(const struct wave_spec *of, double f)
                : of->height * of->height / 16.0 * sea_jonswap(f * T, of->peak) / sum;
 }
 
+/* With a current U, frequencies over the ground are multiples of 1/repeat; w is that in the water's
+ * frame, w = 2 pi f - k U. A random number is drawn for each component even of a group, so that the
+ * sequence is the same for both kinds. */
 struct wave_component *sea_components(const struct wave_spec *of, double period, int *n)
 {
     const double df = 1.0 / of->repeat, peak = 1.0 / period;

@@ -1,4 +1,7 @@
-/* sea_gains.c - see sea_gains.h. SPDX-License-Identifier: BSD-3-Clause */
+/* sea_gains.c - see sea_gains.h. zone_response solves a linear problem of some thousand unknowns;
+ * GAINS frequencies and COSINES directions of them are enough, for the gain changes slowly with
+ * both.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "sea_gains.h"
 
 #include <math.h>
@@ -33,6 +36,9 @@ struct sea_gains {
 
 static double cosine_of(const struct sea_gains *is, int i) { return 0.2 + 0.8 * i / (is->n - 1); }
 
+/* Directions from cosine 0.2 to 1: waves more aslant than that hardly feel the side. `make' belongs
+ * to waves that run away from it, `pass' to those that run to it (index 0), as the sign of cosine
+ * tells later. */
 struct sea_gains *sea_gains_create(const struct wave_spec *of, double low, double high)
 {
     struct sea_gains *is = NEW(struct sea_gains, 1);

@@ -76,6 +76,8 @@ static void decay(double K, double z, double h, double *c, double *s)
     *s = K * h > 1e-9 ? (up - down) / (1.0 - twice) : 1.0 + z / h;
 }
 
+/* With p = q both orders of the pair are one, hence the half. Profiles on LEVELS heights, which are
+ * close together near the surface. */
 static void make_kernels(struct second_order *s, double g, double h, const double *level)
 {
     int at = 0;
@@ -107,6 +109,8 @@ static struct share cubic_share(double x, int n)
     return is;
 }
 
+/* All components as they are where they are few; else FREQUENCIES equidistant ones, between which
+ * kernels, being smooth, are interpolated by cubics. */
 static void choose_frequencies(struct second_order *s)
 {
     const struct wave_component *of = s->of;
@@ -121,7 +125,9 @@ static void choose_frequencies(struct second_order *s)
             s->shares[i] = cubic_share((of[i].w - of[0].w) / gap, s->n);
 }
 
-/* The mean of the differences: what each component makes with itself. */
+/* The mean of the differences: what each component makes with itself. Only pairs of a component
+ * with itself: those of different ones oscillate, slowly, and are what makes groups set down the
+ * level. own[] holds one component's shares, so the loop over pairs finds its few. */
 static void find_mean(struct second_order *s)
 {
     for (int i = 0; i < s->ncomponents; i++) {
@@ -140,6 +146,7 @@ static void find_mean(struct second_order *s)
     }
 }
 
+/* Cost of a column: npairs (2 + 4 LEVELS) products, whatever the number of components. */
 struct second_order *second_order_create(int n, const struct wave_component *of, double g,
                                          double depth, const double *nodes, bool mean)
 {
@@ -191,7 +198,7 @@ double second_order_products(const struct second_order *s)
 
 /* --- a column --- */
 
-/* E_p E_q and E_p E_q*. */
+/* E_p E_q and E_p E_q*. Pairs in the order of the kernels, p <= q. */
 static void make_pairs(struct second_order *s, double x, double t)
 {
     for (int p = 0; p < s->n; p++)
@@ -211,6 +218,8 @@ static void make_pairs(struct second_order *s, double x, double t)
         }
 }
 
+/* Sums cos (of the level and the velocity along) and sin (of the velocity up) of each pair, at
+ * LEVELS heights, then cubics to the nodes. */
 void second_order_add(struct second_order *s, double x, double t, double *eta, double *u)
 {
     double along[LEVELS], up[LEVELS] = {0.0};

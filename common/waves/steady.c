@@ -1,4 +1,8 @@
-/* steady.c - see steady.h. SPDX-License-Identifier: BSD-3-Clause */
+/* steady.c - see steady.h. Newton's method for STEADY_MODES + 2 unknowns Y_1 .. Y_N, b, c^2 (N =
+ * 128): Bernoulli's equation in N + 1 points of the surface from crest to trough, xi = pi m/N, and
+ * the height. The matrix is full, so a step costs some 10^6 operations; one wave needs some tens of
+ * steps. Evaluation at a place inverts the map by Newton's method in the complex plane.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "steady.h"
 
 #include <complex.h>
@@ -13,7 +17,9 @@ enum {
     LONG = 40
 }; /* depths: length that stands for a solitary wave */
 
-/* One row of equation (b - 2y)|z'|^2 - c^2 at xi, and its residual. q: Y_1 .., b, c^2. */
+/* One row of equation (b - 2y)|z'|^2 - c^2 at xi, and its residual. q: Y_1 .., b, c^2. With x' = 1
+ * + sum j coth(j h*) Y_j cos j xi and y' = -sum j Y_j sin j xi on the surface, J = x'^2 + y'^2. r
+ * is the row of the Jacobian. */
 static double row(const double *q, double strip, double xi, double *r)
 {
     const double b = q[STEADY_MODES], c2 = q[STEADY_MODES + 1];
@@ -32,6 +38,8 @@ static double row(const double *q, double strip, double xi, double *r)
     return s * J - c2;
 }
 
+/* The last equation: crest less trough = 2 (Y_1 + Y_3 + ...) = height. A step of more than 10 has
+ * left the range of waves. */
 static bool newton(double *q, double strip, double height)
 {
     double *A = NEW(double, UNKNOWNS *UNKNOWNS), d[UNKNOWNS], most = INFINITY;
@@ -59,7 +67,8 @@ static bool newton(double *q, double strip, double height)
     return most < 1e-9;
 }
 
-/* Small waves are cosines, long ones solitary: c^2 = strip + height, y = height sech^2. */
+/* Small waves are cosines, long ones solitary: c^2 = strip + height, y = height sech^2. Called with
+ * the first of the growing heights, so the wave is small. */
 static void first_guess(double *q, double strip, double height, bool is_long)
 {
     memset(q, 0, UNKNOWNS * sizeof *q);
@@ -99,7 +108,10 @@ static double trough_of(const double *q)
     return y;
 }
 
-/* In units of 1/k: the strip follows from the depth, which the wave itself changes. */
+/* In units of 1/k: the strip follows from the depth, which the wave itself changes. First along
+ * growing heights with the strip fixed, each start extrapolated from the two before; then the strip
+ * is adapted in turn with the wave until both fit. is_long: Ursell's number H L^2/d^3 above 4 pi^2,
+ * in these units height > depth^3. */
 static bool find(double *q, double *strip, bool solitary, double depth, double height)
 {
     const bool is_long = solitary || height > depth * depth * depth;
@@ -162,6 +174,8 @@ static void set_modes(struct steady *w, const double *Y)
         w->A[j] = Y[j] / (1.0 - exp(-2.0 * (j + 1) * w->strip));
 }
 
+/* In units of 1/k and sqrt(g/k). `back': a wave of 40 depths has a slow current under its trough
+ * where the solitary one has still water; it is taken out of all velocities. */
 static bool create(struct steady *w, bool solitary, double depth, double length, double height)
 {
     const double g = w->g;
@@ -206,7 +220,8 @@ bool steady_create(struct steady *w, bool solitary, double depth, double length,
 }
 
 /* zeta of the place (x, y) in units of 1/k, |x| <= pi; above the surface of what is below it there.
- */
+ * / Steps are kept below a fifth of the strip's scale, and zeta within the strip, for the map is
+ * one to one only there. */
 static double complex invert(const struct steady *w, double x, double y)
 {
     const double most = 0.2 * fmin(1.0, w->strip);
@@ -262,7 +277,9 @@ static double complex bend(const struct steady *w, double complex zeta)
 }
 
 /* The velocity in the wave's frame, -c/z', is analytic in z: its derivative there is c z''/z'^3.
- * The gradient of p is Bernoulli's. Above the surface nothing changes upwards. */
+ * The gradient of p is Bernoulli's. Above the surface nothing changes upwards. D = du/dx - i dv/dx
+ * in the wave's frame, of u - iv = -c/z'. v's derivatives follow from continuity and zero
+ * vorticity: u_y = v_x, v_y = -u_x. */
 static void add_slopes(const struct steady *w, double complex zeta, double complex slope,
                        bool above, struct steady_slopes *of)
 {
@@ -284,6 +301,7 @@ void steady_point(const struct steady *w, double x, double y, double t, double *
     steady_point_slopes(w, x, y, t, u, p, NULL);
 }
 
+/* Bernoulli's equation gives p. Far from a solitary wave the water is at rest. */
 void steady_point_slopes(const struct steady *w, double x, double y, double t, double *u, double *p,
                          struct steady_slopes *of)
 {

@@ -1,4 +1,7 @@
-/* stokes.c - see stokes.h. SPDX-License-Identifier: BSD-3-Clause */
+/* stokes.c - see stokes.h. Only for the state at t = 0. In deep water the potential has no second
+ * harmonic, which is why first-order velocities go with a level of third order; the pressure is
+ * Bernoulli's in the frame of the wave.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "stokes.h"
 
 #include <math.h>

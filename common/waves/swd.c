@@ -1,4 +1,8 @@
-/* swd.c - see swd.h. SPDX-License-Identifier: BSD-3-Clause */
+/* swd.c - see swd.h. A file is read byte by byte, lowest first, whatever the machine's order; only
+ * shapes 1 and 2 (waves along a line) are taken. Faults found while the file is opened name the
+ * byte; a file that cannot be read later ends the run. The fields of a time are summed mode by
+ * mode, points times n terms, since a file's modes need not fit a transform.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "swd.h"
 
 #include <math.h>
@@ -81,6 +85,8 @@ static bool read_kind(struct swd *s, int *shape)
                : fault(s, 16 + TEXTS, "the length of the text is negative");
 }
 
+/* From the gravity to the depth, and how many numbers follow; bounds reject what would not be a
+ * file of waves. */
 static bool read_sizes(struct swd *s, int shape)
 {
     double g, scale;
@@ -108,6 +114,8 @@ static bool read_sizes(struct swd *s, int shape)
 
 static int64_t block_of(const struct swd *s) { return 4 * 2 * 4 * ((int64_t)s->of.n + 1); }
 
+/* Also compares the file's length with what it promises, so that a copy cut short is told at once
+ * and not in the middle of a run. */
 static bool read_header(struct swd *s)
 {
     int shape;
@@ -159,6 +167,7 @@ static float host_order(const unsigned char *b)
     return x;
 }
 
+/* A time holds h, dh/dt, c, dc/dt; the rates are passed over. */
 void swd_read(struct swd *s, int step, double *h, double *c)
 {
     const int64_t at = s->data + step * block_of(s);
@@ -172,7 +181,8 @@ void swd_read(struct swd *s, int step, double *h, double *c)
     }
 }
 
-/* Z = U S + V/S, S = e^(kz) or its series, U = (1 + tanh kd)/2, V = 1 - U. */
+/* Z = U S + V/S, S = e^(kz) or its series, U = (1 + tanh kd)/2, V = 1 - U. Above the still level
+ * the file's own expansion of e^(kz) to its order is used: amplitudes were made with it. */
 static double height_factor(const struct swd *s, double k, double z)
 {
     const double U = 0.5 * (1.0 + tanh(fmin(k * s->of.depth, 300.0)));

@@ -5,7 +5,10 @@
 #include <math.h>
 #include <stddef.h>
 
-/* The four conditions on (A, B, C, D), rows scaled so that the determinant stays of order one. */
+/* The four conditions on (A, B, C, D), rows scaled so that the determinant stays of order one.
+ * Rows: no shear stress and no normal stress on the surface, no velocity up and none along at the
+ * bottom. The two terms of the thin layers, e^(my) and e^(-m(y + H)), are 1 at the surface and at
+ * the bottom, so that neither overflows. */
 static void conditions(const struct wave *w, double complex s, double complex a[4][4])
 {
     const double k = w->k, ch = cosh(k * w->H), sh = sinh(k * w->H);
@@ -53,7 +56,8 @@ static double complex determinant(const struct wave *w, double complex s)
     return eliminate(a);
 }
 
-/* Newton's method from the inviscid frequency with the damping of the bottom's Stokes layer. */
+/* Newton's method from the inviscid frequency with the damping of the bottom's Stokes layer. The
+ * derivative by central differences. */
 static double complex solve(const struct wave *w)
 {
     const double k = w->k, omega = sqrt(w->g * k * tanh(k * w->H));

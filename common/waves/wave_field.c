@@ -1,4 +1,9 @@
-/* wave_field.c - see wave_field.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_field.c - see wave_field.h. Every rank evolves the whole field (evolution.h) and reads
+ * frames off it for its own window: nothing is communicated. A frame in order: the state of its
+ * step (go_to, or read_file for a file's), velocities at the layer's nodes to modes (fill_upper),
+ * velocities below the layer from the potential at its lower end (fill_lower), both to a grid of
+ * twice the points along a line (refine), the window's columns into the table (copy_window).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_field.h"
 
 #include <math.h>
@@ -40,7 +45,9 @@ static struct wave_grid *make_grid(const struct wave_spec *of, double period, do
     return wave_grid_create(n, (double[2]){n[0] * gap, n[1] * gap});
 }
 
-/* Values at even nodes from those at Chebyshev's, by barycentric interpolation. */
+/* Values at even nodes from those at Chebyshev's, by barycentric interpolation. The weights of the
+ * second kind of points: (-1)^j, halved at the ends. Where a node falls upon a point (hit) its
+ * value is taken. */
 static void make_raise(struct wave_field *f)
 {
     const int n = f->of->layer->nodes;
@@ -61,7 +68,8 @@ static void make_raise(struct wave_field *f)
     }
 }
 
-/* cosh and sinh of k(z + h) over cosh k(h - a) at the nodes that stand still. */
+/* cosh and sinh of k(z + h) over cosh k(h - a) at the nodes that stand still. Written with
+ * exponentials below 1, as k h may be large. */
 static void make_lower(struct wave_field *f, const struct wave_table *t)
 {
     const struct wave_grid *g = f->of->grid;
@@ -79,6 +87,8 @@ static void make_lower(struct wave_field *f, const struct wave_table *t)
         }
 }
 
+/* Columns stand on the fine grid's points, so that a frame needs no interpolation; still = 0 where
+ * the layer reaches as deep as the table: then all nodes move. */
 struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,
                                    double longest)
 {
@@ -125,6 +135,8 @@ static void finish(struct wave_field *f, const struct wave_spec *of,
     }
 }
 
+/* The layer reaches to 1.5 times the amplitude of the waves (layer_height): the highest of a sea
+ * are higher than its 0.93 H_s. STEEP_ORDER where the steepness k a asks for it. */
 struct wave_field *wave_field_create(const struct wave_spec *of, double period, double length,
                                      struct wave_component **components, int *n)
 {
@@ -148,6 +160,8 @@ struct wave_field *wave_field_create(const struct wave_spec *of, double period, 
     return f;
 }
 
+/* Three points for each of the file's modes, so that products of two are not folded back;
+ * FILE_NODES, more than NODES, since its shortest modes are not filtered. */
 struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
                                       struct wave_component **components, int *n)
 {
@@ -193,7 +207,8 @@ void wave_field_free(struct wave_field **f)
 }
 
 /* Below the components' frequencies what is bound to them needs nothing; above, as at the highest.
- */
+ * / Linear gains by direction and frequency, for modes that may be bound ones: a bound wave of long
+ * length hardly feels the zone and is left as it is. */
 double complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,
                                   const struct wave_component *components, int n)
 {
@@ -254,7 +269,10 @@ static bool read_file(struct wave_field *f, long step)
     return evolution_look(f->of);
 }
 
-/* To the state of a step, on from where it stands or from one before. */
+/* To the state of a step, on from where it stands or from one before. A step behind the present one
+ * is taken from the states that are kept, WAVE_FIELD_KEPT of them, or computed again from the
+ * start: either way it has the same bits. `energy' is noted at t = 0; a rise by `drift' tells that
+ * the waves are no longer resolved. */
 static bool go_to(struct wave_field *f, long step)
 {
     if (!f->begun)
@@ -281,7 +299,8 @@ static bool go_to(struct wave_field *f, long step)
 
 /* --- frames --- */
 
-/* Fields u + i w (part 0) or v (part 1) of the nodes that move, and eta in the last place. */
+/* Fields u + i w (part 0) or v (part 1) of the nodes that move, and eta in the last place. raise
+ * takes values from Chebyshev's points to the even nodes of the table. */
 static void fill_upper(struct wave_field *f, int part, int batch)
 {
     const struct sigma_layer *l = f->of->layer;
@@ -327,7 +346,9 @@ static void fill_lower(struct wave_field *f, int part, int batch)
     }
 }
 
-/* Makes up for the zone, to the finer grid, to fields. */
+/* Makes up for the zone, to the finer grid, to fields. Zeros are put between the modes of both
+ * signs. The mode n/2, which has no sign, is left out. eta, in the last place of the batch, is not
+ * filtered: the zone asks for velocities. */
 static void refine(struct wave_field *f, int batch, const double complex *filter)
 {
     const struct wave_grid *g = f->of->grid, *to = f->fine;
@@ -353,6 +374,7 @@ static void refine(struct wave_field *f, int batch, const double complex *filter
 
 static int wrapped(int i, int n) { return (i % n + n) % n; }
 
+/* The grid is periodic, so indices of the window wrap round. */
 static void copy_window(const struct wave_field *f, int part, int batch, struct wave_table *to)
 {
     const struct wave_grid *g = f->fine;
@@ -370,6 +392,7 @@ static void copy_window(const struct wave_field *f, int part, int batch, struct 
     }
 }
 
+/* part 0: along and up as one complex field; part 1, of a plane alone: across. */
 bool wave_field_frame(struct wave_field *f, long frame, const double complex *filter,
                       struct wave_table *to)
 {
@@ -387,6 +410,8 @@ bool wave_field_frame(struct wave_field *f, long frame, const double complex *fi
     return true;
 }
 
+/* 6e-8 s for a value of the layer and product; 14 products' worth a step of hos, 40 with the
+ * layer. */
 double wave_field_seconds(const struct wave_field *f, double period)
 {
     const double values = (double)f->of->grid->cells * f->of->layer->rows;

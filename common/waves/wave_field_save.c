@@ -15,6 +15,8 @@ static double mark_of(const struct wave_field *f)
     return sum;
 }
 
+/* The oldest of the states kept: the frames about the present time, which the cubics need, reach
+ * back before the last step. All ranks call it; `writes' is true on one. */
 void wave_field_save(const struct wave_field *f, struct h5 *file, bool writes)
 {
     int oldest = -1;

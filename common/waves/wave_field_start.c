@@ -1,4 +1,8 @@
-/* wave_field_start.c - see wave_field_start.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_field_start.c - see wave_field_start.h. Modes of the grid that lie in the range of the
+ * spectrum become components; their sum at t0, with what each two of them bind, is the state from
+ * which the field evolves. Third and higher orders grow by themselves in the periods before the
+ * run.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_field_start.h"
 
 #include <math.h>
@@ -24,7 +28,9 @@ static int by_number(const void *a, const void *b)
                         : (p->way[1] > q->way[1]) - (p->way[1] < q->way[1]);
 }
 
-/* The share of a mode: of the variance (sea) or of the amplitude (group). */
+/* The share of a mode: of the variance (sea) or of the amplitude (group). S(f) df = S(f) c_g dk/(2
+ * pi), as modes are equidistant in k; over a plane divided by k for the area dk_x dk_y, and times
+ * cos^2s(b/2) = ((1 + cos b)/2)^s. */
 static double share_of(const struct wave_spec *of, double period, const struct wave_component *c,
                        bool plane)
 {
@@ -42,6 +48,7 @@ static void set_phases(const struct wave_spec *of, struct wave_component *c, int
                                           : c[i].w * of->at[1] - c[i].k * of->at[0];
 }
 
+/* Scaled to the height: of a sea by the variance, of a group by the sum of amplitudes. */
 static void set_amplitudes(const struct wave_spec *of, double period, struct wave_component *c,
                            int n, bool plane)
 {
@@ -78,7 +85,8 @@ struct wave_component *wave_field_components(const struct wave_spec *of, double 
     return c;
 }
 
-/* Adds eta cos th and phi sin th of the mode m, th = k.x + phase. */
+/* Adds eta cos th and phi sin th of the mode m, th = k.x + phase. eta cos th + i phi sin th is (eta
+ * + phi)/2 e^(i th) + (eta - phi)/2 e^(-i th). */
 static void add_wave(const struct wave_grid *g, long m, double eta, double phi, double phase,
                      double *z)
 {
@@ -111,6 +119,8 @@ static long mode_of(const struct start *s, int i, int j, int sign)
     return m[1] * n[0] + m[0];
 }
 
+/* A pair's sum and difference; m = 0, a mean level, is left out, and a pair whose mode the grid
+ * does not hold. */
 static void add_bound(const struct start *s, const struct wave_component *of, int i, int j,
                       double *z)
 {
@@ -127,7 +137,8 @@ static void add_bound(const struct start *s, const struct wave_component *of, in
     }
 }
 
-/* phi_s is that at z = 0 and eta phi_z, both of first order: z of these. */
+/* phi_s is that at z = 0 and eta phi_z, both of first order: z of these. phi at z = eta is phi +
+ * eta phi_z to second order, before the bound waves, which are of that order already. */
 static void lift(const struct wave_grid *g, const struct evolution_spec *in, double *z)
 {
     double *f = NEW(double, g->cells * 4), *work = NEW(double, g->cells * 4);
@@ -149,6 +160,7 @@ static void lift(const struct wave_grid *g, const struct evolution_spec *in, dou
     mem_free(work);
 }
 
+/* n^2/2 pairs, once at the start. */
 void wave_field_modes(const struct wave_grid *g, const struct wave_component *of, int n,
                       const struct evolution_spec *in, double t, double *z)
 {

@@ -1,4 +1,7 @@
-/* wave_file.c - see wave_file.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_file.c - see wave_file.h. A file's waves are known as modes over time; components of its
+ * first field, as if they were free linear waves, serve for lengths, the gains of zones and the
+ * height, not for the velocities.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_file.h"
 
 #include <math.h>
@@ -8,6 +11,7 @@
 
 static const double least = 1e-6; /* of the largest amplitude: no component */
 
+/* Modes below `least' of the largest amplitude are rounding or empty. */
 struct wave_component *wave_file_components(struct swd *s, double g, double depth, int *n)
 {
     const struct swd_header is = swd_header_of(s);
@@ -47,6 +51,7 @@ static void measure(struct swd *s, double *height, double *length)
     mem_free(c);
 }
 
+/* Three times are left at the end, for cubics between frames. */
 bool wave_file_probe(const char *path, double depth, double t0, double t1, double *height,
                      double *length, char *error, size_t size)
 {

@@ -6,6 +6,8 @@
 
 #include "../base/mem.h"
 
+/* k has n/2 set to 0, for the first derivative of that mode is no real field; size keeps it, for
+ * |k|^2 is. */
 struct wave_grid *wave_grid_create(const int n[2], const double length[2])
 {
     struct wave_grid *g = NEW(struct wave_grid, 1);

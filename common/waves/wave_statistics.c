@@ -1,4 +1,7 @@
-/* wave_statistics.c - see wave_statistics.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_statistics.c - see wave_statistics.h. Zero up-crossings of the mean divide the record into
+ * waves; a wave's height is its crest less its trough. The spectrum is summed directly,
+ * SPECTRUM_SEGMENT^2/2 terms for each segment, at the end of a run.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_statistics.h"
 
 #include <complex.h>
@@ -31,6 +34,8 @@ static int falling(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
+/* Crossings are found linear between samples. What lies before the first and behind the last one is
+ * no whole wave. */
 struct wave_heights wave_heights_of(int n, const double *t, const double *v)
 {
     const double mean = mean_of(n, t, v);
@@ -72,6 +77,10 @@ static double value_at(int n, const double *t, const double *v, double time, int
     return (1.0 - w) * v[*at] + w * v[*at + 1];
 }
 
+/* Segments of 2 all/(segments + 1) seconds, half a length apart, each sampled anew at
+ * SPECTRUM_SEGMENT equal steps. One-sided: the densities of +f and -f are added, but for the last
+ * bin, which stands for both. Divided by the sum of the window's squares, so that the integral of S
+ * is the variance. */
 void wave_spectrum(int n, const double *t, const double *v, int segments, double *f, double *S)
 {
     const double mean = mean_of(n, t, v), all = n > 1 ? t[n - 1] - t[0] : 1.0,

@@ -1,4 +1,7 @@
-/* wave_table.c - see wave_table.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_table.c - see wave_table.h. Weights of four columns (of a plane sixteen) times weights of
+ * four nodes: 16 or 64 values make a velocity, whatever made the waves. The same nodes are taken in
+ * all columns about a place, as heights relative to the surface there.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_table.h"
 
 #include <math.h>
@@ -35,6 +38,8 @@ static double sigma(const struct wave_table *t, int node)
     return t->flat ? -s * s : -s;
 }
 
+/* Layered: WAVE_UPPER nodes equally spaced from the surface to `still', then the others below it,
+ * closer near it (s^2). Else equally spaced, or of a flat table s^2 from the still level. */
 double wave_table_height(const struct wave_table *t, int column, int node)
 {
     if (t->still > 0.0 && node >= WAVE_UPPER) {
@@ -81,7 +86,8 @@ struct about {
     double weight[16];
 };
 
-/* The four columns of a row about x. */
+/* The four columns of a row about x. Beyond the ends of a table that is not periodic s is held at
+ * -1 or 2, that is at the end column itself. */
 static void along_row(const struct wave_table *t, double x, int column[4], double weight[4])
 {
     const double at = (x - t->first) / t->gap;
@@ -141,7 +147,8 @@ static int layered_nodes_about(const struct wave_table *t, double top, double z,
     return node - 1;
 }
 
-/* Nodes from the surface on to z; the four about it begin with `node'. */
+/* Nodes from the surface on to z; the four about it begin with `node'. The inverse of
+ * wave_table_height. */
 static int nodes_about(const struct wave_table *t, double top, double z, double weight[4])
 {
     if (t->still > 0.0)
@@ -170,6 +177,8 @@ static inline __attribute__((always_inline)) void sum_nodes(const struct wave_ta
     }
 }
 
+/* of order 2 (slope): above the still level u(0) + z du/dz up to the surface, as the expansion has
+ * it; deeper than `reach' velocities die away with the longest wave's exponential. */
 void wave_table_velocity(const struct wave_table *t, double x, double y, double z, double u[3])
 {
     struct about at;

@@ -1,4 +1,7 @@
-/* waves.c - see waves.h. SPDX-License-Identifier: BSD-3-Clause */
+/* waves.c - see waves.h. One face for all kinds: regular waves have a table of one length that
+ * travels with them (make_regular), the others a table of the present time (sea_frames.c). waves_at
+ * sets the time, waves_eta and waves_velocity sample.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "waves.h"
 
 #include <complex.h>
@@ -19,6 +22,8 @@ static const double steepest = 0.9; /* of the limit: steady.h */
 static const double bound = 0.25;
 static const double hos_steepest = 0.3; /* hos.h */
 
+/* Fenton's fit (1990) to the highest steady waves of Williams (1981), in the length over depth
+ * q. */
 double waves_limit(double depth, double length)
 {
     const double q = length / depth;
@@ -36,6 +41,8 @@ double waves_amplitude(const struct wave_spec *of)
     return of->kind == WAVE_SEA ? 0.93 * of->height : 0.5 * of->height;
 }
 
+/* Newton's method from deep or shallow water, whichever is nearer; 12 steps are more than enough
+ * for 16 digits. */
 double waves_number(double w, double g, double h)
 {
     double k = w * w * h / g > 1.0 ? w * w / g : w / sqrt(g * h);
@@ -52,7 +59,8 @@ double waves_group_velocity(double k, double g, double h)
     return 0.5 * waves_frequency(k, g, h) / k * (1.0 + 2.0 * kh / sinh(2.0 * kh));
 }
 
-/* The frequency at rest over k is concave, so Newton's steps from a smaller k never go too far. */
+/* The frequency at rest over k is concave, so Newton's steps from a smaller k never go too far. NAN
+ * where no wave can have that frequency on the current, or its energy would not come forward. */
 double waves_number_on(double w, double U, double g, double h)
 {
     if (U == 0.0)
@@ -88,7 +96,9 @@ static double try_length(const struct wave_spec *of, double length, struct stead
     return w->c + of->current + (of->closed ? without_transport(w, of->depth) : 0.0);
 }
 
-/* A given period: the length by secants, from that of linear theory. */
+/* A given period: the length by secants, from that of linear theory. Each try is a whole steady
+ * wave. off = c T - L falls by about half of a change of L in deep water, the slope of the first
+ * step. */
 static bool find_steady(const struct wave_spec *of, struct steady *w)
 {
     if (of->length > 0.0)
@@ -155,6 +165,8 @@ static bool sea_blocked(const struct wave_spec *of, char *text, size_t size)
     return of->kind != WAVE_REGULAR && blocked(&high, waves_length(&high), text, size);
 }
 
+/* From what is given at all to what the theory holds for; the first that is wrong is told. Before
+ * the run, on all ranks. */
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size)
 {
     struct steady w;
@@ -223,6 +235,7 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
     return false;
 }
 
+/* ahead: the phase by which the zone's gain turns the wave, as a distance. */
 static void make_regular(struct waves *w)
 {
     const struct wave_spec *of = &w->of;

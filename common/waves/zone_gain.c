@@ -63,7 +63,7 @@ static void add_right(struct problem *q, int row, int way, double complex value)
 }
 
 /* Flux through the face between two cells, out of the first: area u. Right sides: u_w of a wave to
- * +x, to -x. */
+ * +x, to -x. u (i w + r) = (p_first - p_second)/gap + r u_w. */
 static void between(struct problem *q, int first, int second, double area, double gap, double r,
                     const double complex u_w[2])
 {
@@ -78,6 +78,7 @@ static void between(struct problem *q, int first, int second, double area, doubl
     }
 }
 
+/* Half a cell from the centre to the surface, where p = g eta and i w eta = w. */
 static void surface(struct problem *q, int cell, double x)
 {
     const double r = rate_at(q, x);
@@ -106,6 +107,9 @@ static void far_end(struct problem *q, int cell, double z)
     add_right(q, cell, 2, c * (wave_p(q, centre, z, -1) * turn + wave_p(q, x, z, -1)));
 }
 
+/* Continuity of every cell: the fluxes out of it sum to 0. Columns of NZ cells from the bed up, one
+ * after the other from the side, so that neighbours are at most NZ rows apart and the band is as
+ * narrow as can be. The side and the bed are walls: no face, no flux. */
 static void assemble(struct problem *q)
 {
     for (int i = 0; i < q->nx; i++)
@@ -127,7 +131,9 @@ static void assemble(struct problem *q)
         }
 }
 
-/* Height of the wave that leaves, of a right side. */
+/* Height of the wave that leaves, of a right side. By projection on cosh k(z + h), which waves that
+ * cannot travel are orthogonal to: half a length or two depths behind the zone they have died
+ * away. */
 static double complex leaves(const struct problem *q, int way)
 {
     double complex sum = 0.0;
@@ -144,6 +150,9 @@ static double complex leaves(const struct problem *q, int way)
     return sum / all * cexp(I * (q->kx * x));
 }
 
+/* Three right sides at once: u_w of a wave from the side, of one to it, and a wave that comes in.
+ * make asks for height 1 that leaves; pass adds just so much that what comes back is cancelled. h:
+ * below 0.8 of a length waves are not felt. */
 struct zone_response zone_response(double omega, double number, double cosine, double g,
                                    double depth, double length, double rate)
 {
