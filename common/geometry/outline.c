@@ -1,4 +1,9 @@
-/* outline.c - see outline.h. SPDX-License-Identifier: BSD-3-Clause */
+/* outline.c - see outline.h. A file is read into memory as a whole; a drawing is told by its
+ * "<svg". Of SVG only what is needed for one outline is read: the page's height, one shape, all
+ * commands of a path. What would change its meaning (transforms, a path of several pieces) is
+ * refused. Curves become PARTS chords first, then corners that matter little are left out again
+ * (thin_out), so that the number of corners follows from the shape and not from PARTS.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "outline.h"
 
 #include <ctype.h>
@@ -41,6 +46,8 @@ static char *text_of(const char *path)
 
 /* --- rows of numbers --- */
 
+/* Blank lines, comments and one line of names before the first row are passed over; separators are
+ * blanks, commas and semicolons. */
 static bool read_rows(char *text, struct outline *is, char *why, size_t size)
 {
     int line = 0;
@@ -64,7 +71,8 @@ static bool read_rows(char *text, struct outline *is, char *why, size_t size)
 
 /* --- drawings --- */
 
-/* The value of an attribute in a tag, into room; "": there is none. */
+/* The value of an attribute in a tag, into room; "": there is none. The name must stand behind a
+ * blank, so that "d" is not found in "id"; quotes of both kinds. */
 static void attribute(const char *tag, const char *name, char *room, size_t size)
 {
     const char *end = strchr(tag, '>');
@@ -108,6 +116,8 @@ static double number(const char **c)
     return any ? v : NAN;
 }
 
+/* A Bezier curve from p[0] to p[3] with control points p[1], p[2]: PARTS corners at equal steps of
+ * its parameter, the first left out, where the pen stands. */
 static void cubic(struct outline *is, const double p[4][2])
 {
     for (int k = 1; k <= PARTS; k++) {
@@ -121,7 +131,9 @@ static void cubic(struct outline *is, const double p[4][2])
     }
 }
 
-/* Elliptic arc from p to q (SVG 1.1, appendix F.6). */
+/* Elliptic arc from p to q (SVG 1.1, appendix F.6). From two points to centre and angles: in the
+ * ellipse's own axes (u, v) about the middle of p and q; radii that are too small to reach grow
+ * until they do. large and sweep choose one of four arcs. */
 static void arc(struct outline *is, const double p[2], double rx, double ry, double turn,
                 bool large, bool sweep, const double q[2])
 {
@@ -174,6 +186,9 @@ static void reflect(const struct pen *p, const char *of, double c[2])
         c[a] = curve ? 2.0 * p->at[a] - p->control[a] : p->at[a];
 }
 
+/* One command with its numbers v. Lower case: relative to the pen, so its place is added to each of
+ * them first (an arc's radii, angle and flags, v[0] to v[4], left out). A quadratic curve (Q, T) is
+ * a cubic one with control points at two thirds of the way. */
 static void draw(struct outline *is, struct pen *p, char command, double v[7])
 {
     const char is_what = (char)toupper((unsigned char)command);
@@ -215,6 +230,7 @@ static void draw(struct outline *is, struct pen *p, char command, double v[7])
     p->last = is_what;
 }
 
+/* Numbers may repeat without their command; behind M they are then lines. */
 static bool read_path(const char *d, struct outline *is, char *why, size_t size)
 {
     struct pen p = {.last = '\0'};
@@ -275,6 +291,7 @@ static const char *find_shape(const char *text, const char *id)
     return NULL;
 }
 
+/* SVG's y points down from the top of the page: the page's height turns it. */
 static bool read_drawing(const char *text, const char *id, struct outline *is, char *why,
                          size_t size)
 {
@@ -316,7 +333,8 @@ static double off_chord(const double *p, const double *a, const double *b)
     return length > 0.0 ? fabs(t[0] * d[1] - t[1] * d[0]) / length : hypot(d[0], d[1]);
 }
 
-/* Marks what stays between two corners that do (Douglas & Peucker 1973). */
+/* Marks what stays between two corners that do (Douglas & Peucker 1973). Recursion; O(n log n) on
+ * average, n^2 at worst. */
 static void keep(const struct outline *is, int lo, int hi, double within, bool *stays)
 {
     double most = within;
@@ -344,7 +362,9 @@ static int kept(const struct outline *is, double within, bool *stays)
     return n;
 }
 
-/* share: of the diagonal, what corners may be off. */
+/* share: of the diagonal, what corners may be off. Where too many corners are left the tolerance
+ * grows by fifths until there are few enough. A closed outline comes with its first corner twice,
+ * as the two ends. */
 static void thin_out(struct outline *is, int most, double share)
 {
     bool *stays = NEW(bool, is->n);
@@ -367,6 +387,8 @@ static void thin_out(struct outline *is, int most, double share)
     mem_free(stays);
 }
 
+/* Chords of a drawing may be 5e-4 of its diagonal off, rows only by rounding: measured corners are
+ * kept but for those on straight lines. */
 bool outline_read(const char *file, int most, struct outline *is, char *why, size_t size)
 {
     char path[1200];

@@ -41,6 +41,7 @@ static void box_of(const struct tree *t, int triangle, double lo[3], double hi[3
     }
 }
 
+/* Rounded outwards, so that a box in float never leaves out a triangle in double. */
 static void set_box(const struct tree *t, struct node *node, int first, int n)
 {
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -58,7 +59,8 @@ static void set_box(const struct tree *t, struct node *node, int first, int n)
     }
 }
 
-/* Puts those `first' of order[n] along the axis before the others (Hoare's selection). */
+/* Puts those `first' of order[n] along the axis before the others (Hoare's selection). Linear in n
+ * on average, which is all that halving needs: nothing is sorted. */
 static void select_first(int *order, int n, int first, const float (*c)[3], int axis)
 {
     int lo = 0, hi = n - 1;
@@ -99,7 +101,9 @@ static int longest_axis(const int *order, int n, const float (*c)[3])
     return axis;
 }
 
-/* Leaves are full but for the last: the first half is a multiple of LEAF. */
+/* Leaves are full but for the last: the first half is a multiple of LEAF. Depth log2(n/LEAF) + 1,
+ * far below DEPTH; O(n log n). Children are written before the second one's place is known, so that
+ * a walk meets the first child next to its parent. */
 static void build(struct tree *t, int first, int n, const float (*c)[3])
 {
     struct node *node = t->nodes + t->nnodes++;
@@ -211,6 +215,8 @@ static bool node_meets(const struct node *b, const double *lo, const double *hi)
     return true;
 }
 
+/* Goes down into every box that meets [lo, hi]; sorted, so that the order does not depend on the
+ * tree. */
 int tree_box(const struct tree *t, const double lo[3], const double hi[3], int most, int *who)
 {
     int stack[DEPTH], depth = 0, n = 0;
@@ -261,8 +267,9 @@ static int feature_of(const double w[3])
     return zeros == 0 ? FACE : zeros == 1 ? EDGE + (which + 1) % 3 : VERTEX + kept;
 }
 
-/* Weights of the point of abc nearest to x (Ericson, Real-time collision detection, 2005, 5.1.5).
- */
+/* Weights of the point of abc nearest to x (Ericson, Real-time collision detection, 2005, 5.1.5). /
+ * Regions of the two-dimensional plane abc in turn: the three vertices, the three edges, the
+ * face. */
 static void weights(const double *a, const double *b, const double *c, const double *x, double w[3])
 {
     double ab[3], ac[3], ax[3], bx[3], cx[3];
@@ -302,6 +309,8 @@ struct nearest {
     int triangle, feature;
 };
 
+/* Of two triangles equally near, on a common edge or vertex, the one of the lower number is taken:
+ * the answer does not depend on the order of the walk. */
 static void look_at(const struct tree *t, int triangle, const double *x, struct nearest *best)
 {
     const int *v = t->m->vertex[triangle];
@@ -330,6 +339,8 @@ static double to_node(const struct node *b, const double *x)
     return sum;
 }
 
+/* Depth first, the nearer child first; a box farther than the best so far is passed over. best->d2
+ * begins with the square of the reach. */
 static void find_nearest(const struct tree *t, const double *x, struct nearest *best)
 {
     int stack[DEPTH], depth = 0;
@@ -356,7 +367,9 @@ static void find_nearest(const struct tree *t, const double *x, struct nearest *
     }
 }
 
-/* Pseudonormal of the nearest feature; returns whether it is on a rim. */
+/* Pseudonormal of the nearest feature; returns whether it is on a rim. Of a face its normal; of an
+ * edge the sum of both; of a vertex the normals of all its triangles, weighted by their angles
+ * there. Only so is the sign right next to sharp edges. */
 static bool pseudonormal(const struct tree *t, const struct nearest *best, double n[3])
 {
     const struct trimesh *m = t->m;
@@ -402,6 +415,7 @@ struct tree_foot tree_nearest(const struct tree *t, const double x[3], double re
 
 /* --- segments --- */
 
+/* By slabs, axis after axis, up to the share `until' of the way. */
 static bool segment_meets(const struct node *b, const double *from, const double *way, double until)
 {
     double enter = 0.0, leave = until;

@@ -1,4 +1,6 @@
-/* trimesh.c - neighbours, parts and measures of a triangulated surface; see trimesh.h.
+/* trimesh.c - neighbours, parts and measures of a triangulated surface; see trimesh.h. Everything
+ * is O(n) in the number of triangles but for sorting the few sides at a vertex. An edge is known by
+ * 3 triangle + side: side k runs from vertex k to vertex k + 1.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "trimesh.h"
 
@@ -88,6 +90,8 @@ static void join_edge(struct trimesh *m, const struct edge_side *s, int n)
                 join(m, s[i].at, s[k].at);
 }
 
+/* Sides are sorted into bins by the lesser of their vertices (counting sort), then within each bin
+ * by the other one: sides on one edge come to lie together. */
 static void find_neighbours(struct trimesh *m)
 {
     int *start = NEW(int, m->nvertices + 2);
@@ -119,6 +123,7 @@ static void find_neighbours(struct trimesh *m)
     mem_free(sides);
 }
 
+/* Walks over neighbours from every triangle that has no part yet. */
 static void find_parts(struct trimesh *m)
 {
     int *stack = NEW(int, m->ntriangles);
@@ -161,6 +166,8 @@ void trimesh_connect(struct trimesh *m)
         m->closed = m->closed && m->neighbour[at / 3][at % 3] >= 0;
 }
 
+/* Swapping vertices 1 and 2 turns the normal; sides 0 and 2 change places with them, side 1
+ * stays. */
 void trimesh_turn(struct trimesh *m, int part)
 {
     for (int t = 0; t < m->ntriangles; t++) {
@@ -218,6 +225,8 @@ struct moments {
     double one, x[3], xx[3], xy[3];
 };
 
+/* Volume integrals as surface integrals by the divergence theorem, in closed form for a triangle
+ * (Eberly 2002): f2, f3 and g are his sums over the corners, d twice the area times the normal. */
 static void add_triangle(const double *a, const double *b, const double *c, struct moments *o)
 {
     double e[3], g[3], d[3], f2[3], f3[3], ga[3], gb[3], gc[3];

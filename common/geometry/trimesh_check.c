@@ -11,7 +11,9 @@
 
 /* --- crossings --- */
 
-/* Whether the segment a -> b goes through the inside of a triangle, touching left out. */
+/* Whether the segment a -> b goes through the inside of a triangle, touching left out. Moeller &
+ * Trumbore's test (1997) with margins `in' on all sides: parts that touch along an edge or face, as
+ * walls of a tank do, are no crossing. */
 static bool pierces(const struct trimesh *m, int triangle, const double *a, const double *b)
 {
     const int *v = m->vertex[triangle];
@@ -57,6 +59,8 @@ static void box_of(const struct trimesh *m, int t, double *lo, double *hi)
     }
 }
 
+/* Ranks take every size-th triangle, so that a fine region is spread over all of them; of each
+ * triangle the tree gives the few that may meet it. */
 int trimesh_crossings(const struct trimesh *a, const struct tree *tree, const struct trimesh *b,
                       MPI_Comm comm, int *first)
 {
@@ -89,6 +93,9 @@ int trimesh_crossings(const struct trimesh *a, const struct tree *tree, const st
 
 /* --- sizes --- */
 
+/* Each edge once, from the triangle of the lower number. With the height h over it and the angle c
+ * between the normals the surface is h c/8 off on a cylinder and h c/3 on a sphere; h c/4 lies
+ * between. */
 struct trimesh_sizes trimesh_sizes(const struct trimesh *m)
 {
     const double smooth = cos(40.0 * M_PI / 180.0);
@@ -123,6 +130,8 @@ struct surface_part {
     int first; /* a triangle of it */
 };
 
+/* Bounds, one triangle and signed volume of each part; positive where normals point out of what it
+ * encloses. */
 static struct surface_part *parts_of(const struct trimesh *m)
 {
     struct surface_part *p = NEW(struct surface_part, m->nparts);
@@ -151,7 +160,8 @@ static struct surface_part *parts_of(const struct trimesh *m)
     return p;
 }
 
-/* Winding number of one part alone. */
+/* Winding number of one part alone. Copies the part's triangles: called for a few pairs of parts at
+ * the start. */
 static double winding_of(const struct trimesh *m, int part, const double *x)
 {
     struct trimesh one = {.x = m->x, .vertex = mem_new((size_t)m->ntriangles, 3 * sizeof(int))};
@@ -184,6 +194,8 @@ static int depth_of(const struct trimesh *m, const struct surface_part *parts, i
     return n;
 }
 
+/* A part at an even depth within others bounds a solid from outside, at an odd depth a hole in
+ * one. */
 int trimesh_orient_closed(struct trimesh *m, int sign)
 {
     struct surface_part *parts = parts_of(m);
@@ -202,6 +214,7 @@ int trimesh_orient_closed(struct trimesh *m, int sign)
     return n;
 }
 
+/* By the divergence theorem over the surface and the cone that closes it. */
 double trimesh_openness(const struct trimesh *m, double *volume, double normal[3])
 {
     double middle[3] = {0.0, 0.0, 0.0}, area = 0.0, n[3];

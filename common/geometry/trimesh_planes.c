@@ -1,4 +1,6 @@
-/* trimesh_planes.c - which triangles of a surface lie in one plane with their neighbours.
+/* trimesh_planes.c - which triangles of a surface lie in one plane with their neighbours: numbers
+ * by the first triangle of each plane, for the walls of SPH (sph/walls/wall_mesh.c). O(n): each
+ * triangle is given its plane once, or looked at in vain from each of its three sides.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "trimesh.h"
 

@@ -44,6 +44,8 @@ static bool is_file(const char *path)
 
 bool trimesh_has_reader(void) { return true; }
 
+/* assimp triangulates polygons, drops points and lines and all that is not geometry; it does not
+ * join vertices, which trimesh_weld does with a tolerance of our own. */
 static const struct aiScene *import(const char *path)
 {
     struct aiPropertyStore *how = aiCreatePropertyStore();
@@ -58,6 +60,7 @@ static const struct aiScene *import(const char *path)
     return s;
 }
 
+/* All of a file's meshes go into one list; faces that are no triangles are left out. */
 static void add(struct trimesh *m, const struct aiMesh *from)
 {
     GROW(m->x, m->nvertices, m->nvertices + (int)from->mNumVertices);
@@ -106,6 +109,7 @@ static bool read_known(const char *path, struct trimesh *m, char *why, size_t si
 
 #endif
 
+/* A failed read leaves an empty mesh, and nothing to free. */
 bool trimesh_read(const char *path, struct trimesh *m, char *why, size_t size)
 {
     *m = (struct trimesh){0};
@@ -131,6 +135,7 @@ bool trimesh_read(const char *path, struct trimesh *m, char *why, size_t size)
     return m->ntriangles > 0;
 }
 
+/* In pieces of 1 GB, as counts of MPI_Bcast are int. */
 static void *share(void *p, int n, size_t size, int rank, MPI_Comm comm)
 {
     const size_t bytes = (size_t)n * size, chunk = (size_t)1 << 30;
@@ -142,6 +147,7 @@ static void *share(void *p, int n, size_t size, int rank, MPI_Comm comm)
     return p;
 }
 
+/* Sizes and flags go as one struct, whose pointers each rank then replaces by its own. */
 void trimesh_broadcast(struct trimesh *m, MPI_Comm comm)
 {
     struct trimesh all = *m;

@@ -1,5 +1,7 @@
 /* trimesh_repair.c - what files of triangles want before they bound a fluid: equal vertices made
- * one, triangles without area taken out, all normals of a part to one side.
+ * one, triangles without area taken out, all normals of a part to one side. Called in that order by
+ * the scene's reader, with trimesh_connect before the last. Results do not depend on the number of
+ * ranks: each does the same.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdint.h>
@@ -11,6 +13,9 @@
 
 /* --- weld --- */
 
+/* Cells twice the tolerance wide, found by a hash of their indices: a vertex within the tolerance
+ * of x lies in the cell of x or in one of the seven beside it on the nearer sides. Cells of other
+ * indices in the same chain only cost a comparison of distances. */
 struct repair_grid {
     const struct trimesh *m;
     double lo[3], cell; /* m */
@@ -73,6 +78,8 @@ static struct repair_grid grid_create(const struct trimesh *m, double tolerance)
     return g;
 }
 
+/* One pass over the vertices, O(n) on average. A vertex is joined to one that is kept, never to one
+ * that is joined itself, so that chains of close vertices do not run together into one. */
 int trimesh_weld(struct trimesh *m, double tolerance)
 {
     if (m->nvertices == 0)
@@ -122,6 +129,7 @@ static double height(const struct trimesh *m, int t)
     return longest > 0.0 ? 2.0 * trimesh_normal(m, t, n) / longest : 0.0;
 }
 
+/* Their neighbours stay: after a weld the edges on both sides of a sliver are one. */
 int trimesh_drop_flat(struct trimesh *m, double least)
 {
     int kept = 0;
@@ -135,6 +143,7 @@ int trimesh_drop_flat(struct trimesh *m, double least)
     return gone;
 }
 
+/* to[] counts from 1, 0: not used. */
 void trimesh_trim(struct trimesh *m)
 {
     int *to = NEW(int, m->nvertices), n = 0;
@@ -177,8 +186,9 @@ static void turn_one(struct trimesh *m, int t)
     m->neighbour[t][2] = q;
 }
 
-/* Walks over the neighbours of one part from its first triangle; who[]: the part's triangles.
- * Fewer are turned than not. Returns the number turned. */
+/* Walks over the neighbours of one part from its first triangle; who[]: the part's triangles. Fewer
+ * are turned than not. Returns the number turned. Breadth first: who[] is the queue, and in the end
+ * the list of the part's triangles. */
 static int orient_part(struct trimesh *m, int first, int *who, bool *seen)
 {
     int n = 0, count = 0;
@@ -201,6 +211,7 @@ static int orient_part(struct trimesh *m, int first, int *who, bool *seen)
     return 2 * count > n ? n - count : count;
 }
 
+/* The clashes are counted anew afterwards: those that are left cannot be mended by turning. */
 int trimesh_orient(struct trimesh *m)
 {
     int *who = NEW(int, m->ntriangles), count = 0;

@@ -1,4 +1,6 @@
-/* trimesh_shapes.c - meshes of simple solids, normals out. SPDX-License-Identifier: BSD-3-Clause */
+/* trimesh_shapes.c - meshes of simple solids, normals out. Only tests make them: their volumes,
+ * inertias and distances are known. Each ends connected (trimesh_connect).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
@@ -133,7 +135,8 @@ static double turn(const double *a, const double *b, const double *c)
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Whether corner b of what is left of the polygon can be cut off: no other corner within abc. */
+/* Whether corner b of what is left of the polygon can be cut off: no other corner within abc. O(n),
+ * so that a lid costs O(n^3) at worst: outlines have some hundred corners. */
 static bool is_ear(int n, const int *left, const double (*p)[2], int k)
 {
     const double *a = p[left[(k + n - 1) % n]], *b = p[left[k]], *c = p[left[(k + 1) % n]];
@@ -148,6 +151,8 @@ static bool is_ear(int n, const int *left, const double (*p)[2], int k)
     return true;
 }
 
+/* Sides first, two triangles each, then both lids, n - 2 triangles each. Where no ear is found,
+ * which a polygon that crosses itself may bring about, the last corner is cut off. */
 struct trimesh trimesh_prism(int n, const double (*points)[2], double low, double high)
 {
     struct trimesh m;
