@@ -1,5 +1,10 @@
 /* coupler.c - main program of the coupler: meets the solvers, checks their plan, then answers
- * messages until all have said goodbye. SPDX-License-Identifier: BSD-3-Clause */
+ * messages until all have said goodbye. Every rank holds the same plan and maps its own share of
+ * the targets; rank 0 alone decides about coupling steps, writes files and speaks to the user. The
+ * order is that of run(): find_partners (handshake), job_read, and in couple() the meeting, the
+ * plan, the service. Only answers are sent: nothing here waits for one certain program while
+ * another may speak, except where a message is due from each.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "server/coupler.h"
 
 #include <stdio.h>
@@ -14,6 +19,8 @@
 #include "transport/alive.h"
 #include "transport/failure.h"
 
+/* how often a waiting process looks after its partners; after how long without an end of a coupling
+ * step the user is told, twice as long each time */
 static const double look_every = 0.05, stall_first = 60.0; /* s */
 static const char help[] = "couples the solvers of a job: fields, coupling steps, restart points";
 
@@ -22,6 +29,7 @@ static void leave_note(const char *reason) { (void)failure_note(reason); }
 
 /* --- waiting --- */
 
+/* Ends the job where a partner has left a death note or its process is gone; returns otherwise. */
 static void look_after_partners(void)
 {
     char note[512];
@@ -34,6 +42,7 @@ static void look_after_partners(void)
     failure_die(RUN_PARTNER, note);
 }
 
+/* Who keeps all others waiting, and since when nothing was heard of it. */
 static void tell_stall(struct coupler *c)
 {
     char text[TEXT] = "";
@@ -67,7 +76,8 @@ static void look_around(struct coupler *c)
     report_progress(c);
 }
 
-/* Next message of a peer (-1: any). */
+/* Next message of a peer (-1: any). Short naps between polls; every `look_every' seconds a look at
+ * the partners. The time waited is counted as idle. */
 static struct message *await(struct coupler *c, int peer)
 {
     struct message *m;
@@ -93,7 +103,9 @@ static struct message *await(struct coupler *c, int peer)
 
 static void print_problems(const char *text) { log_say("%s\nnothing was started", text); }
 
-/* False: the programs do not fit together; all have been told. */
+/* False: the programs do not fit together; all have been told. Rank 0 hears rank 0 of every solver,
+ * the other ranks of the coupler wait for its answer. Faults of this program's own input go into
+ * the same list. */
 static bool meet(struct coupler *c, const struct faults *f)
 {
     char text[TEXT] = "", path[1100];
@@ -136,6 +148,8 @@ static void forward(struct coupler *c, const struct message *m)
     }
 }
 
+/* Each rank makes the links from the same messages, so that they have the same numbers everywhere;
+ * rank 0 hands on what the solvers have said. */
 static bool plan(struct coupler *c)
 {
     char text[TEXT] = "";
@@ -163,6 +177,8 @@ static bool plan(struct coupler *c)
 
 /* --- the job --- */
 
+/* Every rank of a solver says goodbye to every rank of the coupler: behind it nothing of it is on
+ * the way. The worst code counts. */
 static void take_bye(struct coupler *c, struct solver *s, struct message *m)
 {
     if (c->rank == 0 && c->action != CPL_STOP)
@@ -179,6 +195,8 @@ static void take_bye(struct coupler *c, struct solver *s, struct message *m)
         c->over = c->over && c->solver[i].said_bye;
 }
 
+/* One message of a solver's rank. After each, a look whether the programs can go on at all: a
+ * deadlock shows in the counts of what was put and asked, and is told instead of waited for. */
 static void answer(struct coupler *c, struct message **m)
 {
     struct solver *s = &c->solver[(*m)->peer];
@@ -224,6 +242,8 @@ static void say_doing(struct coupler *c)
     signals_heard(text);
 }
 
+/* From the first coupling step to the last goodbye; then the summary, whose code goes to
+ * everybody. */
 static int serve(struct coupler *c)
 {
     rendezvous_open(c);
@@ -265,6 +285,8 @@ static void list_solvers(struct coupler *c)
     c->own_peer = wire_add_peer(&c->wire, c->comm, c->size, "coupler");
 }
 
+/* With the case read: all that happens in the company of the solvers. Messages under way are
+ * flushed before anything is freed. */
 static int couple(struct coupler *c, struct faults *faults)
 {
     char path[1100];
@@ -343,6 +365,7 @@ static bool find_partners(struct coupler *c)
     return met == 0;
 }
 
+/* Without partners, --check only reads and describes. */
 static int run(struct coupler *c)
 {
     struct faults faults = {0};

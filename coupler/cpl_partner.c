@@ -1,5 +1,6 @@
-/* cpl_partner.c - a coupled job as common/run.h sees it. Errors that leave no choice end the job
- * here. SPDX-License-Identifier: BSD-3-Clause */
+/* cpl_partner.c - a coupled job as common/run/run.h sees it: the functions of struct partner over
+ * cpl.h, for sph and fv. Errors that leave no choice end the job here.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "cpl_partner.h"
 
 #include <stdio.h>

@@ -19,6 +19,7 @@ static const int wedge[FACES][CORNERS] = {{0, 1, 2, NO}, {3, 5, 4, NO}, {0, 3, 4
 static const int hexahedron[FACES][CORNERS] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
                                                {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
+/* Area and first moment as sums of signed triangles; either sense of the corners is taken. */
 static void polygon(int n, const double *x, double centroid[3], double *volume)
 {
     double area = 0.0, sum[2] = {0.0, 0.0};
@@ -44,7 +45,8 @@ static void mean(int n, const double *x, const int *corner, double out[3])
     }
 }
 
-/* The tetrahedron of o and a triangle, added to the volume and its first moment about o. */
+/* The tetrahedron of o and a triangle, added to the volume and its first moment about o. volume is
+ * signed, by the sense of the triangle; a wrong sense throughout drops out in the end (fabs). */
 static void add_tetrahedron(const double o[3], const double *p, const double *q, const double *r,
                             double *volume, double moment[3])
 {
@@ -62,6 +64,7 @@ static void add_tetrahedron(const double o[3], const double *p, const double *q,
         moment[d] += 0.25 * v * (a[d] + b[d] + c[d]);
 }
 
+/* 4, 5, 6 or 8 corners: tetrahedron, pyramid, wedge, hexahedron. */
 static void polyhedron(int n, const double *x, double centroid[3], double *volume)
 {
     const int(*const face)[CORNERS] = n == 4   ? tetrahedron

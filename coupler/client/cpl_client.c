@@ -1,4 +1,8 @@
 /* cpl_client.c - behind cpl.h: the life of a solver in a job, from meeting the others to goodbye.
+ * The states are those of enum in cpl_client.h, each call checks that it is its turn. Messages of
+ * the coupler are taken only while this program waits for one (client_await): there are no threads
+ * in the protocol. Declarations, the report and most of what is sent come from rank 0; the answers
+ * go to all ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "cpl_client.h"
 
@@ -45,6 +49,8 @@ int client_check_name(struct cpl *c, const char *what, const char *name)
 
 static _Noreturn void broken(const char *what) { failure_die(4, what); }
 
+/* Whether a partner is dead, looked up at most every `look_every' s; leaves the reason as the error
+ * text. */
 static bool partner_lost(struct cpl *c, struct nap *nap)
 {
     const double now = wire_time();
@@ -60,6 +66,8 @@ static bool partner_lost(struct cpl *c, struct nap *nap)
     return true;
 }
 
+/* The first message kept that is of this kind, and of that field and tick or rank where given (>=
+ * 0); taken out of the list. Messages of one sender stay in order. */
 static struct message *from_inbox(struct cpl *c, enum wire_kind kind, int field, int64_t tick,
                                   int rank)
 {
@@ -83,6 +91,9 @@ static void at_work(const struct cpl *c)
     failure_doing(doing);
 }
 
+/* Waits for one certain message. Whatever else comes meanwhile is kept, except needs, which are
+ * served at once: a giver that waits for another field must not keep its takers waiting, or two
+ * programs that take from each other would wait for ever. */
 struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int64_t tick, int rank,
                              const char *what)
 {
@@ -123,6 +134,8 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
 
 int cpl_version(void) { return CPL_VERSION; }
 
+/* Collective over the world. A program that is alone gets no job (*out NULL) and goes on by
+ * itself. */
 int cpl_open_as(int version, MPI_Comm world, const char *name, double deadline_s, struct cpl **out,
                 MPI_Comm *mine)
 {
@@ -186,6 +199,8 @@ static int verdict(struct cpl *c, struct message *m)
     return client_error(c, CPL_EINPUT, "%s", text);
 }
 
+/* The first exchange with the coupler: what this program starts from against what the others do.
+ * Zones of all programs come back with the consent. */
 int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faults, const char *dir)
 {
     struct pack p;
@@ -239,6 +254,8 @@ int cpl_find_zone(struct cpl *c, const char *zone, double lo[3], double hi[3])
 
 /* --- the plan --- */
 
+/* Sets and fields as declared; of a grid, rank 0's own block is part of it, which the coupler does
+ * not use. */
 static void send_plan(struct cpl *c, double t, double dt_wish)
 {
     struct pack p;
@@ -268,6 +285,8 @@ static void send_plan(struct cpl *c, double t, double dt_wish)
     wire_send(&c->wire, 0, 0, &p);
 }
 
+/* Needs of faster takers may come before the plan; they wait in the inbox until their fields are
+ * known. */
 int cpl_ready(struct cpl *c, double t, double dt_wish)
 {
     if (c->state != MET)
@@ -303,6 +322,7 @@ int cpl_ready(struct cpl *c, double t, double dt_wish)
 
 /* --- windows --- */
 
+/* Waits until all programs have ended the coupling step before. */
 int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code)
 {
     if (c->error)
@@ -351,6 +371,8 @@ static void pack_told(struct cpl *c, struct pack *p)
     c->ntold = 0;
 }
 
+/* Does not wait: the next cpl_window does. t1 must be the end that was announced, to rounding, so
+ * that a program with a clock of its own is found out. */
 int cpl_advance(struct cpl *c, double t1, int stop)
 {
     struct pack p;
@@ -440,6 +462,8 @@ static int goodbye(struct cpl *c, int code)
     return job;
 }
 
+/* In order after the last coupling step; from any other state it is a failure, which ends the
+ * job. */
 int cpl_close(struct cpl **handle, int code)
 {
     struct cpl *c = *handle;

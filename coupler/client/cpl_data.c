@@ -1,5 +1,7 @@
 /* cpl_data.c - behind cpl.h: places, and fields given. A put goes to those coupler ranks that have
- * said what they want; it is kept as long as somebody may still ask for more of it.
+ * said what they want; it is kept as long as somebody may still ask for more of it: two slots for
+ * each field, by tick & 1, since nobody asks for what lies more than one coupling step back. Places
+ * are shared by the puts made at them and counted (users).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -53,6 +55,7 @@ static size_t first_bad(const double *v, size_t n)
 
 /* --- giving --- */
 
+/* Collective over the program's ranks, for the numbers of the targets. */
 int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid,
              const double *volume)
 {
@@ -108,6 +111,8 @@ int cpl_move_cells(struct cpl *c, int set, long n, const int *nvertex, const dou
     return code;
 }
 
+/* Those of this rank's points of which any image lies in the region, column by column: x, gid,
+ * volume, values. */
 static void serve_points(const struct client_field *f, const struct slot *s, const struct need *d,
                          int dim, struct pack *p)
 {
@@ -135,7 +140,8 @@ static void serve_points(const struct client_field *f, const struct slot *s, con
 }
 
 /* The cells lo <= i < hi of an asker's box that this block holds when it is shifted by whole
- * periods. */
+ * periods. Periodic grids: a box is in the unwrapped index space and may reach over the side or go
+ * round more than once. */
 static bool overlap(const struct cpl_grid *g, const struct region_box *b, const int shift[3],
                     int lo[3], int hi[3])
 {
@@ -149,6 +155,8 @@ static bool overlap(const struct cpl_grid *g, const struct region_box *b, const 
     return true;
 }
 
+/* A piece: asker, box, then CPL_TERMS values for each cell and component; terms that were not put
+ * are 0. */
 static void pack_cells(const struct client_field *f, const struct slot *s, const struct cpl_grid *g,
                        int asker, const int lo[3], const int hi[3], const int shift[3],
                        struct pack *p)
@@ -175,6 +183,7 @@ static void pack_cells(const struct client_field *f, const struct slot *s, const
 
 static int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
+/* For every asker's box, every shift by whole periods that makes this rank's block meet it. */
 static void serve_grid(const struct client_field *f, const struct slot *s, const struct need *d,
                        const struct cpl_grid *g, struct pack *p)
 {
@@ -197,6 +206,8 @@ static void serve_grid(const struct client_field *f, const struct slot *s, const
     pack_head(p)->count = pieces;
 }
 
+/* Sends what this need asks for of a slot, unless it has had it: served[] holds the generation of
+ * the need that was served last. */
 static void serve(struct cpl *c, int field, struct slot *s, int taker, int rank)
 {
     struct client_field *f = &c->field[field];
@@ -219,7 +230,8 @@ static void serve(struct cpl *c, int field, struct slot *s, int taker, int rank)
     s->served[which] = d->generation;
 }
 
-/* The older put first: the coupler sees by a later one that there is none of a tick. */
+/* The older put first: the coupler sees by a later one that there is none of a tick. A new region
+ * replaces the old one. */
 void client_need(struct cpl *c, struct message *m)
 {
     const int field = m->head.field, taker = m->head.taker;
@@ -258,6 +270,8 @@ int cpl_put(struct cpl *c, int field, double t, long n, const double *v, const d
     return cpl_put_course(c, field, t, n, dvdt ? 2 : 1, (const double *const[]){v, dvdt});
 }
 
+/* The values are copied, then sent to everybody whose need is known; who asks for more later is
+ * served from the copy. All is checked before anything is changed. */
 int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
                    const double *const term[])
 {

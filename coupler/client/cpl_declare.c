@@ -23,6 +23,7 @@ static int new_set(struct cpl *c, const char *name, int dim, struct client_set *
     return CPL_OK;
 }
 
+/* A flat grid is one cell thick, so that all loops run over three indices. */
 int cpl_grid(struct cpl *c, const char *set, const struct cpl_grid *g, int *id)
 {
     struct client_set *s = NULL;

@@ -1,6 +1,9 @@
-/* cpl_patch.c - interpolation on a piece of a uniform grid. The dual cell, whose corners are cell
- * centres, takes the part of the cell of [6.6]: nothing is averaged to vertices and so nothing is
- * smoothed twice. SPDX-License-Identifier: BSD-3-Clause */
+/* cpl_patch.c - interpolation on a piece of a uniform grid, see cpl_patch.h: when a patch has come
+ * it is made ready (patch_prepare), then evaluated in points at times of the coupling step
+ * (patch_eval), first all cells at that time, then a tensor product of one-dimensional weights for
+ * each point. The dual cell, whose corners are cell centres, takes the part of the cell in Chiron's
+ * equation [6.6]: nothing is averaged to vertices and so nothing is smoothed twice.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "cpl_patch.h"
 
 #include <math.h>
@@ -41,6 +44,8 @@ static void point_values(double *line, int n, size_t stride, double *old)
     line[(size_t)(n - 1) * stride] -= last / 24.0;
 }
 
+/* Along x, then y, then z: the operator 1 - h^2/24 d^2 in each direction, so that averages over
+ * cells become values at centres. */
 static void make_points(struct client_patch *p)
 {
     const size_t width = CPL_TERMS * (size_t)p->ncomp;
@@ -62,6 +67,7 @@ static void make_points(struct client_patch *p)
     free(old);
 }
 
+/* Once for each patch that has come; now_at NAN: no time yet. */
 void patch_prepare(struct client_patch *p)
 {
     const size_t n = patch_size(p) * (size_t)p->ncomp;
@@ -113,7 +119,8 @@ static inline void cubic_weights(struct patch_stencil *q, double s, double per_m
 }
 
 /* The place in its cell comes from the global index alone, so that all patches of a grid, whatever
- * their first cell, give the same bits. */
+ * their first cell, give the same bits. Places outside the patch are held at half a cell beyond its
+ * outermost centres. Fewer than four cells: linear, one cell: its value. */
 static inline void stencil_at(const struct client_patch *p, int a, double per_m, double x,
                               struct patch_stencil *q)
 {

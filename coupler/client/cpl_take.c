@@ -1,4 +1,6 @@
-/* cpl_take.c - behind cpl.h: fields taken, mapped by the coupler or as patches.
+/* cpl_take.c - behind cpl.h: fields taken, mapped by the coupler or as patches. A get is a question
+ * to the coupler's ranks and a wait for their answers; every rank of the program takes part. Values
+ * come with their terms in time, so that the same answer serves all times of a coupling step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -35,6 +37,8 @@ static void pack_targets(const struct cpl *c, const struct client_field *f, long
         pack_real(p, at->volume ? at->volume[i] : 1.0);
 }
 
+/* To every rank of the coupler its share of the targets, unless it has them already (count -1: as
+ * before). */
 static void ask_points(struct cpl *c, int field, int64_t tick)
 {
     struct client_field *f = &c->field[field];
@@ -106,7 +110,8 @@ static int take_points(struct cpl *c, int field, int64_t tick, double *t, double
     return CPL_OK;
 }
 
-/* The straight line between the values of the window's start and of its end. */
+/* The straight line between the values of the window's start and of its end. Both ends must be
+ * there (mask); the giver must put at both. */
 static int take_between(struct cpl *c, int field, double t, long n, double *v, unsigned char *mask)
 {
     const size_t nc = (size_t)c->field[field].ncomp;
@@ -130,6 +135,8 @@ static int take_between(struct cpl *c, int field, double t, long n, double *v, u
     return code;
 }
 
+/* What is common to all that takes: the field, its kind and way of mapping, that this call is in
+ * its turn. */
 static int check_read(struct cpl *c, int field, bool patch, enum cpl_when when, const char *call)
 {
     const int code = client_check_field(c, field, CPL_GET, call);
@@ -175,6 +182,8 @@ int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
 
 /* --- patches --- */
 
+/* Ranks of the program are dealt out to the coupler's: rank r asks rank r mod n, which cuts its
+ * patch from what the giver's blocks send. Cells come back in the box's own index space. */
 static int take_patch(struct cpl *c, int field, int64_t tick, const double lo[3],
                       const double hi[3], struct client_patch *q)
 {
@@ -219,6 +228,7 @@ static void join_patches(struct client_patch *a, const struct client_patch *b)
     }
 }
 
+/* The old patch stays until the new one is complete. */
 int cpl_patch_get_at(struct cpl *c, int field, enum cpl_when when, const double lo[3],
                      const double hi[3])
 {

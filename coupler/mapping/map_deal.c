@@ -56,6 +56,8 @@ static void add_image(struct map_cloud *to, const struct map_cloud *from, int di
     to->v[to->n++] = (double)i;
 }
 
+/* box_of the sources bounds which images can matter. Sorted by gid: sums then run in an order of
+ * their own. */
 static struct map_cloud images(const struct map_cloud *from, const struct map_cloud *source,
                                int dim, double R, const double period[3])
 {
@@ -101,7 +103,9 @@ static bool is_mine(const struct deal *a, int j)
     return a->target.v[j] >= (double)a->first && a->target.v[j] < (double)a->last;
 }
 
-/* False: nobody in reach, or all of them too far off to weigh anything. */
+/* False: nobody in reach, or all of them too far off to weigh anything. One source: weights of the
+ * targets in reach, as if these were mapped to it, then its value shared out by them. far: nothing
+ * was in R, the nearest takes all. */
 static bool deal_one(struct deal *a, const struct reach *r, long source, bool far)
 {
     const double *x = a->source->x + source * a->dim, *s = a->source->v + source * a->ncomp;
@@ -127,7 +131,8 @@ static bool deal_one(struct deal *a, const struct reach *r, long source, bool fa
     return true;
 }
 
-/* A source after the other; those that nobody took stay in `left' for a wider look. */
+/* A source after the other; those that nobody took stay in `left' for a wider look. Cells are made
+ * for the reach R of this round. */
 static long deal_within(struct deal *a, const struct map_cloud *target, double R, bool far,
                         const double period[3], long n, long *left)
 {
@@ -146,6 +151,8 @@ static long deal_within(struct deal *a, const struct map_cloud *target, double R
     return still;
 }
 
+/* The search doubles its reach until every source has found a target: only a few are left after the
+ * first round, since targets lie where sources do. */
 void map_deal(enum map_dealing how, int dim, double R, int ncomp, const double period[3],
               const struct map_cloud *target, struct map_cloud *source, long first, long last,
               double *v)

@@ -1,4 +1,6 @@
-/* map_nearest.c - the nearest source. SPDX-License-Identifier: BSD-3-Clause */
+/* map_nearest.c - the nearest source: see map.h. Sources come in the order of their gid, so that
+ * `<' keeps the lowest of equally near ones.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 

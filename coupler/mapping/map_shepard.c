@@ -56,7 +56,9 @@ static double invert(int n, double a[4][4])
 }
 
 /* First row of the inverse moment matrix sum w W p p^T / sum w W: the value at the target is row .
- * sum w W p f. False where Shepard must do. */
+ * sum w W p f. False where Shepard must do. Scaled by R, so that the moments are of one order and
+ * the condition number means the same at any resolution. Its limit worst_condition: targets at the
+ * edge of the cloud, whose sources lie all on one side, extrapolate. */
 static bool mls_row(int dim, double R, const struct reach *r, const struct map_cloud *c,
                     const double *x, double row[4])
 {
@@ -87,7 +89,8 @@ static bool mls_row(int dim, double R, const struct reach *r, const struct map_c
     return true;
 }
 
-/* One target; false: nothing there. */
+/* One target; false: nothing there. mls: v = sum_j w_j W_j (row_0 + row . (x_j - x)/R) f_j / sum w
+ * W; Shepard: row = (1, 0, 0, 0). */
 static bool map_one(int dim, double R, int ncomp, bool mls, const struct reach *r,
                     const struct map_cloud *c, const double *x, double *v)
 {

@@ -36,7 +36,8 @@ static bool before(const struct map_cloud *c, int dim, const struct near_place *
     return false;
 }
 
-/* Merge sort: qsort has no argument for the cloud, and lists of ranks come presorted in pieces. */
+/* Merge sort: qsort has no argument for the cloud, and lists of ranks come presorted in pieces. O(n
+ * log n). */
 static void sort_places(const struct map_cloud *c, int dim, struct near_place *p,
                         struct near_place *room, long n)
 {
@@ -90,7 +91,7 @@ static long cell_of(const struct near *g, const double *x)
 
 /* Cells over the box of the targets and R around it; what lies outside is counted into the
  * outermost cells and found too far there. Edges grow if the box would need more cells than there
- * are points. */
+ * are points. Counting sort of the sources into cells. */
 static void make_cells(struct near *g, long ntarget, const double *x)
 {
     const struct map_cloud *c = g->cloud;
@@ -155,6 +156,7 @@ void reach_free(struct reach *r)
     *r = (struct reach){0};
 }
 
+/* Pairs of runs into one until one is left: n log(3^dim) comparisons. */
 static void merge_runs(struct reach *r)
 {
     r->run[r->nrun] = r->n;
@@ -178,6 +180,8 @@ static void merge_runs(struct reach *r)
     }
 }
 
+/* Looks at the 3^dim cells around x. Each cell's members are in order (a run); the runs are merged,
+ * so that the sum that follows has one order, whatever the cells. */
 void near_gather(const struct near *g, const double *x, struct reach *r)
 {
     const struct map_cloud *c = g->cloud;

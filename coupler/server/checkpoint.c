@@ -16,7 +16,8 @@ static void prune(struct coupler *c, const struct save *s)
     c->last = *s;
 }
 
-/* Lines "key value", which common/run_files.c reads at a restart. */
+/* Lines "key value", which common/run/run_files.c reads at a restart. On the disk before it gets
+ * its name. */
 static void write_manifest(struct coupler *c, const struct save *s)
 {
     char path[1100], new[1110];
@@ -56,6 +57,8 @@ void checkpoint_resume(struct coupler *c)
         fclose(f);
 }
 
+/* Two coupling steps may be saved at once, by tick & 1: a fast program may have ended the next
+ * before a slow one has written its file. */
 void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m)
 {
     const int i = (int)(s - c->solver);

@@ -1,4 +1,7 @@
-/* job.c - the coupler's own part of a case. SPDX-License-Identifier: BSD-3-Clause */
+/* job.c - the coupler's own part of a case: group coupler, and what of sph's and fv's scene it
+ * needs to check that they fit. A case without sph and fv is any program's: then only time and
+ * domain are read, and groups of unknown names are theirs.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "job.h"
 
 #include <string.h>
@@ -83,6 +86,8 @@ static void set_period(struct job *j, const struct scene_domain *d)
             j->period[a] = d->max[a] - d->min[a];
 }
 
+/* In two passes: the first only looks which groups there are, since that decides what the second
+ * accepts. */
 struct params *job_read(struct job *j, struct scene *s, MPI_Comm comm, const struct command_line *l,
                         const struct handshake *who, struct faults *f)
 {

@@ -1,5 +1,8 @@
 /* plan.c - what the programs say about themselves, compared before anything runs. All problems are
- * found at once and printed by all programs. SPDX-License-Identifier: BSD-3-Clause */
+ * found at once and printed by all programs. First the meeting (same case, same folder, same
+ * restart point, no name twice), then the plan: each field that is taken becomes a link from its
+ * one giver.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
 #include <math.h>
@@ -51,7 +54,8 @@ static bool present(const struct coupler *c, const char *name)
     return false;
 }
 
-/* By the case's list, or by its groups. */
+/* By the case's list, or by its groups. The names that must be here, and that none is here that
+ * must not. */
 static void check_programs(const struct coupler *c, char *text)
 {
     char name[HANDSHAKE_NAME];
@@ -109,6 +113,7 @@ static void check_folder(const struct coupler *c, const struct solver *s, char *
                 s->dir, c->dir);
 }
 
+/* Rank 0 alone; the text is the verdict. */
 void plan_check_meet(struct coupler *c, char *text)
 {
     check_programs(c, text);
@@ -164,6 +169,7 @@ void plan_answer_meet(struct coupler *c, const char *text)
 
 /* --- the plan --- */
 
+/* Counts are checked before they are used as lengths: the message comes from another program. */
 void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
 {
     struct wire *const w = &c->wire;
@@ -198,6 +204,8 @@ void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
     s->ready = true;
 }
 
+/* Giver and taker must agree in unit, components, dimensions and periods, and the way of mapping
+ * must suit what the giver has, points or a grid. */
 static void check_link(const struct partner_link *l, const struct solver *g, const struct solver *t,
                        char *text)
 {
@@ -258,6 +266,7 @@ static enum map_dealing dealing(int how)
                                  : MAP_DEAL_SHEPARD;
 }
 
+/* l->number counts the takers of one field, by which the giver tells them apart. */
 static void make_link(struct coupler *c, int g, int gf, int t, int tf, char *text)
 {
     struct solver_field *give = &c->solver[g].field[gf], *take = &c->solver[t].field[tf];
@@ -303,6 +312,8 @@ static int find_giver(const struct coupler *c, const char *name, int *solver, in
     return n;
 }
 
+/* Links in the order of takers and their fields, the same on all ranks. A field that is given and
+ * not taken is a problem, too, unless it was declared optional: most often a name is misspelt. */
 void plan_make_links(struct coupler *c, char *text)
 {
     for (int t = 0; t < c->nsolvers; t++)

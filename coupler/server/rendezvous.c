@@ -114,6 +114,8 @@ static double *all_targets(const struct coupler *c, const struct partner_link *l
     return x;
 }
 
+/* Without a map, that is of a conservative field, every source is wanted: how much of one falls to
+ * a target depends on all targets near it. */
 static struct region points_wanted(const struct coupler *c, const struct partner_link *l, int slack)
 {
     long first, last;
@@ -132,6 +134,7 @@ static void box_of(const struct partner_link *l, const struct asker *a, int lo[3
     region_cells(l->dim, g->origin, g->spacing, g->cells, g->periodic, a->lo, a->hi, lo, hi);
 }
 
+/* The box of each rank that asks, by its own number, with `slack' cells to each side. */
 static struct region boxes_wanted(const struct coupler *c, const struct partner_link *l, int slack)
 {
     struct region r = {.dim = l->dim};
@@ -161,7 +164,8 @@ static struct region wanted(const struct coupler *c, const struct partner_link *
 }
 
 /* Tells the giver what is wanted, if that is more than it knows. Sets that move get some slack, so
- * that it lasts. */
+ * that it lasts. A new generation: what was put for the old need is dropped, since it may lack what
+ * is wanted now, and givers put it again (client_need). */
 static void announce(struct coupler *c, struct partner_link *l)
 {
     const struct solver *g = &c->solver[l->giver];
@@ -194,7 +198,8 @@ static const void *column(struct coupler *c, struct message *m, size_t width)
     return take_view(&c->wire, m, (size_t)m->head.count * width);
 }
 
-/* All that the giver's ranks have put, and its periodic images where somebody looks. */
+/* All that the giver's ranks have put, and its periodic images where somebody looks. Rows in the
+ * order of ranks; the mapping sorts them by gid. */
 static struct map_cloud assemble(struct coupler *c, const struct partner_link *l,
                                  const struct arrival *a, long width)
 {
@@ -278,7 +283,9 @@ static int terms_of(const struct coupler *c, const struct partner_link *l, const
     return a->put[0]->head.terms;
 }
 
-/* Without any target the answer is empty and needs nothing put. */
+/* Without any target the answer is empty and needs nothing put. This rank's targets first .. last -
+ * 1 lie one after the other over the ranks of the taker; each of these gets its piece, also an
+ * empty one, for which it waits. */
 static void answer_points(struct coupler *c, struct partner_link *l, const struct arrival *a)
 {
     long first, last, at = 0;
@@ -307,7 +314,8 @@ static void answer_points(struct coupler *c, struct partner_link *l, const struc
     mem_free(mask);
 }
 
-/* A piece of a giver's block into the patch of its asker; returns the number of cells. */
+/* A piece of a giver's block into the patch of its asker; returns the number of cells. The piece is
+ * cut to the patch: with slack more was sent than asked. */
 static int64_t paste(double *to, const int lo[3], const int hi[3], const double *from,
                      const int64_t piece[7], size_t width)
 {
@@ -334,6 +342,8 @@ static int64_t paste(double *to, const int lo[3], const int hi[3], const double 
     return n;
 }
 
+/* As many cells must come as the patch has: a gap between the giver's blocks, or two blocks that
+ * overlap, is an error of the giver. */
 static void answer_patch(struct coupler *c, struct partner_link *l, const struct arrival *a,
                          int asker)
 {
@@ -388,6 +398,8 @@ static bool nothing_wanted(const struct coupler *c, const struct partner_link *l
     return true;
 }
 
+/* Answers once all ranks of the taker have asked and all of the giver have put; called after each
+ * get and each put, for either may be last. */
 static void try_answer(struct coupler *c, struct partner_link *l)
 {
     const struct arrival *a = &l->in[l->asked_tick & 1];
@@ -427,6 +439,8 @@ static void take_targets(struct coupler *c, const struct partner_link *l, struct
     take_bytes(&c->wire, m, a->volume, n * sizeof *a->volume);
 }
 
+/* Targets come along only if they have moved. With the last rank's question the region is compared
+ * with what the giver knows. */
 void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
 {
     struct partner_link *l = link_of_taker(c, s, m);
@@ -455,6 +469,7 @@ void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
     try_answer(c, l);
 }
 
+/* Keeps the message itself as the value of that rank: nothing is copied until it is mapped. */
 void rendezvous_put(struct coupler *c, struct solver *s, struct message **m)
 {
     struct partner_link *l = link_of_giver(c, s, *m);

@@ -15,6 +15,7 @@
 
 enum { LINE = 2048, NORMS = 16 };
 
+/* Keys in the order of their first mention; a later value replaces the earlier one. */
 void report_told(struct wire *w, struct message *m, struct told *t)
 {
     const int64_t n = take_int(w, m);
@@ -72,6 +73,8 @@ static int waiting(const struct coupler *c, char *line, int n, double elapsed)
     return n;
 }
 
+/* The time left by the mean of the coupling steps since the first, which contains the solvers'
+ * start. */
 void report_progress(struct coupler *c)
 {
     char line[LINE];
@@ -126,7 +129,8 @@ static struct report_norm *norm_named(struct report_norm *all, int *n, const cha
     return new;
 }
 
-/* "norm.velocity.e2" of all solvers. */
+/* "norm.velocity.e2" of all solvers. vol, e1, e2, r2 are integrals over a program's part of the
+ * flow (of 1, error, error^2, reference^2): they add up; emax is a maximum. */
 static int add_norms(const struct coupler *c, struct report_norm *all)
 {
     int n = 0;
@@ -218,6 +222,7 @@ static void put_waits(const struct coupler *c, struct summary *s)
         }
 }
 
+/* Returns the processor time of the whole job, s. */
 static double put_cost(const struct coupler *c, struct summary *s, double coupler_cpu, double wall)
 {
     double cpu = coupler_cpu;
@@ -310,6 +315,8 @@ static void say_end(const struct coupler *c, const struct summary *s, double cpu
     say_waits(c, coupler_cpu, wall);
 }
 
+/* Rank 0, after all have said goodbye, so that every program's series and figures are there. A
+ * program's failure counts where the coupler itself knows of none. */
 int report_summary(struct coupler *c, double coupler_cpu)
 {
     char path[1100];

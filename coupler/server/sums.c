@@ -39,6 +39,8 @@ static bool add_up(const struct coupler *c, const char *key, double *sum)
     return any;
 }
 
+/* A key counts only if all keys before it were told; the file begins with the first coupling step
+ * at whose end the energies and the signal are there. */
 void sums_window(struct coupler *c)
 {
     const double t = window_start(c, c->window);
@@ -72,6 +74,8 @@ static void put_ratio(struct summary *to, const char *name, double found, double
     summary_real(to, key, fabs(found / exact - 1.0));
 }
 
+/* For a standing wave over both programs: period and damping from the signal's history, enstrophy
+ * at the end, each against the exact solution. */
 void sums_summarise(const struct coupler *c, struct summary *to)
 {
     const struct exact e = exact_create(&c->scene);

@@ -14,7 +14,9 @@ void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *
         s->field[i].last_tick = take_int(&c->wire, m);
 }
 
-/* The link on which a solver waits for values that have not been put; NULL: it does not wait. */
+/* The link on which a solver waits for values that have not been put; NULL: it does not wait. Told
+ * by ticks, that is by how far rank 0 of each program says that its fields have been put
+ * (rendezvous_take_ticks), not by the puts themselves, which may still be on their way. */
 static const struct partner_link *missing(const struct coupler *c, int solver)
 {
     for (int i = 0; i < c->nlinks; i++) {
@@ -26,6 +28,7 @@ static const struct partner_link *missing(const struct coupler *c, int solver)
     return NULL;
 }
 
+/* Follows who waits for whom from one solver on; at most one step for each solver. */
 static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
 {
     const struct partner_link *l = missing(c, solver);
@@ -59,6 +62,8 @@ bool rendezvous_starved(const struct coupler *c, char *text)
     return false;
 }
 
+/* A put of a later tick proves that none of the tick asked for will come, since those of one rank
+ * come in order. */
 bool rendezvous_skipped(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nlinks; i++) {

@@ -39,6 +39,8 @@ static bool at(const struct coupler *c, int64_t window, double t)
     return fabs(window_start(c, window) - t) <= 1e-6 * dt + same_time * fabs(c->t_end);
 }
 
+/* The shortest wish counts, of the case and of all programs. On all ranks, from the same
+ * numbers. */
 void window_divide(struct coupler *c, char *text)
 {
     const struct solver *first = &c->solver[0];
@@ -69,6 +71,8 @@ void window_divide(struct coupler *c, char *text)
     c->bound = every > 0.0 ? every * (floor(first->t / every + same_time) + 1.0) : INFINITY;
 }
 
+/* For the coupling step that begins now. Wall time is looked at here alone, so that all programs
+ * save at the same steps. */
 static int next_action(struct coupler *c)
 {
     const double t1 = window_start(c, c->window + 1), now = wall_time();
@@ -92,6 +96,8 @@ static int next_action(struct coupler *c)
     return action;
 }
 
+/* A stop comes one coupling step after its restart point was asked for: all programs must have
+ * written it. */
 void window_announce(struct coupler *c)
 {
     const bool done = c->window >= c->nwindows;
@@ -114,6 +120,7 @@ void window_announce(struct coupler *c)
     c->stall_at = wall_time() + c->stall_every;
 }
 
+/* With the last program's end of a step all others' waiting is put down to it. */
 void window_advance(struct coupler *c, struct solver *s, struct message *m)
 {
     if (m->head.tick != c->window || s->advanced == c->window)

@@ -1,4 +1,9 @@
-/* alive.c - signs of life on disk. SPDX-License-Identifier: BSD-3-Clause */
+/* alive.c - signs of life on disk: each process sets the time of a file of its own, from a thread,
+ * so that also one that computes for long is seen to live; who waits looks at the others' files. It
+ * finds what failure.c cannot: processes on other hosts, and such as are stopped but not dead. Only
+ * changes of the file's time count, judged by this process's own clock, so that clocks of hosts
+ * need not agree.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "alive.h"
 
 #include <fcntl.h>
@@ -54,6 +59,7 @@ void alive_sign(void)
     }
 }
 
+/* TOUCHES times within the patience, and every 5 s at the latest. */
 static void *touch(void *unused)
 {
     (void)unused;
@@ -67,7 +73,8 @@ static void *touch(void *unused)
     return NULL;
 }
 
-/* The thread calls neither MPI nor anything of this program, and takes none of its signals. */
+/* The thread calls neither MPI nor anything of this program, and takes none of its signals. Signals
+ * stay blocked in the thread, so that handlers run in the main one. */
 void alive_begin(const char *dir, const char *program, int rank)
 {
     pthread_t thread;
@@ -110,6 +117,8 @@ static void look(struct person *p, double now)
     }
 }
 
+/* A look at most LOOKS times within the patience. After a pause of its own this process judges
+ * nobody: the others' signs may be older than its last look only because it did not look. */
 bool alive_silent(char *text, int size)
 {
     const double now = wire_time(), since = now - self.looked;

@@ -62,6 +62,7 @@ static void sleep_ms(long ms)
         continue;
 }
 
+/* true: this process was the first, or there is no place for notes. */
 bool failure_note(const char *text)
 {
     if (!self.path[0])
@@ -118,6 +119,7 @@ bool failure_seen(void)
     return true;
 }
 
+/* A signal of number 0 asks whether a process of this host is there. Safe in handlers. */
 bool failure_witness(void)
 {
     for (int i = 0; i < self.nwatched && self.open && !self.dying; i++) {
@@ -136,6 +138,8 @@ bool failure_witness(void)
     return false;
 }
 
+/* Last words of a process that the launcher ends: the cause, as the note has it, or what is known.
+ * Called from signal handlers. */
 void failure_obituary(int fd)
 {
     char note[TEXT], text[TEXT] = "";
@@ -278,6 +282,7 @@ static void guard(void)
         signal(SIGTERM, on_term);
 }
 
+/* Twice in a handshake: by the world's rank first, then by that in the program. */
 void failure_open(MPI_Comm world, const char *program, int rank)
 {
     static bool hooked;

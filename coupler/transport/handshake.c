@@ -34,6 +34,7 @@ static bool speaks(const struct hello *all, const int *heard, int rank)
     return true;
 }
 
+/* Names who was not heard; of the ranks that know, one of each program speaks. */
 static _Noreturn void too_late(MPI_Comm world, const struct hello *all, const int *heard, double s)
 {
     char text[400] = "";
@@ -70,7 +71,8 @@ static void name_host(char *to, size_t size)
         snprintf(to, size, "%.30s~%016llx", name, (unsigned long long)hash);
 }
 
-/* Records of all ranks of the world. */
+/* Records of all ranks of the world. Every rank tells every other one who it is, point to point,
+ * with a deadline: size^2 messages of 128 bytes, once. */
 static struct hello *exchange(MPI_Comm world, const char *name, int version, int rank, int size,
                               double deadline)
 {
@@ -118,6 +120,8 @@ static int by_name(const void *a, const void *b)
                   ((const struct handshake_program *)b)->name);
 }
 
+/* By name, in alphabetical order, so that all ranks number them alike; the leader is the lowest
+ * rank of the world. */
 static void list_programs(struct handshake *h, const struct hello *all, int size)
 {
     for (int r = 0; r < size; r++) {
@@ -176,6 +180,8 @@ static void check_programs(struct handshake *h)
     }
 }
 
+/* An intercommunicator between the coupler and each solver. Solvers have none with each other: all
+ * goes by way of the coupler. */
 static void connect(MPI_Comm world, struct handshake *h)
 {
     struct handshake_program *const cpl = &h->program[h->coupler];
@@ -228,6 +234,8 @@ static void check_name(const char *name)
     failure_die(EXIT_INPUT, text);
 }
 
+/* Returns 0 or -2, on all ranks alike, with the reason in h->text. A program alone has passed as
+ * well, and has no job. */
 int handshake(MPI_Comm world, const char *name, double deadline_s, int version, struct handshake *h)
 {
     int rank, size;

@@ -1,4 +1,7 @@
-/* region.c - which points and cells are wanted. SPDX-License-Identifier: BSD-3-Clause */
+/* region.c - which points and cells are wanted: see region.h. The test of a point costs a look at
+ * one byte for each of its images, so that a giver's rank may test all of its points at every put.
+ * Both ends use the same function (region_images), so that what is sent is what is used.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "region.h"
 
 #include <math.h>
@@ -54,6 +57,8 @@ static void fit(struct region *r, double R, long n, const double *x, int reach)
     }
 }
 
+/* A source within R of a target lies in the target's cell or in one next to it, the edge being R or
+ * more: reach is 1 cell, and `slack' more. */
 struct region region_around(int dim, double R, const double period[3], long n, const double *x,
                             int slack)
 {
@@ -83,6 +88,8 @@ static int index_of(double x, double origin, double spacing)
     return (int)fmin(fmax(floor((x - origin) / spacing), -5e8), 5e8);
 }
 
+/* MARGIN: a cubic stencil reaches two cells from a place, the averages' second difference one
+ * more. */
 void region_cells(int dim, const double origin[3], const double spacing[3], const int cells[3],
                   const int periodic[3], const double lo[3], const double hi[3], int first[3],
                   int last[3])
@@ -127,6 +134,7 @@ static bool boxes_hold(const struct region *a, const struct region_box *b)
     return false;
 }
 
+/* Bit maps of other edges are not compared: a new one is sent. */
 bool region_holds(const struct region *a, const struct region *b)
 {
     if (a->all || b->all)
@@ -146,6 +154,8 @@ bool region_holds(const struct region *a, const struct region *b)
     return true;
 }
 
+/* One period to each side, which is enough for points and targets of one period and R less than
+ * it. */
 int region_images(const struct region *r, const double *x, double image[27][3])
 {
     int n = 0, shift[3], most[3];

@@ -156,7 +156,8 @@ int wire_add_peer(struct wire *w, MPI_Comm comm, int size, const char *name)
 static size_t piece_of(const struct wire *w) { return w->piece ? w->piece : LARGEST_PIECE; }
 
 /* Messages of one sender do not overtake each other, so the rest needs no numbers: the last piece
- * owns the memory. */
+ * owns the memory. Returns at once; the memory is freed when the message has gone
+ * (wire_flushed). */
 void wire_send(struct wire *w, int peer, int rank, struct pack *p)
 {
     const size_t most = piece_of(w);
@@ -185,7 +186,8 @@ void wire_send_all(struct wire *w, int peer, struct pack *p)
     *p = (struct pack){0};
 }
 
-/* Pieces of a message lie together, the owner of the memory first: it goes when all have gone. */
+/* Pieces of a message lie together, the owner of the memory first: it goes when all have gone.
+ * Called at each send and poll, which also lets MPI make progress. */
 bool wire_flushed(struct wire *w)
 {
     struct pending **link = &w->pending;
@@ -227,6 +229,8 @@ static void receive_rest(struct wire *w, int peer, int rank, struct message *m, 
     }
 }
 
+/* A message that is not of this version, or whose lengths do not fit together, ends the job:
+ * nothing behind it could be understood. */
 static struct message *receive(struct wire *w, int peer, MPI_Message *handle, MPI_Status *status)
 {
     struct message *m = wire_alloc(sizeof *m);
@@ -253,6 +257,8 @@ static struct message *receive(struct wire *w, int peer, MPI_Message *handle, MP
     return m;
 }
 
+/* Twice, as the first probe often only lets MPI take in what has arrived. Matched probes
+ * (MPI_Improbe), so that the message found is the one received. */
 struct message *wire_poll(struct wire *w, int peer)
 {
     const int first = peer < 0 ? 0 : peer, last = peer < 0 ? w->npeers - 1 : peer;
@@ -276,6 +282,8 @@ void nap_begin(struct nap *n)
     n->us = FIRST_NAP;
 }
 
+/* Spins at first, then naps that grow by a quarter each, up to LONG_WAIT of the time waited so far,
+ * but to SHORT_NAP at least: a wait is lengthened by 2 % or 0.2 ms at most. */
 void nap_take(struct nap *n)
 {
     const double waited = wire_time() - n->since;
