@@ -1,13 +1,11 @@
-/* surface_errors.c - what the water does as a whole: energy, reach, levels, period and damping of a
+/* surface_errors.c - what the water does as a whole: energy, reach, period and damping of a
  * standing wave. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
 #include "../boundary/blocked.h"
 #include "../boundary/forcing.h"
-#include "../boundary/still.h"
 #include "../operators/flow_measures.h"
 #include "../surface/fraction.h"
 #include "../surface/levelset.h"
@@ -145,66 +143,6 @@ double surface_reach(const struct fv *s, int a)
     return most;
 }
 
-/* Water of a cell in a column, over the cell, with what is cut out below it: a box is ground for
- * the water on it, and on the floor of the domain whether there is water or not. way: +1 or -1,
- * towards the ground; the result is in cells. */
-static double height_in_column(const struct fv *s, const int *at, int64_t c, int up, int way)
-{
-    if (!s->blocked)
-        return surface_water(s, c);
-    const int stack = blocked_stack(s, at, up, way), i = s->b.lo[up] + at[up];
-    const bool grounded = stack == (way < 0 ? i : s->b.cells[up] - 1 - i);
-    if (is_blocked(s, c))
-        return grounded;
-    const double share = surface_water(s, c);
-    return share + (share > 0.0 && !grounded ? stack : 0);
-}
-
-/* The lower one of the two cells of this rank whose centres lie around x along an axis, and their
- * weights. x beyond the outermost centres takes these. */
-static int columns_beside(const struct block *b, int a, double x, double weight[2])
-{
-    const double half = 0.5, top = b->cells[a] - half,
-                 place = fmin(top, fmax(half, (x - b->origin[a]) / b->h[a])) - half;
-    weight[1] = place - floor(place);
-    weight[0] = 1.0 - weight[1];
-    return (int)place - b->lo[a];
-}
-
-/* Two columns along gravity (in 3D four) around x, with weights, linear between their centres. This
- * rank's share of the height against gravity; the ground is added by rank 0. */
-double surface_level(const struct fv *s, const double *x)
-{
-    const struct block *b = &s->b;
-    const int up = still_upright(&s->run->scene);
-    const bool down = s->run->scene.fluid.gravity[up] > 0.0; /* the water hangs at the upper end */
-    double weight[3][2] = {{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}, sum = 0.0;
-    int first[3] = {0, 0, 0}, n[3] = {1, 1, 1}, at[3];
-    for (int a = 0; a < b->dim; a++) {
-        n[a] = a == up ? b->n[a] : 2;
-        if (a != up)
-            first[a] = columns_beside(b, a, x[a], weight[a]);
-    }
-    for (int m = 0; m < n[0] * n[1] * n[2]; m++) {
-        const int of[3] = {m % n[0], m / n[0] % n[1], m / n[0] / n[1]};
-        bool own = true;
-        double w = 1.0;
-        for (int a = 0; a < 3; a++) {
-            at[a] = first[a] + of[a];
-            own = own && at[a] >= 0 && at[a] < b->n[a];
-            w *= a == up ? 1.0 : weight[a][of[a]];
-        }
-        if (own && w > 0.0)
-            sum += w * block_size(b, up, at[up]) *
-                   height_in_column(s, at, block_at(b, at[0], at[1], at[2]), up, down ? 1 : -1);
-    }
-    int rank;
-    MPI_Comm_rank(b->cart, &rank);
-    const double ground = down ? -(b->origin[up] + b->length[up]) : b->origin[up];
-    return sum + (rank == 0 ? ground : 0.0); /* against gravity, as keys of levels are */
-}
-
-/* int w^2/2 over the water, m^dim/s^2. Collective. */
 static double enstrophy(const struct fv *s)
 {
     double sum = 0.0;

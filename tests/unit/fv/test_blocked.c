@@ -189,15 +189,23 @@ static void shafts_have_their_own_levels(void **state)
     end(&c);
 }
 
-/* The height of the surface, over what stands on the floor and what hangs in the water, and the
- * ground where there is no water. */
+/* The height of the surface, over what stands on the floor and what hangs in the water, beside it,
+ * and the ground where there is no water. */
 static void gauges_read_over_boxes(void **state)
 {
     (void)state;
     static const struct {
         double water, top, x, level; /* of the water, the sill; the gauge and what it reads */
-    } all[] = {{0.4, 0.2, 0.45, 0.4}, {0.4, 0.2, 0.2, 0.4}, {0.4, 0.2, 0.7, 0.4},
-               {0.4, 0.6, 0.2, 0.6},  {0.1, 0.2, 0.2, 0.2}, {0.1, 0.2, 0.7, 0.1}};
+    } all[] = {{0.4, 0.2, 0.45, 0.4},
+               {0.4, 0.2, 0.2, 0.4},
+               {0.4, 0.2, 0.7, 0.4},
+               {0.4, 0.6, 0.2, 0.6},
+               {0.1, 0.2, 0.2, 0.2},
+               {0.1, 0.2, 0.7, 0.1},
+               /* on the faces of a sill that stands out of the water, and just within */
+               {0.4, 0.6, 0.1, 0.4},
+               {0.4, 0.6, 0.3, 0.4},
+               {0.4, 0.6, 0.29, 0.6}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         struct fv_case c;
         const struct scene_shape water = {.form = SHAPE_BELOW, .level = all[k].water};
