@@ -1,13 +1,13 @@
-/* even_probes.c - what gauges read on uniform cells and layers: linear between the centres of cells
- * and beyond them at a wall; past boxes that are cut out. A gauge is read by the rank that has the
- * lower one of the cells around it; all others give 0, and one sum over ranks has the value
- * (fv_probes.c). Weights go beyond [0, 1] at walls, which extrapolates linearly.
+/* even_probes.c - what gauges read on uniform cells and layers: by polynomials (even_value.c); near
+ * and under a surface pressures, and what else has no room for them, linear between the centres of
+ * cells and beyond them at a wall; past boxes that are cut out.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
 #include "../boundary/blocked.h"
 #include "../boundary/still.h"
 #include "../surface/levelset.h"
+#include "even_value.h"
 #include "probe_flow.h"
 
 /* The layer below y, so that it and the next one are layers of the grid; *weight of the next. */
@@ -50,16 +50,6 @@ static int64_t host_at(const struct fv *s, const int *i, const double *w)
     return block_at(&s->b, host[0], host[1], host[2]);
 }
 
-/* Whether no fluid is there: in a box, behind a closed side. */
-static bool is_solid(const struct fv *s, const int *at)
-{
-    const struct block *b = &s->b;
-    for (int a = 0; a < b->dim; a++)
-        if (!b->periodic[a] && (b->lo[a] + at[a] < 0 || b->lo[a] + at[a] >= b->cells[a]))
-            return true;
-    return is_blocked(s, block_at(b, at[0], at[1], at[2]));
-}
-
 /* A gauge that lies in a box, whose faces went to those of cells, belongs to the given face that is
  * next: the first free cell there. Ties go to the lower axis. */
 static void leave_box(const struct fv *s, const double *x, int *host)
@@ -72,7 +62,7 @@ static void leave_box(const struct fv *s, const double *x, int *host)
             const double *face = up ? s->prm.boxes[box].max : s->prm.boxes[box].min;
             int to[3] = {host[0], host[1], host[2]};
             to[a] += up ? 1 : -1;
-            if (is_solid(s, to) || !(fabs(face[a] - x[a]) < nearest))
+            if (even_is_solid(s, to) || !(fabs(face[a] - x[a]) < nearest))
                 continue;
             nearest = fabs(face[a] - x[a]);
             axis = a;
@@ -95,7 +85,7 @@ static void look_past_boxes(const struct fv *s, const double *x, int *i, double 
         const bool up = at >= host[a];
         int to[3] = {host[0], host[1], host[2]};
         to[a] += up ? 1 : -1;
-        i[a] = host[a] - (up == is_solid(s, to));
+        i[a] = host[a] - (up == even_is_solid(s, to));
         w[a] = at - i[a];
     }
 }
@@ -144,6 +134,16 @@ static double linear(const struct fv *s, const double *q, const int *i, const do
     return sum;
 }
 
+/* Pressure under a surface is linear: it may have kinks where water hits. */
+static double value_of(const struct fv *s, const double *q, const double *x, const int *i,
+                       const double *w)
+{
+    double value;
+    if ((q || !s->surface) && even_value(s, q, x, i, w, &value))
+        return value;
+    return linear(s, q, i, w);
+}
+
 /* Whether water is at a place of this rank. */
 static bool find_water(const struct fv *s, const double *x, int i[3], double w[3])
 {
@@ -162,7 +162,7 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
     if (!find_water(s, x, i, w))
         return;
     for (int a = 0; a < nq; a++)
-        here[a] = linear(s, q[a], i, w);
+        here[a] = value_of(s, q[a], x, i, w);
     here[nq] = -1.0;
 }
 
@@ -182,7 +182,7 @@ static double discharge_of(struct fv *s, const struct scene_probe *g)
         if (s->blocked)
             look_past_boxes(s, f.x[k], i, w);
         for (int a = 0; a < s->dim; a++)
-            v[a] = linear(s, s->u[a], i, w);
+            v[a] = f.across[a] != 0.0 ? value_of(s, s->u[a], f.x[k], i, w) : 0.0;
         v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f.step;
     }
     const double sum = flow_samples_sum(&f, s->dim);

@@ -83,7 +83,7 @@ static double level_at(struct fv *s, const double *x)
 static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUES])
 {
     for (int a = 0; a < s->dim; a++)
-        here[a] = mesh_value_at(s, s->output->search, x, 2, s->u[a]);
+        here[a] = mesh_value_at(s, s->output->search, x, s->surface ? 2 : 0, s->u[a]);
     here[3] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : 0.0;
 }
 
@@ -94,7 +94,7 @@ bool mesh_is_out(const struct fv *s, const double *x)
 
 static void point_of(const struct fv *s, const double *x, int nq, double *const *q, double *here)
 {
-    const int width = q[0] || s->surface ? 2 : 0;
+    const int width = s->surface ? 2 : 0;
     for (int a = 0; a < nq; a++)
         here[a] = mesh_value_at(s, s->output->search, x, width, q[a]);
     here[nq] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : -1.0;

@@ -1,0 +1,141 @@
+/* test_fv_gauges.c - gauges of velocity and discharge read averages of a cubic exactly, up to walls
+ * and boxes and under a surface, whatever stands in the air; on a stretched block they are of
+ * fourth order. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../fv/boundary/blocked.h"
+#include "../../../fv/surface/levelset.h"
+#include "fv_bc_case.h"
+#include "mesh_case.h"
+
+#define REST "initial.field=\"rest\"", "domain.periodic=(true,false,false)"
+
+/* A cubic of y and its integral. */
+static double cubic(double y) { return 1.0 + y * (2.0 - 3.0 * y * (1.0 - 2.0 * y)); }
+static double integral(double y) { return y * (1.0 + y * (1.0 + y * (-1.0 + 1.5 * y))); }
+
+static void add_gauge(struct scene *s, int kind, double y, double to)
+{
+    s->probes[s->nprobes++] =
+        (struct scene_probe){.kind = kind, .at = {0.3, y, 0.0}, .to = {0.3, to, 0.0}};
+}
+
+/* Averages of the cubic below `top', m, nonsense above and in boxes. */
+static void set_velocity(struct fv *s, double top)
+{
+    BLOCK_CELLS (&s->b, i, j, k, c) {
+        double x[3], h[3];
+        block_cell(&s->b, i, j, k, x, h);
+        const double low = x[1] - 0.5 * h[1], high = low + h[1];
+        const bool wet = x[1] < top && !is_blocked(s, c);
+        s->u[0][c] = wet ? (integral(high) - integral(low)) / h[1] : 1e3;
+        s->u[1][c] = 0.0;
+    }
+}
+
+/* Gauges at a wall (or on a box), beside it, in the middle, and of what flows between two heights
+ * that are faces of cells. */
+static void reads_the_cubic(struct fv_case *c, double low, double high, double top)
+{
+    double values[8];
+    struct scene *scene = &c->run.scene;
+    add_gauge(scene, PROBE_VELOCITY, low, 0.0);
+    add_gauge(scene, PROBE_VELOCITY, low + 0.013, 0.0);
+    add_gauge(scene, PROBE_VELOCITY, low + 0.21, 0.0);
+    add_gauge(scene, PROBE_DISCHARGE, high, low);
+    wall_add(c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+    wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
+    struct fv *s = fv_case_start(c, NULL);
+    set_velocity(s, top);
+    fv_probe(s, values);
+    const double y[3] = {low, low + 0.013, low + 0.21};
+    for (int n = 0; n < 3; n++) {
+        assert_close(values[2 * n], cubic(y[n]), 1e-12);
+        assert_close(values[2 * n + 1], 0.0, 1e-12);
+    }
+    /* 400 samples: (1/400)^2/24 of the slopes' difference, 12 */
+    assert_close(fabs(values[6]), integral(high) - integral(low), 4e-6);
+    fv_free(&c->s);
+    blocked_given_count = 0;
+}
+
+static void cells_and_layers(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
+    reads_the_cubic(&c, 0.0, 1.0, 2.0);
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){REST, "fv.cells=(8,24)", "fv.graded=(0.5,8)", NULL});
+    reads_the_cubic(&c, 0.0, 1.0, 2.0);
+}
+
+static void beside_a_box(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    blocked_given[0] = (struct blocked_params){
+        .name = "sill", .min = {0, 0, 0}, .max = {1, 0.25, 0}, .kind = WALL_NO_SLIP};
+    blocked_given_count = 1;
+    fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
+    reads_the_cubic(&c, 0.25, 1.0, 2.0);
+}
+
+static void under_a_surface(void **state)
+{
+    (void)state;
+    struct fv_case c;
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){REST, "fv.surface=\"yes\"", "fluid.gravity=(0,-9.81)",
+                                      "fv.cells=(8,16)", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] =
+        (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
+    reads_the_cubic(&c, 0.0, 0.5, 0.5);
+}
+
+/* Error of the readings of a channel that a lid drives, u = y once steady. */
+static double stretched_error(int n)
+{
+    char block[512];
+    struct mesh_case c;
+    double values[4], most = 0.0;
+    snprintf(block, sizeof block,
+             "{ mapping = \"stretched\"; min = (0, 0); max = (1, 1); stretch = (0, -2); cells = "
+             "(8, %d); i_min = \"periodic\"; i_max = \"periodic\"; j_min = \"wall\"; j_max = "
+             "\"wall\"; lid = \"j_max\"; velocity = (1, 0); }",
+             n);
+    const double y[2] = {0.0, 0.1};
+    mesh_case_read(&c, MPI_COMM_WORLD, block,
+                   (const char *const[]){"initial.field=\"rest\"", "fluid.nu=1",
+                                         "domain.periodic=(true,false)", NULL});
+    for (int k = 0; k < 2; k++)
+        add_gauge(&c.run.scene, PROBE_VELOCITY, y[k], 0.0);
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    assert_true(mesh_case_run(s, 1000, 3.0)); /* exp(-pi^2 nu t) is 1e-13 */
+    fv_probe(s, values);
+    for (int k = 0; k < 2; k++)
+        most = fmax(most, fabs(values[2 * k] - y[k]));
+    mesh_case_end(&c, &s);
+    return most;
+}
+
+static void stretched_blocks(void **state)
+{
+    (void)state;
+    const double coarse = stretched_error(16), fine = stretched_error(32);
+    print_message("stretched: %.3g, %.3g\n", coarse, fine);
+    assert_true(log2(coarse / fine) > 3.0);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_and_layers), cmocka_unit_test(beside_a_box),
+        cmocka_unit_test(under_a_surface), cmocka_unit_test(stretched_blocks)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
