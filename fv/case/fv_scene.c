@@ -191,40 +191,27 @@ static void check_falling(const struct run *r, struct faults *f)
 
 /* --- free surface --- */
 
-static double height_of(const double *g, const double *x)
-{
-    return -(g[0] * x[0] + g[1] * x[1] + g[2] * x[2]) /
-           sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-}
-
 /* Water beyond the highest side would be lost in silence; beyond the others walls hold it. */
 static void check_shape(const struct run *r, struct faults *f, int k)
 {
     const struct scene *s = &r->scene;
     const struct scene_shape *h = s->shapes + k;
-    const double *g = s->fluid.gravity, *min = s->domain.min, *max = s->domain.max;
+    const double *min = s->domain.min, *max = s->domain.max;
     const int dim = s->domain.dim;
-    double lo[3], hi[3], bottom = INFINITY, top = -INFINITY, g2 = 0.0;
+    double lo[3], hi[3], g[3], bottom, top;
+    const double size = scene_still_gravity(s, g);
     char key[32];
     snprintf(key, sizeof key, "shapes.[%d]", k);
-    for (int c = 0; c < 1 << dim; c++) {
-        const double x[3] = {c & 1 ? max[0] : min[0], c & 2 ? max[1] : min[1],
-                             c & 4 ? max[2] : min[2]};
-        const double y = height_of(g, x);
-        bottom = fmin(bottom, y);
-        top = fmax(top, y);
-    }
+    scene_heights(s, &bottom, &top);
     if (h->form == SHAPE_BELOW && !(h->level > bottom && h->level < top))
         params_fault(r->params, f, key,
                      "shape %d: its level, %g m, lies outside the domain, which reaches from %g to "
                      "%g m against gravity",
                      k + 1, h->level, bottom, top);
     scene_shape_extent(h, lo, hi);
-    for (int a = 0; a < dim; a++)
-        g2 += g[a] * g[a];
     for (int a = 0; a < dim; a++) {
         const double eps = 1e-9 * (max[a] - min[a]);
-        const bool up = !s->domain.periodic[a] && fabs(g[a]) > 0.7 * sqrt(g2);
+        const bool up = size > 0.0 && fabs(g[a]) > 0.7 * size;
         if (!(hi[a] > min[a] + eps && lo[a] < max[a] - eps))
             params_fault(r->params, f, key, "shape %d: it lies outside the domain along %c", k + 1,
                          axes[a]);
