@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/scene/scene_openings.h"
 #include "bc.h"
 #include "carried.h"
 #include "forcing.h"
@@ -88,8 +89,16 @@ static double discharged(const struct fv *s, const struct outflow *o, int q, int
     return size > 0.0 && all > 0.0 ? o->discharge / all * o->S[q][i] / size : 0.0;
 }
 
-/* Convective sides start with the value extrapolated from three cells, (11 u_0 - 7 u_1 + 2
- * u_2)/6. */
+bool outflow_pushes(const struct fv *s)
+{
+    bool any = false;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * s->dim; side++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, side);
+        any = any || (w && w->has_discharge && wall_discharge(w, s->t) != 0.0);
+    }
+    return any;
+}
+
 void outflow_start(struct fv *s)
 {
     if (!s->outflows)

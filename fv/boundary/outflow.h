@@ -10,6 +10,8 @@
 
 /* Takes the velocities of the start from inside. */
 void outflow_start(struct fv *s);
+/* Whether a discharge that the case gives moves the water at this time, on all ranks alike. */
+bool outflow_pushes(const struct fv *s);
 /* Under a surface, at the start: what comes in from outside has this state from now on. */
 void outflow_meet_level(struct fv *s);
 /* Before a step: keeps the flow inside. Collective, as outflow_set. */

@@ -132,12 +132,13 @@ static void find_pressure(struct fv *s, double dt)
 }
 
 /* Pressure that belongs to the velocities of the start: short steps from the same state, until
- * their increments have made it. An inflow that starts at once pushes the whole flow, the harder
- * the shorter these steps are: there the first step finds the pressure, whatever its level. */
+ * their increments have made it. An inflow or a discharge that starts at once pushes the whole
+ * flow, the harder the shorter these steps are: there the first step finds the pressure, whatever
+ * its level. */
 void pressure_start(struct fv *s)
 {
     /* newton has no use for the pressure before, but the first output has */
-    if ((s->newton && !s->surface) || sides_kinds(s) & 1u << MESH_INFLOW)
+    if ((s->newton && !s->surface) || sides_kinds(s) & 1u << MESH_INFLOW || outflow_pushes(s))
         return;
     const size_t bytes = (size_t)s->size * sizeof(double);
     const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);

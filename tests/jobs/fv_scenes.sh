@@ -20,5 +20,25 @@ fv:      { cells = (16, 24); };
 END
 run slope
 near "$(last slope/series.csv film)" -11.09 1e-9 || bad "a film on a slope stands at $(last slope/series.csv film) m" slope.txt
+# a discharge that opens at once over water at rest: the first row has the weight of the water, on cells and on blocks, on any
+# ranks (the pressure of the push is without bounds: it showed 1.7 and 255 kN)
+cat >push.cfg <<'END'
+format = 1;
+time:    { end = 0.02; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (2, 0.5); };
+walls:   ( { side = "x_min"; kind = "inflow"; discharge = 0.1; }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; } );
+shapes:  ( { box = ((0, 0), (0.5, 0.1)); } );
+fv:      { cells = (64, 32); };
+output:  { series = 1; };
+END
+sed 's/^fv:.*/fv: { };\nblocks: ( { max = (2, 0.5); cells = (64, 32); j_max = "slip"; } );/' push.cfg >push_block.cfg
+first() { awk -F, -v name="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, name) == 1) c = i } NR == 2 { print $c }' "$1"; }
+run push
+run push_block
+$mpi -np 2 "$b/fv" push.cfg -o push2 >push2.txt 2>&1 || bad "push on two ranks ends with $?" push2.txt
+for name in push push_block push2; do
+    near "$(first $name/series.csv 'force y')" -490.5 1 || bad "$name: first force $(first $name/series.csv 'force y') N" $name.txt
+done
 echo "fv_scenes: $failed faults"
 [ $failed = 0 ]
