@@ -313,6 +313,19 @@ static void check_shores(const struct run *r, struct faults *f)
     }
 }
 
+/* Without a surface fluid fills the domain, whatever the level. */
+static void warn_of_level(const struct scene *s)
+{
+    double low, high;
+    scene_heights(s, &low, &high);
+    if (s->initial.level > low && s->initial.level < high)
+        log_warn(
+            "initial.level: %g m lies in the domain, but there is no free surface: fluid fills "
+            "it up to %g m, and pressures above the level are negative; for water up to a "
+            "level give shapes = ( { form = \"below\"; level = %g; } )",
+            s->initial.level, high, s->initial.level);
+}
+
 void surface_check(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -325,6 +338,8 @@ void surface_check(const struct run *r, struct faults *f)
                          "surface; leave it on auto, or let the box span the domain");
         if (!r->coupled && scene_has_wave(s))
             params_fault(r->params, f, "initial.field", "a wave needs a free surface: fv.surface");
+        if (!r->coupled)
+            warn_of_level(s);
         return;
     }
     if (r->coupled && !r->crossed)

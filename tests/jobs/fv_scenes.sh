@@ -40,5 +40,12 @@ $mpi -np 2 "$b/fv" push.cfg -o push2 >push2.txt 2>&1 || bad "push on two ranks e
 for name in push push_block push2; do
     near "$(first $name/series.csv 'force y')" -490.5 1 || bad "$name: first force $(first $name/series.csv 'force y') N" $name.txt
 done
+# a level alone makes no surface, which the run says
+sed 's/^shapes:.*/initial: { level = 0.3; };/; s/^walls:.*/walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );/' push.cfg >full.cfg
+run full
+grep -q '^warning: initial.level: 0.3 m .*no free surface.*form = "below"' full.txt || bad "a level without a surface passes without a word" full.txt
+sed -i 's/level = 0.3/level = 0.5/' full.cfg
+run full
+! grep -q 'warning: initial.level' full.txt || bad "a level on the top of the domain is warned of" full.txt
 echo "fv_scenes: $failed faults"
 [ $failed = 0 ]
