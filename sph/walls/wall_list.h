@@ -33,6 +33,8 @@ struct wall_near {
     int mesh, facet;
 };
 
+struct thin_piece; /* wall_thin3.c */
+
 /* The list. All arrays are owned; zeroed memory is empty. */
 struct wall_list {
     int n, capacity;
@@ -58,6 +60,9 @@ struct wall_list {
      * list and its time */
     int rims_capacity;
     double (*rim)[3], (*seen_from)[3], listed_at;
+    int pieces_capacity, shown_capacity; /* of the particle at hand, beside thin walls */
+    struct thin_piece *piece;
+    double *shown;
     int shares_capacity;
     double *share; /* see wall_list_shares */
     struct wall_integrals *asked;

@@ -40,6 +40,8 @@ void wall_list3_free(struct wall_list *l)
     mem_free(l->near);
     mem_free(l->rim);
     mem_free(l->seen_from);
+    mem_free(l->piece);
+    mem_free(l->shown);
 }
 
 const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t)

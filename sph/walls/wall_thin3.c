@@ -10,6 +10,7 @@
 
 #include "../../common/base/mem.h"
 #include "../../common/base/vec3.h"
+#include "wall_shadow.h"
 
 bool wall_list3_any_thin(const struct walls *w)
 {
@@ -91,52 +92,154 @@ void wall_list3_cut(const struct sph *s, struct wall_list *l)
 
 /* --- what is seen --- */
 
-/* Triangles of a solid that turn their back, and those behind others, count for nothing; a sheet
- * has two faces. */
-static void shade(const struct sph *s, const double *x, struct wall_touch *t)
+/* A piece of wall that hides others. */
+struct thin_piece {
+    struct shadow_caster is;
+    int touch; /* from the particle's first */
+    bool thin;
+    double share; /* -: of it, what nothing hides */
+};
+
+/* Corners of a touch's triangle, as the particle at x sees it. */
+static void corners_of(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                       const double *x, double (*v)[3])
 {
-    const struct wall_mesh *m = s->walls->meshes + t->of;
-    double own[3], to[3], where;
-    if (t->height < 0.0 && !m->mesh.closed) {
+    const struct facet *f = wall_list3_facet(l, t);
+    for (int k = 0; k < 3; k++) {
+        wall_mesh_to_world(s->walls->meshes + t->of, f->v[k], v[k]);
+        vec3_from(x, v[k], v[k]);
+    }
+}
+
+static bool is_thin(const struct sph *s, const struct wall_touch *t)
+{
+    return s->walls->meshes[t->of].thin;
+}
+
+/* Triangles of a thin solid that turn their back count for nothing; a sheet has two faces. */
+static void turn_face(const struct sph *s, struct wall_touch *t)
+{
+    if (t->height < 0.0 && !s->walls->meshes[t->of].mesh.closed) {
         t->height = -t->height;
         t->is.gamma = -t->is.gamma;
         for (int a = 0; a < 3; a++)
             t->n[a] = -t->n[a];
     }
-    bool hidden = t->height <= 0.0;
-    if (!hidden && t->is.W > 0.0) {
-        for (int a = 0; a < 3; a++)
-            to[a] = x[a] + t->is.e[a];
-        wall_list3_to_own(s, t, x, own);
-        wall_list3_to_own(s, t, to, to);
-        hidden = tree_crosses(m->tree, own, to, &where) && where < 1.0 - 1e-6;
-    }
-    if (hidden)
+    if (t->height <= 0.0)
         t->is = (struct wall_integrals){0};
 }
 
-/* What the plane through x and an edge has of the kernel beyond the edge, as a vector along its
- * normal, towards the triangle that is seen. */
-static void add_edge(const struct facet *f, int edge, const double *x, double R, double *sum)
+/* The pieces within the support that show the particle their face. */
+static int gather(const struct sph *s, struct wall_list *l, int k)
 {
-    double to[3], N[3], out[3];
-    const double W = facet_rim(f, edge, x, R);
-    vec3_from(x, f->v[edge], to);
-    vec3_cross(to, f->t[edge], N);
-    vec3_from(x, f->centre, out);
-    const double size = vec3_unit(N);
-    for (int a = 0; a < 3 && size > 0.0; a++)
-        sum[a] += vec3_dot(N, out) > 0.0 ? W * N[a] : -W * N[a];
+    const double *x = prim_line(&s->p, l->who[k]);
+    struct wall_touch *t = l->touch + l->first[k];
+    const int n = l->first[k + 1] - l->first[k];
+    int pieces = 0;
+    if (n > l->pieces_capacity) {
+        GROW(l->piece, l->pieces_capacity, 2 * n);
+        l->pieces_capacity = 2 * n;
+    }
+    for (int j = 0; j < n; j++, t++) {
+        double v[3][3];
+        const bool thin = is_thin(s, t);
+        if (thin)
+            turn_face(s, t);
+        if (!(t->is.W > 0.0) || !(t->height > 0.0))
+            continue;
+        corners_of(s, l, t, x, v);
+        if (shadow_caster_of(v, &l->piece[pieces].is)) {
+            l->piece[pieces].touch = j;
+            l->piece[pieces].thin = thin;
+            l->piece[pieces++].share = 1.0;
+        } else if (thin) {
+            t->is = (struct wall_integrals){0};
+        }
+    }
+    return pieces;
 }
 
-static void add_rims(const struct sph *s, const struct wall_list *l, const double *x,
-                     const struct wall_touch *t, double *rim)
+/* Adds to *sum what the pieces, thin ones alone or all, hide of the polygon y[n] of touch j. */
+static void add_hidden(const struct sph *s, const struct wall_list *l, int pieces, bool thin_alone,
+                       int j, int n, double (*y)[3], struct wall_integrals *sum)
 {
+    for (const struct thin_piece *c = l->piece; c < l->piece + pieces; c++) {
+        struct wall_integrals is = {0};
+        if (c->touch == j || (thin_alone && !c->thin) || c->share == 0.0)
+            continue;
+        shadow_add(&c->is, n, y, s->R, &is);
+        sum->gamma += c->share * is.gamma;
+        sum->W += c->share * is.W;
+        vec3_add(sum->e, c->share, is.e);
+    }
+}
+
+/* Of thin pieces, what other thin ones do not hide: so much of a shadow is not theirs already. What
+ * stands behind a solid shades nothing before it. */
+static void find_shares(const struct sph *s, struct wall_list *l, int k, int pieces)
+{
+    const struct wall_touch *t = l->touch + l->first[k];
+    for (struct thin_piece *c = l->piece; c < l->piece + pieces; c++) {
+        struct wall_integrals sum = {0};
+        if (!c->thin)
+            continue;
+        const double before = c->share;
+        add_hidden(s, l, pieces, true, c->touch, 3, c->is.v, &sum);
+        l->shown[c - l->piece] = fmax(0.0, before - sum.W / t[c->touch].is.W);
+    }
+    for (int m = 0; m < pieces; m++)
+        if (l->piece[m].thin)
+            l->piece[m].share = l->shown[m] > 1e-9 ? l->shown[m] : 0.0;
+}
+
+/* Takes from a touch what is hidden of it. */
+static void take_hidden(const struct sph *s, const struct wall_list *l, int k, int pieces, int j)
+{
+    struct wall_touch *t = l->touch + l->first[k] + j;
+    struct wall_integrals sum = {0};
+    double v[3][3];
+    corners_of(s, l, t, prim_line(&s->p, l->who[k]), v);
+    add_hidden(s, l, pieces, !is_thin(s, t), j, 3, v, &sum);
+    if (sum.W == 0.0)
+        return;
+    const double W = t->is.W - sum.W, turned = t->is.gamma * sum.gamma < 0.0 ? -1.0 : 1.0;
+    t->is.gamma -= turned * sum.gamma;
+    for (int a = 0; a < 3; a++)
+        t->is.e[a] = (t->is.W * t->is.e[a] - sum.e[a]) / W;
+    t->is.W = W;
+    if (!(W * s->R > 1e-9)) {
+        t->is = (struct wall_integrals){0};
+        t->foot = false;
+    }
+}
+
+/* What the plane through x and an edge has of the kernel beyond the edge and sees, as a vector
+ * along its normal, towards the triangle that is seen. */
+static void add_edge(const struct sph *s, const struct wall_list *l, int pieces,
+                     const struct thin_piece *c, double W, int edge, double *sum)
+{
+    const double *a = c->is.v[edge], *b = c->is.v[(edge + 1) % 3], *o = c->is.v[(edge + 2) % 3];
+    struct wall_integrals hidden = {0};
+    double N[3], y[4][3];
+    vec3_cross(a, b, N);
+    const double size = vec3_unit(N);
+    if (!(size > 0.0) || W == 0.0)
+        return;
+    shadow_beyond(a, b, s->R, y);
+    add_hidden(s, l, pieces, false, c->touch, 4, y, &hidden);
+    W = fmax(0.0, W - hidden.W);
+    vec3_add(sum, vec3_dot(N, o) > 0.0 ? W : -W, N);
+}
+
+static void add_rims(const struct sph *s, const struct wall_list *l, int k, int pieces,
+                     const struct thin_piece *c, double *rim)
+{
+    const struct wall_touch *t = l->touch + l->first[k] + c->touch;
     const struct wall_mesh *m = s->walls->meshes + t->of;
     const struct facet *f = wall_list3_facet(l, t);
     const int triangle = wall_list3_triangle(l, t);
-    double own[3], sum[3] = {0.0, 0.0, 0.0}, world[3], y[3];
-    wall_list3_to_own(s, t, x, own);
+    double own[3], y[3];
+    wall_list3_to_own(s, t, prim_line(&s->p, l->who[k]), own);
     vec3_from(own, f->v[0], y);
     const bool front = vec3_dot(f->n, y) > 0.0;
     for (int e = 0; e < 3; e++) {
@@ -147,11 +250,24 @@ static void add_rims(const struct sph *s, const struct wall_list *l, const doubl
             trimesh_normal(&m->mesh, other, n);
         }
         if (other < 0 || (vec3_dot(n, y) > 0.0) != front)
-            add_edge(f, e, own, s->R, sum);
+            add_edge(s, l, pieces, c, facet_rim(f, e, own, s->R), e, rim);
     }
-    wall_mesh_turn_to_world(m, sum, world);
-    for (int a = 0; a < 3; a++)
-        rim[a] += world[a];
+}
+
+static void shade(const struct sph *s, struct wall_list *l, int k)
+{
+    const int n = l->first[k + 1] - l->first[k], pieces = gather(s, l, k);
+    if (n > l->shown_capacity) {
+        GROW(l->shown, l->shown_capacity, 2 * n);
+        l->shown_capacity = 2 * n;
+    }
+    find_shares(s, l, k, pieces);
+    for (const struct thin_piece *c = l->piece; c < l->piece + pieces; c++)
+        if (c->thin && c->share > 0.0)
+            add_rims(s, l, k, pieces, c, l->rim[k]);
+    for (int j = 0; j < n; j++)
+        if (l->touch[l->first[k] + j].is.W > 0.0)
+            take_hidden(s, l, k, pieces, j);
 }
 
 void wall_list3_shade(const struct sph *s, struct wall_list *l)
@@ -159,14 +275,9 @@ void wall_list3_shade(const struct sph *s, struct wall_list *l)
     if (!wall_list3_any_thin(s->walls))
         return;
     for (int k = 0; k < l->n; k++) {
-        const double *x = prim_line(&s->p, l->who[k]);
         memset(l->rim[k], 0, sizeof *l->rim);
-        for (int j = l->first[k]; j < l->first[k + 1]; j++)
-            if (s->walls->meshes[l->touch[j].of].thin) {
-                shade(s, x, l->touch + j);
-                if (l->touch[j].is.W > 0.0)
-                    add_rims(s, l, x, l->touch + j, l->rim[k]);
-            }
+        if (has_thin(s, l, k))
+            shade(s, l, k);
     }
 }
 
