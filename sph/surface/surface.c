@@ -261,8 +261,11 @@ void surface_detect(struct sph *s)
     for (int i = 0; i < s->p.n; i++)
         classify(s, f, i);
     f->known = true;
-    if (s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO)
+    if (s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO) {
         find_near(s, f); /* else nobody asks */
+        if (s->walls && f->reach == s->R)
+            s->walls->near_surface = f->is;
+    }
 }
 
 /* Next to a surface div u is an error of the gradients, not sound. The damper would take it for

@@ -23,6 +23,7 @@
 #include "wall_gap.h"
 #include "wall_layers.h"
 #include "wall_list.h"
+#include "wall_rims.h"
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -590,7 +591,9 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     if (s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MORRIS)
         close_friction(s, l, k, &i, dim);
     const double wave = wave_factor(s, l, k, i.c * gamma_1, dim);
-    const struct given rim = l->rim ? rim_flux(s, l->rim[k], &i, dim) : (struct given){0};
+    double closed[3];
+    const struct given rim =
+        l->rim ? rim_flux(s, wall_rims_close(s, l, k, closed), &i, dim) : (struct given){0};
     const struct given all = all_fluxes(s, m, k, &i, &rim, wave, dim);
     credit(s, m, k, &i, pairs, &rim, &all, gamma_1, dim);
     for (int a = 0; a < dim; a++)

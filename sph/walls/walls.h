@@ -118,6 +118,9 @@ struct walls {
     /* [n] whether a local's support meets a wall; NULL: the model does not report it. */
     bool *beside;
     int beside_capacity;
+    /* [n] 0: farther than R from a free surface; borrowed of the present list's surface. NULL: not
+     * known. */
+    const unsigned char *near_surface;
     double speed;      /* m/s: 1.1 times the largest speed of a body in the next step */
     double dt_contact; /* s: step that the contact force is dimensioned for */
     double approach[BODIES_MAX][BODIES_MAX + 1];  /* m/s: at the first touch of a pair, last: walls

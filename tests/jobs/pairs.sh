@@ -8,6 +8,9 @@ pairs() { # N FIRST_SEED [ARGS]
     shift 2
     python3 "$root/tests/properties/pairs.py" --build "$b" -n "$n" --seed "$seed" "$@" >pairs.txt 2>&1 || bad "pairs of treatments" pairs.txt
 }
+pairs 3 5 --pair thin-side # sheets that part the water
+pairs 2 1 --pair thin-thin
+pairs 2 1 --pair thin-rim --most 1
 pairs 40 1000 --most 6
 echo "pairs: $(tail -n 1 pairs.txt); $failed faults"
 [ $failed = 0 ]

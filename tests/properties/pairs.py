@@ -425,25 +425,52 @@ def side_surface3(rng):
     return s
 
 
-def thin_mesh(s, rng, top):
-    """A sheet across the tank from side to side, near one of them, which ends between two heights."""
-    s.periodic = [False] * 3
-    s.sides[0, -1] = s.sides[0, 1] = s.sides[1, -1] = s.sides[1, 1] = {}
-    x = gap_of(rng) * s.dx
-    low, y = rng.choice([-s.dx, gap_of(rng) * s.dx]), s.hi[1] + s.dx
-    s.sheet("sheet.stl", [(x, -s.dx, low), (x, y, low), (x, y, top), (x, -s.dx, top)], "thin = true; ")
-    s.gauges([s.hi[0] - 3 * s.dx, 0.5 * s.hi[1]])
+def thin_mesh(s, rng, low, top):
+    """A sheet on a row of the lattice, across the tank from side to side or over the period, in which it
+    ends or goes on beyond it, between two heights; water 3 dx wide at least on either side."""
+    s.periodic = [False, s.periodic[1], False]
+    s.sides[0, -1] = s.sides[0, 1] = {}
+    if not s.periodic[1]:
+        s.sides[1, -1] = s.sides[1, 1] = {}
+    x, more = rng.randint(3, s.n[0] - 3) * s.dx, rng.choice([0.0, 1.0]) * s.dx
+    if s.periodic[1]:
+        more = 0.0
+    if low == 0.0:
+        low -= more
+    corners = [(x, -more, low), (x, s.hi[1] + more, low), (x, s.hi[1] + more, top), (x, -more, top)]
+    s.sheet("sheet.stl", corners, "thin = true; ")
+    s.gauges([rng.choice([0.5 * x, 0.5 * (x + s.hi[0])]), 0.5 * s.hi[1]])
     return s
 
 
 def thin_side(rng):
+    """From the floor to above the surface."""
+    s = tank3(rng, (9, 12))
+    return thin_mesh(s, rng, 0.0, s.depth + rng.uniform(1, 4) * s.dx)
+
+
+def thin_thin(rng):
+    """Two of them, with three rows or more of water between."""
+    s = tank3(rng, (9, 12))
+    s.n[0] += 4
+    s.hi[0] = s.n[0] * s.dx
+    s.periodic = [False] * 3
+    s.sides[0, -1] = s.sides[0, 1] = s.sides[1, -1] = s.sides[1, 1] = {}
+    a = rng.randint(3, 6)
+    for name, k in (("one", a), ("other", a + rng.randint(3, 5))):
+        more, x, top = rng.choice([0.0, s.dx]), k * s.dx, s.depth + rng.uniform(1, 4) * s.dx
+        y = s.hi[1] + more
+        s.sheet(name + ".stl", [(x, -more, -more), (x, y, -more), (x, y, top), (x, -more, top)], "thin = true; ")
+    s.gauges([(a + 1.5) * s.dx, 0.5 * s.hi[1]])
+    return s
+
+
+def thin_rim(rng):
+    """A skirt that pierces the surface, a baffle on the floor: one rim in the water."""
     s = tank3(rng, (11, 13))
-    return thin_mesh(s, rng, s.depth - rng.uniform(4, 6) * s.dx)
-
-
-def thin_surface(rng):
-    s = tank3(rng)
-    return thin_mesh(s, rng, s.depth + rng.uniform(-1, 3) * s.dx)
+    if rng.random() < 0.5:
+        return thin_mesh(s, rng, rng.uniform(2, 6) * s.dx, s.depth + rng.uniform(1, 4) * s.dx)
+    return thin_mesh(s, rng, 0.0, rng.uniform(4, s.d - 4) * s.dx)
 
 
 # ------------------------------------------------------------------ pairs: bodies that turn about a hinge or are driven
@@ -655,7 +682,7 @@ def fv_opening_side(rng):
 
 
 PAIRS = [
-    # name, treatments, weight (0: open, by name alone), scene
+    # name, treatments, weight (0: by name alone), scene
     ("body-floor", "body x side or line (floor)", 2, body_floor),
     ("body-side", "body x side or line (upright)", 2, body_side),
     ("body-corner", "body x two sides", 1, body_corner),
@@ -673,8 +700,9 @@ PAIRS = [
     ("free-side", "free body as heavy as water x side", 2, free_floor),
     ("mesh-side", "mesh of a body x sides and periods, 3D", 2, mesh_side),
     ("side-surface3", "side or period x free surface, 3D", 1, side_surface3),
-    ("thin-side", "thin mesh x sides, 3D", 0, thin_side),
-    ("thin-surface", "thin mesh x sides and free surface, 3D", 0, thin_surface),
+    ("thin-side", "thin mesh from the floor to above the surface x sides and periods, 3D", 0, thin_side),
+    ("thin-thin", "thin mesh x thin mesh, 3D", 0, thin_thin),
+    ("thin-rim", "rim of a thin mesh in water: a skirt, a baffle, 3D", 0, thin_rim),
     ("hinged-side", "hinged body x side or line", 1, hinged_side),
     ("hinged-surface", "hinged body x free surface", 1, hinged_surface),
     ("driven-side", "driven body x side or line", 1, driven_side),
