@@ -286,17 +286,28 @@ static void check_domain(const struct scene *s, const struct params *p, struct f
                                      : "");
 }
 
+/* Fields of waves run along x over a depth along y; what sides make runs along any axis. */
+static bool check_upright(const struct scene *s, const struct params *p, struct faults *f)
+{
+    const double *g = s->fluid.gravity;
+    const bool upright = g[0] == 0.0 && g[1] < 0.0 && g[2] == 0.0;
+    if (scene_has_wave(s) && !upright)
+        params_fault(p, f, "fluid.gravity",
+                     "the waves of initial.field have gravity along -y alone: turn the scene, or "
+                     "let a side make them (walls.kind = \"wave\"), under gravity along any axis");
+    return upright;
+}
+
 /* A wave field repeats itself only over whole wave lengths. */
 static void check_field(const struct scene *s, const struct params *p, struct faults *f)
 {
     const int field = s->initial.field;
     if (field == FIELD_BELTRAMI && s->domain.dim < 3)
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
-    if (scene_has_wave(s) && !(s->fluid.gravity[1] < 0.0))
-        params_fault(p, f, "fluid.gravity", "a wave needs gravity along -y");
+    const bool upright = check_upright(s, p, f);
     if (scene_has_steady_wave(s) && !(s->initial.level < LEVEL_TOP))
         params_fault(p, f, "initial.level", "a wave needs the level of the water at rest");
-    else if (scene_has_steady_wave(s)) {
+    else if (scene_has_steady_wave(s) && upright) {
         const struct exact e = exact_create(s);
         if (!(e.steady.c > 0.0))
             params_fault(

@@ -439,17 +439,14 @@ static void check_wave(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
     const struct scene_domain *d = &s->domain;
-    const double *g = s->fluid.gravity, L[3] = {s->initial.L, 0.0, s->initial.L_z};
+    const double L[3] = {s->initial.L, 0.0, s->initial.L_z};
     const bool standing = s->initial.field == FIELD_STANDING_WAVE;
-    const struct exact e = g[1] < 0.0 && s->initial.level < d->max[1] &&
-                                   s->initial.level > d->min[1] && s->initial.amplitude != 0.0
-                               ? exact_create(s)
-                               : (struct exact){0};
+    const struct exact e =
+        s->initial.level < d->max[1] && s->initial.level > d->min[1] && s->initial.amplitude != 0.0
+            ? exact_create(s)
+            : (struct exact){0};
     double crest =
         e.height > 0.0 && standing ? s->initial.level + fabs(s->initial.amplitude) : -INFINITY;
-    if (!(g[1] < 0.0) || g[0] != 0.0 || g[2] != 0.0)
-        params_fault(r->params, f, "fluid.gravity",
-                     "a wave needs gravity along -y, and no other component");
     if (s->initial.amplitude == 0.0)
         params_fault(r->params, f, "initial.amplitude", "a wave needs an amplitude");
     const double steep =
