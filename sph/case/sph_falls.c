@@ -9,6 +9,7 @@
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_geometry.h"
 #include "../../common/scene/scene_mesh.h"
+#include "../particles/params_derived.h"
 #include "sph_sense.h"
 
 enum { PLACES = 20000, FLIGHTS = 200, STRIDES = 4000 };
@@ -20,6 +21,13 @@ enum { NONE = -1 }; /* no side of the domain */
 
 struct parcel {
     double x[3], u[3]; /* m, m/s */
+};
+
+/* The particles' region: the domain, or a box in it. Through open sides water goes into the flow
+ * outside, which is known there, and is not lost. */
+struct fall_region {
+    double lo[3], hi[3]; /* m */
+    bool periodic[3], open[6];
 };
 
 /* Whether the way d from x meets a line. */
@@ -84,9 +92,10 @@ static bool is_water(const struct scene *c, const struct exact *e, const double 
     return scene_is_fluid(c, e, x, NULL) && scene_is_room(c, x) && !is_behind(c, x);
 }
 
-/* Side of the domain that a parcel leaves by, with x where it does; NONE: it is stopped, or flies
+/* Side of the region that a parcel is lost by, with x where it is; NONE: it is stopped, or flies
  * when the run ends. Strides are as long as a spacing or so. */
-static int leaves_by(const struct scene *c, struct parcel *p, const double *g, double stride)
+static int leaves_by(const struct scene *c, const struct fall_region *in, struct parcel *p,
+                     const double *g, double stride)
 {
     const double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     double t = 0.0, d[3] = {0.0, 0.0, 0.0};
@@ -101,29 +110,30 @@ static int leaves_by(const struct scene *c, struct parcel *p, const double *g, d
             return NONE;
         t += dt;
         for (int a = 0; a < c->domain.dim; a++) {
-            const double lo = c->domain.min[a], hi = c->domain.max[a];
+            const double lo = in->lo[a], hi = in->hi[a];
             p->x[a] += d[a];
             const int side = p->x[a] < lo ? 2 * a : p->x[a] > hi ? 2 * a + 1 : NONE;
-            if (side != NONE && c->domain.periodic[a])
+            if (side != NONE && in->periodic[a])
                 p->x[a] += side % 2 ? lo - hi : hi - lo;
             else if (side != NONE)
-                return scene_wall_of(c, SIDE_X_MIN + side) ? NONE : side;
+                return in->open[side] || scene_wall_of(c, SIDE_X_MIN + side) ? NONE : side;
         }
     }
     return NONE;
 }
 
-/* Places of a lattice of dx in the domain, at most so many, evenly among all; whether there is
+/* Places of a lattice of dx in the region, at most so many, evenly among all; whether there is
  * water at the k-th, and how it starts. */
 struct fall_places {
+    const struct fall_region *in;
     int64_t all[3], step, n;
 };
 
-static struct fall_places places_of(const struct scene *c, double dx)
+static struct fall_places places_of(const struct scene *c, const struct fall_region *in, double dx)
 {
-    struct fall_places p = {.all = {1, 1, 1}};
+    struct fall_places p = {.in = in, .all = {1, 1, 1}};
     for (int a = 0; a < c->domain.dim; a++)
-        p.all[a] = (int64_t)fmax(1.0, ceil((c->domain.max[a] - c->domain.min[a]) / dx - 1e-6));
+        p.all[a] = (int64_t)fmax(1.0, ceil((in->hi[a] - in->lo[a]) / dx - 1e-6));
     const int64_t all = p.all[0] * p.all[1] * p.all[2];
     p.step = 1 + all / PLACES;
     p.n = (all + p.step - 1) / p.step;
@@ -137,8 +147,8 @@ static bool start_at(const struct scene *c, const struct exact *e, const struct 
     double more[3] = {0.0, 0.0, 0.0}, pressure;
     *p = (struct parcel){{0.0}, {0.0}};
     for (int a = 0; a < c->domain.dim; a++) {
-        const double h = (c->domain.max[a] - c->domain.min[a]) / (double)of->all[a];
-        p->x[a] = c->domain.min[a] + ((double)(cell % of->all[a]) + 0.5) * h;
+        const double h = (of->in->hi[a] - of->in->lo[a]) / (double)of->all[a];
+        p->x[a] = of->in->lo[a] + ((double)(cell % of->all[a]) + 0.5) * h;
         cell /= of->all[a];
     }
     if (!is_water(c, e, p->x))
@@ -154,7 +164,10 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used)
 {
     const struct scene *c = &r->scene;
     const struct exact e = exact_create(c);
-    const struct fall_places of = places_of(c, used->dx);
+    struct fall_region in;
+    sph_params_region(&c->domain, used, in.lo, in.hi, in.periodic);
+    sph_params_open(r, used, in.open);
+    const struct fall_places of = places_of(c, &in, used->dx);
     struct parcel p;
     double g[3];
     int64_t water = 0, flown = 0, out[6] = {0}, lost = 0;
@@ -168,7 +181,7 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used)
     for (int64_t k = 0; k < of.n; k++) {
         if (!start_at(c, &e, &of, k, &p) || water++ % every != 0)
             continue;
-        const int side = leaves_by(c, &p, g, used->dx);
+        const int side = leaves_by(c, &in, &p, g, used->dx);
         flown++;
         lost += side != NONE;
         if (side != NONE && ++out[side] >= out[most])

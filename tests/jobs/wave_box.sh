@@ -33,6 +33,10 @@ timeout -k 5 300 "$b/sph" wave.cfg -o again -p time.end=0.2 -p output.checkpoint
 timeout -k 5 300 "$b/sph" wave.cfg -o again -p time.end=0.4 -p output.checkpoint=0.2 --restart >again.log 2>&1 || bad "restart: exit code $?" again.log
 [ "$(tail -n 1 part1/series.csv)" = "$(tail -n 1 again/series.csv)" ] || bad "after a restart the wave is another one"
 close_to "$(last part1/series.csv 'kinetic energy')" "$(last part2/series.csv 'kinetic energy')" 1e-6 || bad "two ranks say another wave"
+# through an open floor water goes into the wave below, it is not lost
+sed '/^walls:/d; s/((0.5, 0)/((0.5, 0.3)/' wave.cfg >deep.cfg
+"$b/sph" deep.cfg --check >deep.log 2>&1 || bad "--check of an open floor" deep.log
+! grep -q 'nothing catches' deep.log || bad "water that leaves through an open floor is called lost" deep.log
 # refused CHANGE MESSAGE
 refused() {
     sed "$1" wave.cfg >faulty.cfg
