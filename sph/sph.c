@@ -24,6 +24,7 @@
 #include "coupling/windows.h"
 #include "open_boundaries/level_gap.h"
 #include "open_boundaries/wave_outside.h"
+#include "open_boundaries/wave_stream.h"
 #include "open_boundaries/zones.h"
 #include "output/sph_output.h"
 #include "pairs/vec.h"
@@ -147,7 +148,10 @@ static void describe_scene(const struct run *r)
         log_say("free zone %s m, transition %g m, buffer %g m, around it: %s",
                 zones_extent(r->scene.domain.dim, box), transition, buffer, outers[prm->outer]);
     }
-    if (!r->coupled && prm->surface == SURFACE_YES)
+    if (wave_stream_wanted(r, prm))
+        log_say("behind the zones before open sides: the wave on its current with its pressure and "
+                "level, behind a beach the mean flow");
+    else if (!r->coupled && prm->surface == SURFACE_YES)
         openings_describe(&r->scene);
     scene_waves_describe(&r->scene);
     paddles_describe(r, prm);
@@ -277,14 +281,20 @@ static void draw(const struct run *r, struct picture *p)
     picture_box(p, PICTURE_ZONE, lo, hi, "free zone");
 }
 
+/* Whether the levels on both sides of open sides are compared. */
+static bool has_gap(const struct run *r)
+{
+    const struct sph_params *prm = sph_params_of(r);
+    return r->crossed || wave_outside_wanted(r, prm) || wave_stream_wanted(r, prm);
+}
+
 static void *create(struct run *r, struct h5 *f)
 {
     solids_deal(r);
     int n = sph_columns(r, sph_params_of(r), columns);
     for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
         columns[n++] = overlap_columns[k];
-    for (int k = 0; k < LEVEL_COLUMNS && (r->crossed || wave_outside_wanted(r, sph_params_of(r)));
-         k++)
+    for (int k = 0; k < LEVEL_COLUMNS && has_gap(r); k++)
         columns[n++] = level_gap_columns[k];
     sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);

@@ -98,6 +98,11 @@ static double flux_of(const struct scene *s, const struct waves *made)
     return s->waves.current * made->of.depth + (s->waves.closed ? 0.0 : made->transport);
 }
 
+double scene_currents_mean(const struct scene *s, const struct waves *made)
+{
+    return flux_of(s, made) / made->of.depth;
+}
+
 double scene_currents_rate(const struct wave_spec *of, double rate)
 {
     const double c = waves_group_velocity(2.0 * M_PI / waves_length(of), of->g, of->depth);

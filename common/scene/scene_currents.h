@@ -21,6 +21,8 @@ void scene_currents_resolve(struct scene *s, struct motion_files *files);
 /* 1/s: of a zone on still water in which waves stay as long as they do in one of that rate on the
  * current. */
 double scene_currents_rate(const struct wave_spec *of, double rate);
+/* m/s: along the waves' direction, of what flows through the sides over the still water's depth. */
+double scene_currents_mean(const struct scene *s, const struct waves *made);
 void scene_currents_describe(const struct scene *s, const struct waves *made);
 
 #endif

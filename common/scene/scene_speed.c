@@ -236,8 +236,8 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
         still = still && scene_is_level(s, s->shapes + k);
     if (s->nshapes > 0)
         *depth = fmax(fmin(scene_water_top(s), range[1]) - range[0], 0.0);
-    for (int k = 0; k < s->nwalls; k++) /* it can run out */
-        still = still && s->walls[k].kind < WALL_OUTFLOW;
+    for (int k = 0; k < s->nwalls; k++) /* it can run out, but by a side that waves keep full */
+        still = still && (s->walls[k].kind < WALL_OUTFLOW || s->walls[k].zone != ZONE_NONE);
     if (scene_has_surface(s) || !still)
         *fall = still && s->nshapes > 0 ? 0.0 : *depth;
     if (s->has_waves && still) { /* crests and troughs of a standing wave, before a wall */

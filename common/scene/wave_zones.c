@@ -23,10 +23,11 @@ struct wave_zones {
     double along[3], across[3], level, sign; /* of waves; height is sign times x[up] */
 };
 
-static struct waves *waves_of(const struct scene *s, const struct wave_zones *z, int k)
+/* A side that lets the waves pass takes nothing off them. */
+static struct waves *waves_of(const struct scene *s, const struct wave_zones *z, int k, bool pass)
 {
     struct wave_spec of = scene_waves_spec(s);
-    of.zone = fabs(z->zone[k].length);
+    of.zone = pass ? 0.0 : fabs(z->zone[k].length);
     of.rate = scene_currents_rate(&of, z->zone[k].rate);
     of.open = scene_currents_flow(s);
     const double inward = z->zone[k].length > 0.0 ? 1.0 : -1.0;
@@ -39,7 +40,7 @@ static struct waves *waves_of(const struct scene *s, const struct wave_zones *z,
     return w;
 }
 
-struct wave_zones *wave_zones_create(const struct scene *s)
+struct wave_zones *wave_zones_create(const struct scene *s, bool pass)
 {
     struct wave_zones *z = NEW(struct wave_zones, 1);
     *z = (struct wave_zones){.up = scene_still_axis(s)};
@@ -61,7 +62,7 @@ struct wave_zones *wave_zones_create(const struct scene *s)
         z->zone[z->n].per = 1.0 / z->zone[z->n].length;
         z->zone[z->n].rate = 4.0 * M_PI / w->beach_period;
         if (w->zone == ZONE_WAVE)
-            z->zone[z->n].waves = waves_of(s, z, z->n);
+            z->zone[z->n].waves = waves_of(s, z, z->n, pass);
         z->n++;
     }
     if (z->n > 0)

@@ -7,8 +7,9 @@
 #include "scene.h"
 
 /* The zones of a resolved scene; NULL: there are none. Owned by the caller (wave_zones_free). Each
- * rank makes its own. */
-struct wave_zones *wave_zones_create(const struct scene *s);
+ * rank makes its own. pass: the sides behind have the waves' own velocity, so that zones need not
+ * make up for what a side takes off them (zone_gain.h). */
+struct wave_zones *wave_zones_create(const struct scene *s, bool pass);
 /* Frees the zones and sets *z to NULL, which it may be. */
 void wave_zones_free(struct wave_zones **z);
 /* Prepares the waves for the time t, s; before wave_zones_rate. */

@@ -273,7 +273,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
-    s->wave_zones = wave_zones_create(&r->scene);
+    s->wave_zones = wave_zones_create(&r->scene, false);
     s->gravity = still_split(&r->scene);
     if (blocks)
         mesh_state_create(s);

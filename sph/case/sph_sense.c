@@ -14,6 +14,7 @@
 #include "../../common/scene/scene_mesh.h"
 #include "../../common/scene/scene_probe.h"
 #include "../open_boundaries/wave_outside.h"
+#include "../open_boundaries/wave_stream.h"
 #include "../sph.h"
 #include "first_lattice.h"
 
@@ -100,14 +101,15 @@ static void check_level(const struct run *r, int k, struct faults *f)
             "a level, which lets waves of the water out");
 }
 
-/* NOTES.md has what was measured. */
-static void check_currents(const struct run *r, struct faults *f)
+/* The waves are around the particles' open sides with their pressure, which is known of waves of
+ * permanent form. */
+static void check_currents(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
-    if (scene_currents_flow(c))
-        params_fault(r->params, f, c->waves.current != 0.0 ? "waves.current" : "waves.closed",
-                     "fv makes waves on a current and waves that carry water, sph does not: waves "
-                     "through its openings were 15 %% too low; run fv alone");
+    if (wave_stream_wanted(r, used) && c->waves.kind != WAVE_REGULAR)
+        params_fault(r->params, f, "waves.kind",
+                     "on a current, or carrying water, sph makes regular waves alone: seas and "
+                     "focused groups are fv's");
 }
 
 static void check_openings(const struct run *r, const struct sph_params *used, struct faults *f)
@@ -395,7 +397,7 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     check_gauges(r, f);
     if (c->has_fv)
         return; /* the flow around is the partner's */
-    check_currents(r, f);
+    check_currents(r, used, f);
     check_openings(r, used, f);
     const int before = f->n;
     check_islands(r, used, f);

@@ -13,6 +13,7 @@
 #include "../bodies/paddles.h"
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/openings.h"
+#include "../open_boundaries/wave_stream.h"
 #include "../open_boundaries/zone_steps.h"
 #include "../output/sph_output.h"
 #include "../pairs/collisions.h"
@@ -57,7 +58,7 @@ static void set_constants(struct sph *s)
     s->c0 = s->prm.c0;
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
-    s->wave_zones = wave_zones_create(c);
+    s->wave_zones = wave_zones_create(c, wave_stream_wanted(s->run, &s->prm));
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     if (s->prm.surface != SURFACE_YES)
         s->reference = scene_reference(c);

@@ -19,6 +19,7 @@
 #include "outer_lattice.h"
 #include "sides.h"
 #include "wave_outside.h"
+#include "wave_stream.h"
 #include "wet_faces.h"
 
 /* The exact solution as the flow outside; the gradient of p by central differences. */
@@ -91,7 +92,7 @@ struct zones *zones_create(struct sph *s)
     if (s->prm.outer == OUTER_EXACT)
         use_exact(s, z);
     if (s->prm.outer == OUTER_SIDES)
-        sides_create(s, z);
+        (wave_stream_wanted(s->run, &s->prm) ? wave_stream_create : sides_create)(s, z);
     return z;
 }
 
@@ -104,6 +105,8 @@ void zones_free(struct zones **z)
         mem_free((*z)->ctx);
     else if ((*z)->update)
         sides_free(*z);
+    else if ((*z)->eval == wave_stream_eval)
+        wave_stream_free(*z);
     mem_free((*z)->who);
     mem_free((*z)->x);
     mem_free((*z)->u);
@@ -358,7 +361,7 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "zones_way", "m", 3, 1, s->zones->way, false);
     if (s->prm.box_follows[0])
         h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->chase, false);
-    if (s->prm.outer == OUTER_SIDES)
+    if (s->zones->update)
         sides_save(s, f);
     if (s->zones->gap)
         level_gap_save(s, f);
@@ -398,7 +401,7 @@ bool zones_load(struct sph *s, struct h5 *f)
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
         !h5_read_same(f, "zones_owed", 1, &o->owed) || !h5_read_same(f, "zones_way", 3, way) ||
         (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->chase)) ||
-        !load_counts(s, f, counted) || (s->prm.outer == OUTER_SIDES && !sides_load(s, f)) ||
+        !load_counts(s, f, counted) || (s->zones->update && !sides_load(s, f)) ||
         (s->zones->gap && !level_gap_load(s, f)) || !wet_faces_load(s, f))
         return false;
     s->zones->blended = booked[0];

@@ -11,6 +11,7 @@
 
 #include "../open_boundaries/openings.h"
 #include "../open_boundaries/sides.h"
+#include "../open_boundaries/wave_stream.h"
 #include "../open_boundaries/zone_steps.h"
 #include "../particles/params_derived.h"
 
@@ -73,7 +74,7 @@ double *opening_row(const struct sph *s, double *values)
         if (is != PASSES_NOTHING)
             *values++ = through[side];
         if (is == PASSES_ZONE && s->surface)
-            *values++ = sides_level(s, side);
+            *values++ = s->zones->update ? sides_level(s, side) : wave_stream_level(s, side);
     }
     return values;
 }

@@ -1,0 +1,172 @@
+/* wave_stream.c - see wave_stream.h. A wave of permanent form is steady in the frame that moves
+ * with its celerity c, so that Bernoulli's law gives its pressure from its velocity alone, p = rho
+ * ((|u_s - c|^2 - |u - c|^2)/2 + g (eta - z)),   u_s on the surface above, on the current, too.
+ * While the waves grow from rest this is right to first order in their height.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "wave_stream.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/mem.h"
+#include "../../common/base/vec3.h"
+#include "../../common/scene/scene_currents.h"
+#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene_waves.h"
+#include "level_gap.h"
+
+static const double step = 1e-3; /* of differences, over the depth */
+
+struct wave_stream {
+    const struct sph *s; /* borrowed */
+    int up;
+    double sign, g, level; /* height is sign times x[up]; m/s^2; m: the still level */
+    double along[3], across[3];
+    double mean; /* m/s: along, of what goes through the sides */
+    bool calm[6];
+    struct waves *waves; /* owned */
+};
+
+bool wave_stream_wanted(const struct run *r, const struct sph_params *prm)
+{
+    return prm->outer == OUTER_SIDES && scene_currents_flow(&r->scene);
+}
+
+/* Where x is along the waves, across them and over the still level, m. */
+static void place_of(const struct wave_stream *w, const double *x, double at[3])
+{
+    at[0] = vec3_dot(x, w->along);
+    at[1] = vec3_dot(x, w->across);
+    at[2] = w->sign * x[w->up] - w->level;
+}
+
+/* u along, up and across, m/s, and p/rho, m^2/s^2. */
+static void wave_at(const struct wave_stream *w, const double at[3], double u[3], double *p)
+{
+    const double c = w->waves->celerity, eta = waves_eta(w->waves, at[0], at[1]);
+    double top[3];
+    waves_velocity(w->waves, at[0], at[1], at[2], u);
+    waves_velocity(w->waves, at[0], at[1], eta, top);
+    *p = w->g * (eta - at[2]) + 0.5 * ((top[0] - c) * (top[0] - c) + top[1] * top[1]) -
+         0.5 * ((u[0] - c) * (u[0] - c) + u[1] * u[1]);
+}
+
+static void to_axes(const struct wave_stream *w, const double v[3], double u[3])
+{
+    for (int a = 0; a < 3; a++)
+        u[a] = v[0] * w->along[a] + v[2] * w->across[a];
+    u[w->up] += w->sign * v[1];
+}
+
+static void stream_at(const struct wave_stream *w, const double *x, bool calm, double u[3],
+                      double *p)
+{
+    double at[3], v[3] = {w->mean, 0.0, 0.0};
+    place_of(w, x, at);
+    *p = -w->g * at[2];
+    if (!calm)
+        wave_at(w, at, v, p);
+    to_axes(w, v, u);
+    *p *= w->s->rho0;
+}
+
+/* By central differences. */
+static void slopes_at(const struct wave_stream *w, const double *x, bool calm, double *gu,
+                      double *gp)
+{
+    const int dim = w->s->dim;
+    const double h = step * w->waves->of.depth;
+    memset(gu, 0, 3 * (size_t)dim * sizeof *gu);
+    memset(gp, 0, 3 * sizeof *gp);
+    for (int b = 0; b < dim; b++) {
+        double y[3] = {x[0], x[1], x[2]}, u[2][3], p[2];
+        y[b] = x[b] - h;
+        stream_at(w, y, calm, u[0], p);
+        y[b] = x[b] + h;
+        stream_at(w, y, calm, u[1], p + 1);
+        gp[b] = 0.5 * (p[1] - p[0]) / h;
+        for (int a = 0; a < dim; a++)
+            gu[3 * a + b] = 0.5 * (u[1][a] - u[0][a]) / h;
+    }
+}
+
+void wave_stream_eval(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
+                      double *gp)
+{
+    const struct wave_stream *w = ctx;
+    const int dim = w->s->dim;
+    double below, v[3];
+    waves_at(w->waves, t);
+    for (int i = 0; i < n; i++) {
+        const double *at = x + 3 * i;
+        const bool calm = w->calm[zones_nearest(w->s->zones, at, &below)];
+        stream_at(w, at, calm, v, p + i);
+        memcpy(u + dim * i, v, (size_t)dim * sizeof *u);
+        if (gu)
+            slopes_at(w, at, calm, gu + 3 * dim * i, gp + 3 * i);
+    }
+}
+
+/* Distance to the tangent of the surface over x. */
+static void stream_surface(void *ctx, double t, int n, const double *x, double *phi, double *gphi)
+{
+    const struct wave_stream *w = ctx;
+    const double h = step * w->waves->of.depth;
+    double below, at[3];
+    waves_at(w->waves, t);
+    for (int i = 0; i < n; i++) {
+        place_of(w, x + 3 * i, at);
+        double eta = 0.0, slope = 0.0;
+        if (!w->calm[zones_nearest(w->s->zones, x + 3 * i, &below)]) {
+            const double low = waves_eta(w->waves, at[0] - h, at[1]),
+                         high = waves_eta(w->waves, at[0] + h, at[1]);
+            eta = 0.5 * (low + high);
+            slope = 0.5 * (high - low) / h;
+        }
+        const double per = 1.0 / hypot(1.0, slope), of[3] = {-per * slope, per, 0.0};
+        phi[i] = per * (at[2] - eta);
+        if (gphi)
+            to_axes(w, of, gphi + 3 * i);
+    }
+}
+
+void wave_stream_create(struct sph *s, struct zones *z)
+{
+    const struct scene *c = &s->run->scene;
+    const struct wave_spec of = scene_waves_spec(c);
+    struct wave_stream *w = NEW(struct wave_stream, 1);
+    w->s = s;
+    w->up = scene_still_axis(c);
+    w->sign = s->gravity[w->up] < 0.0 ? 1.0 : -1.0;
+    w->g = fabs(s->gravity[w->up]);
+    w->level = scene_waves_level(c);
+    scene_waves_direction(c, w->along, w->across);
+    w->waves = waves_create(&of);
+    w->mean = scene_currents_mean(c, w->waves);
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const struct scene_wall *is = scene_wall_of(c, SIDE_X_MIN + side);
+        w->calm[side] = is && is->zone == ZONE_BEACH;
+    }
+    z->ctx = w;
+    z->eval = wave_stream_eval;
+    z->surface = stream_surface;
+    z->gap = level_gap_create(s);
+}
+
+void wave_stream_free(struct zones *z)
+{
+    struct wave_stream *w = z->ctx;
+    waves_free(&w->waves);
+    mem_free(w);
+}
+
+double wave_stream_level(const struct sph *s, int side)
+{
+    const struct wave_stream *w = s->zones->ctx;
+    const int a = side / 2;
+    double x[3] = {0.0, 0.0, 0.0}, at[3];
+    x[a] = side % 2 ? s->hi[a] : s->lo[a];
+    place_of(w, x, at);
+    waves_at(w->waves, s->t);
+    return w->level + (w->calm[side] ? 0.0 : waves_eta(w->waves, at[0], at[1]));
+}
