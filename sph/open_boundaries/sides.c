@@ -30,6 +30,7 @@ struct opening_side {
     double pressure;             /* Pa: given, over the reference */
     int bins[2], tangent[2];     /* along each tangent axis */
     bool round[2];               /* periodic along it */
+    double leaves;               /* -: share of what flows through it that flows out */
     int first;                   /* of its bins in the table */
 };
 
@@ -214,6 +215,22 @@ static void follow_slope(struct sph *s, struct sides *d)
     }
 }
 
+/* From sums over the bins: of all that flows through a side the share that leaves. */
+static void find_shares(struct sides *d)
+{
+    for (int side = 0; side < 2 * d->s->dim; side++) {
+        struct opening_side *of = d->of + side;
+        const int n = of->is ? of->bins[0] * of->bins[1] : 0;
+        double both[2] = {0.0, 0.0};
+        for (int k = of->first; k < of->first + n; k++) {
+            const double *b = d->table + (size_t)BIN * k + MEAN + VELOCITY;
+            const double out = side % 2 ? b[side / 2] : -b[side / 2];
+            both[out > 0.0] += fabs(out);
+        }
+        of->leaves = both[1] / fmax(both[0] + both[1], 1e-300);
+    }
+}
+
 static void look_inside(struct sph *s)
 {
     struct sides *d = s->zones->ctx;
@@ -241,6 +258,7 @@ static void look_inside(struct sph *s)
         }
     }
     MPI_Allreduce(MPI_IN_PLACE, d->table, BIN * d->bins, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    find_shares(d);
     find_planes(d);
 }
 
@@ -287,6 +305,18 @@ static void turn_along_walls(const struct sph *s, const double *x, double *u)
         u[a] -= (1.0 - h / s->R) * across * way[a] / h;
 }
 
+/* Of an outlet. What runs back through it, beside what leaves, comes out of fluid at rest and
+ * brings no more than the head there: else an eddy in the opening feeds itself. What runs in
+ * through the whole side is driven by the pressure that is given there. */
+static double outlet_pressure(const struct sides *d, int side, const double *x, const double *in)
+{
+    const struct opening_side *of = d->of + side;
+    const double out = side % 2 ? in[VELOCITY + side / 2] : -in[VELOCITY + side / 2];
+    const double back = fmin(out, 0.0);
+    return of->pressure + d->fall[side] * depth(d->s, side, x) -
+           0.5 * d->s->rho0 * of->leaves * back * back;
+}
+
 /* gp[3]: gradient of p, NULL: not wanted. */
 static void eval_side(const struct sides *d, int side, const double *x, double *u, double *p,
                       double *gp)
@@ -309,8 +339,7 @@ static void eval_side(const struct sides *d, int side, const double *x, double *
         return;
     }
     const double f = profile(s, of, x);
-    *p = of->is->kind != WALL_OUTFLOW ? in[PRESSURE]
-                                      : of->pressure + d->fall[side] * depth(s, side, x);
+    *p = of->is->kind != WALL_OUTFLOW ? in[PRESSURE] : outlet_pressure(d, side, x, in);
     for (int a = 0; a < s->dim; a++)
         u[a] = of->is->kind == WALL_OUTFLOW ? in[VELOCITY + a] : f * of->is->velocity[a];
 }
