@@ -1,7 +1,8 @@
 /* pressure.c - the 5-point (7-point) problem of even cells and rows: conjugate gradients with one
- * PFMG cycle, started from what is given. They are written out here: hypre's would spend a second
- * cycle on the residual of its last iteration, and most solves take one iteration. Forced cells are
- * identity rows. SPDX-License-Identifier: BSD-3-Clause */
+ * cycle of PFMG, under a surface mostly of halving.c, started from what is given. They are written
+ * out here: hypre's would spend a second cycle on the residual of its last iteration, and most
+ * solves take one iteration. Forced cells are identity rows. SPDX-License-Identifier: BSD-3-Clause
+ */
 #include "../fv.h"
 
 #include <math.h>
@@ -14,6 +15,7 @@
 #include "../operators/helmholtz.h"
 #include "../surface/levelset.h"
 #include "backend.h"
+#include "halving.h"
 #include "pfmg.h"
 #include "wet_boxes.h"
 
@@ -22,6 +24,7 @@ static const double NO_RESIDUAL =
     1e-200; /* square sum of a residual whose products are still numbers */
 
 struct pressure {
+    struct halving *halving; /* under a surface, on few ranks; else NULL, and */
     struct pfmg *pfmg;
     struct wet_boxes boxes; /* its cells */
     int outer[2][3];        /* the cells of a field, ghosts too, as the cycle counts them */
@@ -123,8 +126,57 @@ static void fill_box(const struct fv *s, struct pressure *p, int q, double *row)
         }
 }
 
+/* First and last wet cell of a line. */
+static void find_run(const struct fv *s, int64_t c, int run[2])
+{
+    const unsigned char *layer = s->surface->layer + c;
+    int first = 0, end = s->b.n[0];
+    while (first < end && layer[first])
+        first++;
+    while (end > first && layer[end - 1])
+        end--;
+    run[0] = first < end ? first : 0;
+    run[1] = end - first;
+}
+
+/* The rows of a line's wet cells, c the first of them. */
+static void halve_line(const struct fv *s, struct pressure *p, int64_t c, int j, int n)
+{
+    double row[7], *own = halving_own(p->halving);
+    for (int64_t i = c; i < c + n; i++) {
+        p->diagonal[i] = fill_row(s, p, i, j, row);
+        own[i] = p->diagonal[i] > 0.0 ? row[0] : 0.0;
+        for (int a = 0; a < s->dim && p->diagonal[i] > 0.0; a++) {
+            double *through = halving_through(p->halving, a);
+            through[i] = -row[1 + 2 * a];
+            through[i + s->b.stride[a]] = -row[2 + 2 * a];
+            own[i] += row[1 + 2 * a] + row[2 + 2 * a];
+        }
+        own[i] = fmax(own[i], 0.0);
+    }
+}
+
+static void set_halving(const struct fv *s, struct pressure *p)
+{
+    const struct block *b = &s->b;
+    halving_begin(p->halving);
+    for (int k = 0; k < b->n[2]; k++)
+        for (int j = 0; j < b->n[1]; j++) {
+            int *run = halving_run(p->halving, j, k);
+            find_run(s, block_at(b, 0, j, k), run);
+            halve_line(s, p, block_at(b, run[0], j, k), j, run[1]);
+        }
+    halving_set_matrix(p->halving);
+}
+
 static void make_matrix(const struct fv *s, struct pressure *p)
 {
+    if (p->halving) {
+        add_cuts(s, p->z);
+        set_halving(s, p);
+        memset(p->z, 0, (size_t)s->size * sizeof(double));
+        return;
+    }
     const struct wet_boxes *w = &p->boxes;
     double *values = NEW(double, (2 * s->dim + 1) * w->cells), *row = values,
            **rows = NEW(double *, w->n);
@@ -165,8 +217,12 @@ static void *create(struct fv *s)
         p->outer[0][a] = b->lo[a] - b->g[a];
         p->outer[1][a] = b->hi[a] - 1 + b->g[a];
     }
-    wet_boxes_find(s, &p->boxes);
-    p->pfmg = make_pfmg(b, &p->boxes);
+    if (s->surface && halving_fits(b)) {
+        p->halving = halving_create(b);
+    } else {
+        wet_boxes_find(s, &p->boxes);
+        p->pfmg = make_pfmg(b, &p->boxes);
+    }
     make_matrix(s, p);
     return p;
 }
@@ -176,6 +232,7 @@ static void free_pressure(void **of)
     struct pressure *p = *of;
     if (!p)
         return;
+    halving_free(&p->halving);
     pfmg_free(&p->pfmg);
     wet_boxes_free(&p->boxes);
     mem_free(p->diagonal);
@@ -191,7 +248,7 @@ static void rebuild(struct fv *s, void *of)
     struct pressure *p = of;
     p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
     p->free_cells = fmax(1.0, (double)s->surface->wet);
-    if (wet_boxes_find(s, &p->boxes)) {
+    if (!p->halving && wet_boxes_find(s, &p->boxes)) {
         pfmg_free(&p->pfmg);
         p->pfmg = make_pfmg(&s->b, &p->boxes);
     }
@@ -264,6 +321,12 @@ static double remove_mean(const struct fv *s, double *restrict x)
 static void cycle(const struct fv *s, double *r, double *x)
 {
     struct pressure *p = own(s);
+    if (p->halving) {
+        if (x != p->z)
+            memset(x, 0, (size_t)s->size * sizeof(double));
+        halving_cycle(p->halving, r, x);
+        return;
+    }
     for (int q = 0; q < p->boxes.n; q++)
         pfmg_put(p->pfmg, q, p->outer, r);
     pfmg_cycle(p->pfmg);
