@@ -1,10 +1,10 @@
 /* reinit.c - phi_tau + S(phi_0)(|grad phi| - 1) = 0 to the steady state in a band (Godunov's
- * Hamiltonian, RK2). On even cells and rows the distances that closest.c knows are held, two cells
- * on either side of a smooth surface. Elsewhere beside the surface, differences towards it end at
- * its place on the axis, by the quadratic through phi_0, which pins it (Russo & Smereka, J. Comput.
- * Phys. 163, 2000; Min & Gibou, J. Comput. Phys. 225, 2007); where the slope there is good already,
- * phi is left alone, which pins it better still. WENO5 elsewhere.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * Hamiltonian, RK2, or Euler's steps where they are many and distances beside the surface held). On
+ * even cells and rows the distances that closest.c knows are held, two cells on either side of a
+ * smooth surface. Elsewhere beside the surface, differences towards it end at its place on the
+ * axis, by the quadratic through phi_0, which pins it (Russo & Smereka, J. Comput. Phys. 163, 2000;
+ * Min & Gibou, J. Comput. Phys. 225, 2007); where the slope there is good already, phi is left
+ * alone, which pins it better still. WENO5 elsewhere. SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
 #include <math.h>
@@ -203,6 +203,19 @@ static void set_exact(struct fv *s, const struct band *w)
     surface_ghosts(s, phi);
 }
 
+/* One evaluation, which carries distances outwards from the cells where they are held. */
+static void carry_step(struct fv *s, const struct band *w)
+{
+    double *phi = s->surface->phi, *rate = s->surface->rate;
+    rates(s, phi, phi, w, rate);
+    for (int64_t k = 0; k < w->nstrips; k++)
+        for (int64_t i = w->strips[k].cell; i < w->strips[k].cell + w->strips[k].n; i++) {
+            const double q = phi[i] + rate[i];
+            phi[i] = (q < 0.0) == (phi[i] < 0.0) ? q : phi[i]; /* the surface stays */
+        }
+    surface_ghosts(s, phi);
+}
+
 /* RK2; where rates are 0 phi is held. */
 static void pseudo_step(struct fv *s, const struct band *w)
 {
@@ -230,7 +243,7 @@ static void redistance(struct fv *s, int width, int steps)
     set_exact(s, &w);
     s->surface->keeps = true;
     for (int k = 0; k < steps; k++)
-        pseudo_step(s, &w);
+        (steps > 1 && s->surface->reinit->is_known ? carry_step : pseudo_step)(s, &w);
     s->surface->keeps = false;
     mem_free(w.strips);
     mem_free(w.spots);
