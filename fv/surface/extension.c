@@ -240,9 +240,12 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
 {
     struct surface *f = s->surface;
     const int dim = s->dim;
-    struct place p = {.part = part, .spacing = f->window->size(s, c)};
+    struct place p; /* not cleared: it is larger than what most cells use of it */
     struct least_squares q;
     double e[TERMS];
+    p.part = part;
+    p.spacing = f->window->size(s, c);
+    p.mixed = false;
     make_frame(s, c, row, &p);
     f->window->look_around(s, c, layer, &p);
     if (f->window->is_own && !f->window->is_own(s, c, &p))
