@@ -146,21 +146,33 @@ static bool is_beside(const struct fv *s, const struct part *p, int64_t c)
     return fabs(s->surface->phi[c]) <= 1.5 * greater(across, least);
 }
 
-bool fraction_is_calm(const struct fv *s)
+/* Whether the cells beside the surface are calm: each by itself, or with those around it. */
+static bool are_calm(const struct fv *s, bool around)
 {
     const struct surface *w = s->surface;
     const struct fraction *f = w->fraction;
     const double band = 1.5 * w->largest * sqrt(s->dim);
     bool calm = true;
-    find_smooth(s);
     FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n && calm; i++) {
             const bool mixed = f->carries && f->C[i] > NOTHING && f->C[i] < 1.0 - NOTHING;
             if (surface_holds_none(s, i) ||
                 (!mixed && (fabs(w->phi[i]) > band || !is_beside(s, part, i))))
                 continue;
-            calm = is_trusted(s, part, i) && (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1);
+            calm = around ? is_trusted(s, part, i) &&
+                                (!mixed || fabs(f->C[i] - surface_share(s, i)) < 0.1)
+                          : is_smooth(s, part, i);
         }
+    return calm;
+}
+
+bool fraction_is_calm(const struct fv *s)
+{
+    bool calm = are_calm(s, false); /* rough water shows at once */
+    if (calm) {
+        find_smooth(s);
+        calm = are_calm(s, true);
+    }
     MPI_Allreduce(MPI_IN_PLACE, &calm, 1, MPI_C_BOOL, MPI_LAND, s->comm);
     return calm;
 }

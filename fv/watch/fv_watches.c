@@ -234,7 +234,7 @@ static double power_of_zones(struct fv *s)
 /* sums[0 .. 2] momentum, [3] kinetic energy, [4] volume, [5] power; this rank. */
 static void sum_energy(struct fv *s, double sums[6])
 {
-    FLOW_ROWS_AT (s, part, j, c, n) {
+    FLOW_NEAR_AT (s, part, j, c, n) {
         double row[5] = {0.0};
         const double *weight = weights_of_row(s, c, n, j);
         add_row(s, c, n, weight, row);
