@@ -24,7 +24,7 @@ static const double BENT = 1.0;
 /* |grad phi|, or 1 over it, at the point. */
 static const double STEEP = 2.0;
 /* Square of the last pass over h^2, which is an error of the distance, as that is stationary. */
-static const double EXACT = 1e-10;
+static const double EXACT = 1e-7;
 
 /* What is around a cell. */
 struct around {
