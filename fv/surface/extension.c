@@ -184,7 +184,7 @@ static void make_room(struct surface *f, int64_t n, int64_t ngrad)
     }
 }
 
-/* Gradient at the foot point by a quadratic without condition, from the frame to the axes. Linear
+/* Gradient at the foot point, along the axes of the frame, by a quadratic without condition. Linear
  * where a quadratic's makes rough water grow: where index lines slant waves of a few cells at rest,
  * where water creeps what viscosity makes at the edge of a column (honey, 20 x 20 cells of 1 mm:
  * 2 m/s in 0.06 s at any step, for 0.04).
@@ -198,17 +198,14 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
                               still_creep(s->gravity.hydrostatic, s->nu, p->spacing) > STILL_CREEPS
                           ? 1
                           : 2;
-    double e[TERMS] = {0.0}, w[3][STENCIL];
+    double e[TERMS] = {0.0};
     memset(grad, 0, sizeof(double) * (size_t)(dim * p->n));
     if (fit(s, p, order, false, origin, &q) == 0)
         return;
     for (int r = 0; r < dim; r++) {
         e[1 + r] = 1.0 / p->spacing;
-        weights(&q, p->n, e, w[r]);
+        weights(&q, p->n, e, grad + r * p->n);
         e[1 + r] = 0.0;
-        for (int a = 0; a < dim; a++)
-            for (int k = 0; k < p->n; k++)
-                grad[a * p->n + k] += w[r][k] * p->e[r][a];
     }
 }
 
@@ -260,7 +257,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
     terms_at(dim, order, layer == 1, p.self, e);
     weights(&q, p.n, e, w);
     f->nstencil += p.n;
-    memcpy(x.n3, p.e[0], sizeof x.n3);
+    memcpy(x.e, p.e, sizeof x.e);
     if (layer == 1 && !thin) {
         gradient_weights(s, &p, f->grad + f->ngrad);
         f->ngrad += (int64_t)dim * p.n;

@@ -43,31 +43,39 @@ static double within(const double *v, int n, int layer, bool film, double value)
     return greater(least, lesser(most, value));
 }
 
-/* Normal derivatives of the components for a cell of the first layer; n.(D n) to stress. */
+/* The derivative along axis r of a cell's frame of what its stencil holds. */
+static double derivative(const struct surface *f, const struct carry *x, int r, const double *v)
+{
+    return lanes_dot(f->grad + x->first_grad + r * x->n, v, x->n);
+}
+
+/* Normal derivatives of the components for a cell of the first layer, G n; n.(D n) to stress.
+ * Without shear stress at the surface, where P (G + G^T) n = 0, P = 1 - n n:
+ *   G n = n (n.G n) - P G^T n,  G^T n = grad(u.n). */
 static void normal_slopes(const struct fv *s, const struct carry *x, const struct stencil_values *r,
                           enum extend how, double *slope)
 {
     const struct surface *f = s->surface;
-    const int dim = s->dim;
-    const double *grad = f->grad + x->first_grad;
-    double G[3][3], normal = 0.0;
-    for (int q = 0; q < dim; q++) {
-        slope[q] = 0.0;
-        for (int a = 0; a < dim; a++) {
-            G[q][a] = lanes_dot(grad + a * x->n, r->v[q], x->n);
-            slope[q] += G[q][a] * x->n3[a];
-        }
-        normal += slope[q] * x->n3[q];
-    }
-    if (how == EXTEND_FREE)
+    double along[STENCIL];
+    if (how == EXTEND_FREE) {
+        for (int q = 0; q < s->dim; q++)
+            slope[q] = derivative(f, x, 0, r->v[q]);
         return;
+    }
+    for (int k = 0; k < x->n; k++)
+        along[k] = x->e[0][0] * r->v[0][k];
+    for (int q = 1; q < s->dim; q++)
+        for (int k = 0; k < x->n; k++)
+            along[k] += x->e[0][q] * r->v[q][k];
+    const double normal = derivative(f, x, 0, along);
     if (how == EXTEND_SHEAR)
         f->stress[x->cell] = normal;
-    for (int q = 0; q < dim; q++) { /* G n - P (G + G^T) n = n (n.G n) - P G^T n */
-        double other = 0.0;
-        for (int a = 0; a < dim; a++)
-            other += G[a][q] * x->n3[a];
-        slope[q] = 2.0 * normal * x->n3[q] - other;
+    for (int q = 0; q < s->dim; q++)
+        slope[q] = normal * x->e[0][q];
+    for (int t = 1; t < s->dim; t++) {
+        const double shear = derivative(f, x, t, along);
+        for (int q = 0; q < s->dim; q++)
+            slope[q] -= shear * x->e[t][q];
     }
 }
 
@@ -170,15 +178,6 @@ void extension_apply(const struct fv *s, double *const u[3], enum extend how, in
         }
 }
 
-/* Normal derivative of one field from the weights of its gradient. */
-static double slope_of(const struct surface *f, const struct carry *x, int dim, const double *v)
-{
-    double slope = 0.0;
-    for (int a = 0; a < dim && x->has_slope; a++)
-        slope += x->n3[a] * lanes_dot(f->grad + x->first_grad + a * x->n, v, x->n);
-    return slope;
-}
-
 void extension_scalar(const struct fv *s, double *q)
 {
     const struct surface *f = s->surface;
@@ -188,8 +187,8 @@ void extension_scalar(const struct fv *s, double *q)
         for (int64_t i = 0; i < f->ncarry[l]; i++) {
             const struct carry *x = f->carry[l] + i;
             look(f, x, 1, &q, &r);
-            const double v = lanes_dot(f->weight + x->first, r.v[0], x->n) +
-                             x->slope * slope_of(f, x, s->dim, r.v[0]);
+            const double slope = x->has_slope ? derivative(f, x, 0, r.v[0]) : 0.0,
+                         v = lanes_dot(f->weight + x->first, r.v[0], x->n) + x->slope * slope;
             q[x->cell] = x->n > 0 ? within(r.v[0], x->n, l, false, v) : 0.0;
         }
     }

@@ -31,8 +31,8 @@ struct cut {
 struct carry {
     int64_t cell;
     int first, n;   /* place in the lists below */
-    int first_grad; /* layer 1: place of the gradient's weights, dim each */
-    double n3[3];   /* layer 1: normal, out of the water */
+    int first_grad; /* layer 1: place of the weights of derivatives along e, dim each */
+    double e[3][3]; /* layer 1: normal, out of the water, and tangents */
     bool has_slope; /* layer 1, unless the water is thin */
     double slope;   /* weight of the normal derivative */
     bool slows;     /* layer 2: it may be much slower than its stencil, as films are */
