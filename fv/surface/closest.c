@@ -138,10 +138,20 @@ static double value_at(const struct around *w, const double *x, struct cubic q[3
     return product(w, q, (const int[]){q[0].n, q[1].n, q[2].n}, g);
 }
 
+/* The mean of the slopes of the cubics on either side of an even centre. */
+static double slope_at_centre(const double *q, int64_t d, double per)
+{
+    return per / 12.0 * (8.0 * (q[d] - q[-d]) - (q[2 * d] - q[-2 * d]));
+}
+
 /* The same at the cell's own centre, where the cubics are phi itself and each slope is a line's. */
 static double value_at_centre(const struct around *w, struct cubic q[3], double *g)
 {
     for (int a = 0; a < w->dim; a++) {
+        if (w->per[a] > 0.0 && w->lo[a] < REACH - 1 && w->hi[a] > REACH + 1) {
+            g[a] = slope_at_centre(w->phi, w->stride[a], w->per[a]);
+            continue;
+        }
         set_cubic(w, a, 0.0, q + a);
         g[a] = 0.0;
         for (int k = 0; k < q[a].n; k++)
@@ -243,7 +253,7 @@ bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *d
     double x[3] = {0.0, 0.0, 0.0}, moved = INFINITY, square = 0.0;
     if (fabs(phi[c]) > 3.0 * s->surface->largest || !look_around(s, phi, c, &w))
         return false;
-    for (int k = 0; k < PASSES && moved > EXACT * w.h * w.h; k++) {
+    for (int k = 0; k < PASSES && (k < 2 || moved > EXACT * w.h * w.h); k++) {
         moved = move(&w, q, x, k == 0);
         if (!isfinite(moved))
             return false;
