@@ -250,21 +250,32 @@ enum mesh_side bc_behind(const struct fv *s, const int *at, int a)
     return s->bc->kind[2 * a + (i >= 0)];
 }
 
-/* One component along one side. w, slip: NULL for zero. slip is what the next projection takes off
- * the side's velocity. */
+/* n places of a line along a side, a step apart. w, slip: NULL for zero. */
+static void fill_line(enum mesh_side kind, bool normal, int64_t in, int n, int64_t step,
+                      const double *w, const double *slip, double *q)
+{
+    if (kind == MESH_OUTFLOW || (kind == MESH_SLIP && !normal))
+        for (int i = 0; i < n; i++)
+            ghosts_mirrored(q + i * step, in, 1.0, 0.0);
+    else
+        for (int i = 0; i < n; i++) {
+            const double v = (w ? w[i] : 0.0) + (slip ? slip[i] : 0.0);
+            if (kind == MESH_SLIP)
+                ghosts_mirrored(q + i * step, in, -1.0, v);
+            else
+                ghosts_given(q + i * step, in, v);
+        }
+}
+
+/* One component along one side. */
 static void fill(const struct bc *bc, const struct block *b, int k, enum mesh_side kind, int q,
                  const double *w, const double *slip, double *u)
 {
     const struct bc_side d = side_of(bc, b, k, true);
-    const bool even = kind == MESH_OUTFLOW || (kind == MESH_SLIP && q != d.a);
-    SIDE_PLACES (b, d, i, j, m, c) {
-        const double v = (w ? w[m] : 0.0) + (slip ? slip[m] : 0.0);
-        if (even)
-            ghosts_mirrored(u + c, d.in, 1.0, 0.0);
-        else if (kind == MESH_SLIP)
-            ghosts_mirrored(u + c, d.in, -1.0, v);
-        else
-            ghosts_given(u + c, d.in, v);
+    for (int j = d.lo[1]; j < d.hi[1]; j++) {
+        const int64_t m = place(b, &d, d.lo[0], j);
+        fill_line(kind, q == d.a, d.in, d.hi[0] - d.lo[0], b->stride[d.t[0]], w ? w + m : NULL,
+                  slip ? slip + m : NULL, u + cell(b, &d, d.lo[0], j));
     }
 }
 
