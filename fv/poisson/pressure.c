@@ -171,6 +171,7 @@ static void set_halving(const struct fv *s, struct pressure *p)
 
 static void make_matrix(const struct fv *s, struct pressure *p)
 {
+    memset(p->diagonal, 0, (size_t)s->size * sizeof(double));
     if (p->halving) {
         add_cuts(s, p->z);
         set_halving(s, p);
@@ -263,7 +264,7 @@ static void zero_idle(const struct fv *s, double *x)
         surface_zero(s, x);
 }
 
-/* q = A x, x with its ghosts; both are 0 in forced cells. */
+/* q = A x, x with its ghosts; both are 0 in forced cells and in dry ones, whose diagonal is 0. */
 static void apply(const struct fv *s, const double *restrict x, double *restrict q)
 {
     const struct block *b = &s->b;
@@ -273,15 +274,18 @@ static void apply(const struct fv *s, const double *restrict x, double *restrict
         const double cx = coefficient(b, 0, j), low = coefficient(b, 1, j),
                      up = coefficient(b, 1, j + 1);
         for (int64_t i = c; i < c + n; i++)
-            q[i] = d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y]);
+            q[i] = d[i] > 0.0
+                       ? d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y])
+                       : 0.0;
     }
     if (b->dim == 3)
         BLOCK_NEAR_AT (s, 0, j, c, n) {
             const double cz = coefficient(b, 2, j);
             for (int64_t i = c; i < c + n; i++)
-                q[i] -= cz * (x[i - z] + x[i + z]);
+                q[i] -= d[i] > 0.0 ? cz * (x[i - z] + x[i + z]) : 0.0;
         }
-    zero_idle(s, q);
+    if (s->forcing)
+        forcing_zero(s->forcing, q);
 }
 
 /* Over all ranks. */
@@ -341,7 +345,7 @@ static double next_direction(const struct fv *s, double *r, double rz_last)
 {
     struct pressure *p = own(s);
     cycle(s, r, p->z);
-    if (s->surface)
+    if (s->surface && !p->halving)
         surface_zero(s, p->z);
     const double rz = dot(s, r, p->z), beta = rz_last > 0.0 ? rz / rz_last : 0.0;
     const double *restrict z = p->z;
