@@ -220,7 +220,7 @@ bool steady_create(struct steady *w, bool solitary, double depth, double length,
 }
 
 /* zeta of the place (x, y) in units of 1/k, |x| <= pi; above the surface of what is below it there.
- * / Steps are kept below a fifth of the strip's scale, and zeta within the strip, for the map is
+ * Steps are kept below a fifth of the strip's scale, and zeta within the strip, for the map is
  * one to one only there. */
 static double complex invert(const struct steady *w, double x, double y)
 {

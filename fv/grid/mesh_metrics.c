@@ -21,7 +21,7 @@ static const double *vertex(const struct mesh_block *b, const int *i)
 }
 
 /* Places and slopes on the edge from vertex i on along axis a at three Gauss points, o the origin.
- * / Four vertices along the line; at the outermost ones the last is repeated. */
+ * Four vertices along the line; at the outermost ones the last is repeated. */
 static void edge_points(const struct mesh_block *b, const int *i, int a, const double *o,
                         double x[3][3], double dx[3][3])
 {

@@ -316,7 +316,7 @@ static bool has_fallen(struct sph *s, int i)
 }
 
 /* Removes particles beyond a side where nothing holds them; the number of those that were to stay.
- * / Keeps the order of the others. NaN compares false and stays, for the watch to find. */
+ * Keeps the order of the others. NaN compares false and stays, for the watch to find. */
 static int remove_lost(struct sph *s)
 {
     const int before = s->p.n;
