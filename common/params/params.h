@@ -76,30 +76,42 @@ struct param {
     const char *choices; /* "a|b|c" of a PARAM_CHOICE, else NULL */
     const char *help;
     const struct param_list *list; /* of a PARAM_LIST, else NULL */
+    const struct param_use *uses;  /* when a run uses the key, params_use.h; NULL: always */
+    int numbers;     /* of PARAM_REALS: so many numbers, no vector of space; 0: it is one */
+    bool comparison; /* it compares methods, or tunes what nobody tunes: a chapter of its own */
 };
 
 /* Rows: PARAM of member m of struct T, whose C type decides the type of the value; CHOICE of an int
- * member that holds the index in "a|b|c"; TURN of a rotation; LIST of groups within the group. */
-#define PARAM(T, m, unit, dflt, min, max, help)                                                    \
+ * member that holds the index in "a|b|c"; TURN of a rotation; LIST of groups within the group. They
+ * end with the help, behind which other members of the row may stand: USED(..) of params_use.h,
+ * .numbers = 2, .comparison = true. */
+/* clang-format off */
+#define PARAM(T, m, unit_, dflt_, min_, max_, ...)                                                 \
     {                                                                                              \
-#m,                                                                                           \
-     _Generic(((T *)0)->m, double: PARAM_REAL, int: PARAM_INT, bool: PARAM_BOOL,                   \
-              char *: PARAM_TEXT, double *: PARAM_REALS, int *: PARAM_INTS, bool *: PARAM_BOOLS,   \
-              double(*)[3]: PARAM_BOX, struct param_points: PARAM_POINTS,                          \
-              struct param_numbers: PARAM_NUMBERS, struct param_places: PARAM_PLACES),                                                            \
-     offsetof(T, m), unit, dflt, min, max, NULL, help, NULL    \
+        .key = #m,                                                                                 \
+        .type = _Generic(((T *)0)->m, double: PARAM_REAL, int: PARAM_INT, bool: PARAM_BOOL,        \
+                         char *: PARAM_TEXT, double *: PARAM_REALS, int *: PARAM_INTS,             \
+                         bool *: PARAM_BOOLS, double(*)[3]: PARAM_BOX,                             \
+                         struct param_points: PARAM_POINTS, struct param_numbers: PARAM_NUMBERS,   \
+                         struct param_places: PARAM_PLACES),                                       \
+        .offset = offsetof(T, m), .unit = unit_, .dflt = dflt_, .min = min_, .max = max_,          \
+        .help = __VA_ARGS__                                                                        \
     }
-#define CHOICE(T, m, choices, dflt, help)                                                          \
+/* clang-format on */
+#define CHOICE(T, m, choices_, dflt_, ...)                                                         \
     {                                                                                              \
-#m, PARAM_CHOICE, offsetof(T, m), "-", dflt, 0, 0, choices, help, NULL                     \
+        .key = #m, .type = PARAM_CHOICE, .offset = offsetof(T, m), .unit = "-", .dflt = dflt_,     \
+        .choices = choices_, .help = __VA_ARGS__                                                   \
     }
-#define TURN(T, m, unit, dflt, min, max, help)                                                     \
+#define TURN(T, m, unit_, dflt_, min_, max_, ...)                                                  \
     {                                                                                              \
-#m, PARAM_TURN, offsetof(T, m), unit, dflt, min, max, NULL, help, NULL                     \
+        .key = #m, .type = PARAM_TURN, .offset = offsetof(T, m), .unit = unit_, .dflt = dflt_,     \
+        .min = min_, .max = max_, .help = __VA_ARGS__                                              \
     }
-#define LIST(T, m, rows, help)                                                                     \
+#define LIST(T, m, rows_, ...)                                                                     \
     {                                                                                              \
-#m, PARAM_LIST, offsetof(T, m), "-", NULL, 0, 0, NULL, help, rows                          \
+        .key = #m, .type = PARAM_LIST, .offset = offsetof(T, m), .unit = "-", .list = rows_,       \
+        .help = __VA_ARGS__                                                                        \
     }
 
 /* A group of the case file, `name: { ... };', or a list of groups, `name: ( {...}, {...} );'.

@@ -5,6 +5,7 @@
 
 #include "../base/mem.h"
 #include "params_hints.h"
+#include "params_use.h"
 
 static const char *kind(const struct param *r)
 {
@@ -56,12 +57,13 @@ static const char *default_of(const struct param *r)
 static void print_row(const struct param_group *g, const struct param *r)
 {
     const bool numeric = is_numeric(r);
+    const char *when = params_use_words(g->rows, g->nrows, r);
     printf("  %s.%-18s %-14s %s", g->name, r->key, kind(r), r->help);
     printf("; %s%s", r->dflt ? "default " : "", default_of(r));
     if (numeric)
         printf("; from %g to %g%s%s", r->min, r->max, strcmp(r->unit, "-") ? " " : "",
                strcmp(r->unit, "-") ? r->unit : "");
-    printf("\n");
+    printf("%s%s\n", *when ? "; used when: " : "", when);
 }
 
 /* The group that a row stands for, "bodies.motion". */
@@ -124,31 +126,44 @@ void params_help(const struct param_group *groups, int ngroups, const char *key)
         print_unknown(groups, ngroups, key);
 }
 
-static void manual_row(const struct param_group *g, const struct param *p)
+static void print_cell(const char *text)
 {
-    char range[80] = "", name[160];
-    if (is_numeric(p))
-        snprintf(range, sizeof range, "%g .. %g", p->min, p->max);
-    printf("| `%s.%s` | ", g->name, p->key);
-    for (const char *c = kind(p); *c; c++)
+    for (const char *c = text; *c; c++)
         printf(*c == '|' ? "\\|" : "%c", *c);
-    printf(" | %s | %s | %s |\n", default_of(p), range, p->help);
-    if (p->type != PARAM_LIST)
-        return;
-    const struct param_group inner = inner_of(g, p, name, sizeof name);
-    for (int r = 0; r < inner.nrows; r++)
-        manual_row(&inner, inner.rows + r);
+    printf(" | ");
+}
+
+static void manual_rows(const struct param_group *g)
+{
+    for (int r = 0; r < g->nrows; r++) {
+        const struct param *p = g->rows + r;
+        char range[80] = "", name[160];
+        if (is_numeric(p))
+            snprintf(range, sizeof range, "%g .. %g", p->min, p->max);
+        printf("| `%s.%s` | ", g->name, p->key);
+        print_cell(kind(p));
+        printf("%s | %s | ", default_of(p), range);
+        print_cell(params_use_words(g->rows, g->nrows, p));
+        printf("%s |\n", p->help);
+        if (p->type == PARAM_LIST) {
+            const struct param_group inner = inner_of(g, p, name, sizeof name);
+            manual_rows(&inner);
+        }
+    }
+}
+
+static void manual_head(const char *name, const char *help)
+{
+    printf("## %s\n\n%s.\n\n| key | value | default | range | used when | meaning |\n"
+           "|---|---|---|---|---|---|\n",
+           name, help);
 }
 
 void params_manual(const struct param_group *groups, int ngroups)
 {
     for (int k = 0; k < ngroups; k++) {
-        const struct param_group *g = groups + k;
-        printf(
-            "## %s\n\n%s.\n\n| key | value | default | range | meaning |\n|---|---|---|---|---|\n",
-            g->name, g->help);
-        for (int r = 0; r < g->nrows; r++)
-            manual_row(g, g->rows + r);
+        manual_head(groups[k].name, groups[k].help);
+        manual_rows(groups + k);
         printf("\n");
     }
 }

@@ -133,9 +133,11 @@ static bool get_vector(const struct param *r, const config_setting_t *s, void *t
 {
     const int n = config_setting_is_aggregate(s) ? config_setting_length(s) : 0;
     bool *flags = (bool *)(void *)((char *)target + r->offset);
-    if (config_setting_is_group(s) || n < 2 || n > 3) {
-        snprintf(why, size, "expected two or three %s in ( )",
-                 r->type == PARAM_BOOLS ? "truth values" : "numbers");
+    const int most = r->type == PARAM_REALS && r->numbers ? r->numbers : 3;
+    if (config_setting_is_group(s) || n < 2 || n > most) {
+        snprintf(why, size, "expected two%s %s in ( )%s", most == 3 ? " or three" : "",
+                 r->type == PARAM_BOOLS ? "truth values" : "numbers",
+                 n > most ? ": there are too many" : "");
         return false;
     }
     for (int k = 0; k < 3; k++) {

@@ -6,9 +6,7 @@
 
 #include "scene.h"
 
-/* Keys that other keys leave without use; in scene_unused.c. */
-void scene_check_unused(const struct scene *s, const struct params *p, struct faults *f);
-/* The same for the terms of one motion, named list.[k].motion in the case. */
+/* Faults of a motion that is not a body's, list.[k].motion in the case: it makes no waves. */
 void scene_check_motion(const struct scene_motions *all, const char *list, int k,
                         const struct params *p, struct faults *f);
 /* Keys that contradict each other, and places outside the domain; in scene_sense.c. */

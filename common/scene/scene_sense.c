@@ -1,4 +1,4 @@
-/* scene_sense.c - what is wrong with a scene whose keys are each in order: components that two
+/* scene_sense.c - what is wrong with a scene whose keys are each in order: surfaces that its
  * dimensions do not have, lines that are none, walls that pump, water outside the domain.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
@@ -11,43 +11,40 @@
 #include "scene_geometry.h"
 #include "scene_probe.h"
 
-/* A component along an axis that the case does not have is a mistake. */
-static void check_flat(const struct scene *s, const struct params *p, struct faults *f,
-                       const char *group, int k, const char *name, const double *v)
+/* Triangles bound a fluid of three dimensions, outlines one of two. */
+static void check_surface(const struct scene *s, const struct params *p, struct faults *f,
+                          const char *group, int k, const struct scene_surface *is)
 {
     char key[64];
-    if (s->domain.dim == 3 || v[2] == 0.0)
-        return;
-    if (k < 0)
-        snprintf(key, sizeof key, "%s", group);
-    else
-        snprintf(key, sizeof key, "%s.[%d].%s", group, k, name);
-    params_fault(p, f, key,
-                 "z component %g in a case of 2 dimensions: two numbers, or domain.dim = 3", v[2]);
+    snprintf(key, sizeof key, "%s.[%d].mesh", group, k);
+    if (*is->mesh && s->domain.dim == 2)
+        params_fault(p, f, key,
+                     "a surface of triangles bounds a fluid of 3 dimensions: in the "
+                     "plane give points");
+    snprintf(key, sizeof key, "%s.[%d].outline", group, k);
+    if (*is->outline && s->domain.dim == 3)
+        params_fault(p, f, key, "an outline bounds a fluid of 2 dimensions: in space give a mesh");
 }
 
-static void check_components(const struct scene *s, const struct params *p, struct faults *f)
+static void check_surfaces(const struct scene *s, const struct params *p, struct faults *f)
 {
-    const struct scene_domain *d = &s->domain;
-    check_flat(s, p, f, "domain.min", -1, "", d->min);
-    check_flat(s, p, f, "domain.max", -1, "", d->max);
-    if (d->dim == 2 && d->periodic[2])
-        params_fault(p, f, "domain.periodic", "z in a case of 2 dimensions");
     for (int k = 0; k < s->nwalls; k++)
-        check_flat(s, p, f, "walls", k, "velocity", s->walls[k].velocity);
-    for (int k = 0; k < s->nbodies; k++) {
-        check_flat(s, p, f, "bodies", k, "centre", s->bodies[k].centre);
-        check_flat(s, p, f, "bodies", k, "velocity", s->bodies[k].velocity);
-        check_flat(s, p, f, "bodies", k, "force", s->bodies[k].force);
+        check_surface(s, p, f, "walls", k, &s->walls[k].surface);
+    for (int k = 0; k < s->nbodies; k++)
+        check_surface(s, p, f, "bodies", k, &s->bodies[k].surface);
+    for (int k = 0; k < s->nshapes; k++)
+        check_surface(s, p, f, "shapes", k, &s->shapes[k].surface);
+}
+
+void scene_check_motion(const struct scene_motions *all, const char *list, int k,
+                        const struct params *p, struct faults *f)
+{
+    for (int i = 0; i < all->n; i++) {
+        char key[80];
+        snprintf(key, sizeof key, "%s.[%d].motion.[%d].kind", list, k, i);
+        if (all->of[i].kind == MOTION_WAVES)
+            params_fault(p, f, key, "only the motion of a body makes waves");
     }
-    for (int k = 0; k < s->nshapes; k++) {
-        check_flat(s, p, f, "shapes", k, "centre", s->shapes[k].centre);
-        check_flat(s, p, f, "shapes", k, "velocity", s->shapes[k].velocity);
-        for (int b = 0; b < 2; b++)
-            check_flat(s, p, f, "shapes", k, "box", s->shapes[k].box[b]);
-    }
-    for (int k = 0; k < s->nprobes; k++)
-        check_flat(s, p, f, "probes", k, "at", s->probes[k].at);
 }
 
 /* --- lines --- */
@@ -284,7 +281,7 @@ static void warn_units(const struct scene *s)
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f)
 {
     const int before = f->n;
-    check_components(s, p, f);
+    check_surfaces(s, p, f);
     check_lines(s, p, f);
     if (f->n > before)
         return; /* what follows needs sound lines */

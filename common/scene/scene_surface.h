@@ -4,7 +4,7 @@
 #ifndef COMMON_SCENE_SURFACE_H
 #define COMMON_SCENE_SURFACE_H
 
-#include "../params/params.h"
+#include "../params/params_use.h"
 
 /* The values of these keys. Files stand beside the case; scale, rotation and shift are applied in
  * this order, about the origin. */
@@ -15,27 +15,33 @@ struct scene_surface {
     double weld;                           /* m; 0: 1e-6 of the diagonal */
 };
 
-/* SURFACE_ROWS(T): the rows for a parameter table whose struct T has a member `surface'. */
-#define SURFACE_ROW(T, m, is, unit_, dflt_, min_, max_, help_)                                     \
+/* SURFACE_ROWS(T, MESH, OUTLINE): the rows for a parameter table whose struct T has a member
+ * `surface'; MESH and OUTLINE: when these two keys are used, USED(..). */
+#define SURFACE_ROW(T, m, is, unit_, dflt_, min_, max_, ...)                                       \
     {                                                                                              \
         .key = #m, .type = is, .offset = offsetof(T, surface.m), .unit = unit_, .dflt = dflt_,     \
-        .min = min_, .max = max_, .help = help_                                                    \
+        .min = min_, .max = max_, .help = __VA_ARGS__                                              \
     }
-#define SURFACE_ROWS(T)                                                                            \
+#define OF_FILE USED(WITH_ANY(mesh, outline, "no mesh and no outline is given"))
+#define SURFACE_ROWS(T, MESH, OUTLINE)                                                             \
     SURFACE_ROW(T, mesh, PARAM_TEXT, "-", "", 0, 0,                                                \
-                "file beside the case with its triangles: STL, OBJ or PLY; sph in 3D"),            \
+                "file beside the case with its triangles: STL, OBJ or PLY; sph in 3D", MESH),      \
         SURFACE_ROW(T, outline, PARAM_TEXT, "-", "", 0, 0,                                         \
                     "in 2D: file beside the case with its points: CSV (x, y) or an SVG drawing, "  \
                     "\"hull.svg#path1\" its path of that id; the page's lower left corner is the " \
-                    "origin, lengths are its own units times scale"),                              \
+                    "origin, lengths are its own units times scale",                               \
+                    OUTLINE),                                                                      \
         SURFACE_ROW(T, scale, PARAM_REAL, "-", "1.0", 1e-9, 1e9,                                   \
-                    "factor on the coordinates of a mesh or an outline: 0.001 for a file in mm"),  \
+                    "factor on the coordinates of a mesh or an outline: 0.001 for a file in mm",   \
+                    OF_FILE),                                                                      \
         SURFACE_ROW(T, rotate, PARAM_REALS, "degrees", "(0.0, 0.0, 0.0)", -3600, 3600,             \
                     "then its rotation about the origin, axis times angle: (0, 0, 90) turns x "    \
-                    "to y"),                                                                       \
+                    "to y",                                                                        \
+                    OF_FILE, .numbers = 3),                                                        \
         SURFACE_ROW(T, translate, PARAM_REALS, "m", "(0.0, 0.0, 0.0)", -1e9, 1e9,                  \
-                    "then its shift"),                                                             \
+                    "then its shift", OF_FILE),                                                    \
         SURFACE_ROW(T, weld, PARAM_REAL, "m", "0.0", 0, 1e6,                                       \
-                    "vertices of the mesh closer than this are one; 0: 1e-6 of its diagonal")
+                    "vertices of the mesh closer than this are one; 0: 1e-6 of its diagonal",      \
+                    USED(WITH(mesh, "no mesh is given")))
 
 #endif

@@ -13,29 +13,45 @@
 #include "../watch/limits.h"
 #include "body_boxes.h"
 #include "fv_case.h"
+#include "fv_facts.h"
 
 static struct fv_params given;
 
 #define P struct fv_params
 /* clang-format off */
 static const struct param rows[] = {
-    PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks"),
-    PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "(y in m, n): n layers of cells of equal height above y, below it the others grow downwards; (0, 0): all equal"),
+    PARAM(P, cells,        "-", "(0, 0, 0)", 1, 1e6, "cells in each direction; even, rich in factors of two; none with blocks",
+          USED(NEED(UNIFORM, "each block has cells of its own"))),
+    PARAM(P, graded,       "-", "(0.0, 0.0)", -1e9, 1e9, "(y in m, n): n layers of cells of equal height above y, below it the others grow downwards; (0, 0): all equal",
+          USED(WHERE(fv_has_layers, "layers", "the number of equal layers is 0")), .numbers = 2),
     PARAM(P, cfl,          "-", "0.0",  0, 1e4, "largest sum over the axes of |u_a| dt/h_a in a cell; at most 1.2 (rk3), 0.7 (bdf2); 0: 1.1 (rk3), 0.5 (bdf2), 1 (newton)"),
     CHOICE(P, integrator, "rk3|bdf2|newton", "rk3", "three projected stages, two-step backward for slow flows, fully implicit"),
-    PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence"),
-    PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: (32/n)^2/1000, n cells a side, with imposed cells or closed sides 1e-5 at most"),
-    PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6"),
-    CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)"),
-    PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible"),
-    PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo time, which time.end limits"),
-    PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box of imposed cells, which take the exact solution; none by default"),
-    PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls and where U h/nu is above 200, else none"),
-    PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema"),
+    PARAM(P, tol_pressure, "-", "1e-2", 1e-14, 1, "of the last projection of a step, relative to its divergence",
+          USED(NEED(PROJECTED, "newton solves for all unknowns at once: see fv.tol_newton"))),
+    PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: (32/n)^2/1000, n cells a side, with imposed cells or closed sides 1e-5 at most",
+          USED(NEED(PROJECTED, "newton solves for all unknowns at once: see fv.tol_newton"),
+               NEED(VISCOUS, "fluid.nu = 0: there is no viscous solver"))),
+    PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6",
+          USED(ONLY(integrator, ONE(INTEGRATOR_NEWTON), "it needs fv.integrator = \"newton\""))),
+    CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)",
+          USED(ONLY(integrator, ONE(INTEGRATOR_NEWTON), "it needs fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind"))),
+    PARAM(P, c0,           "m/s", "0.0", 0, 1e9,  "newton's sound speed; 0: incompressible",
+          USED(ONLY(integrator, ONE(INTEGRATOR_NEWTON), "it needs fv.integrator = \"newton\""))),
+    PARAM(P, steady,       "-", "false", 0, 1,    "newton marches to a steady state in pseudo time, which time.end limits",
+          USED(ONLY(integrator, ONE(INTEGRATOR_NEWTON), "it needs fv.integrator = \"newton\""))),
+    PARAM(P, hole,         "m", "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "box of imposed cells, which take the exact solution; none by default",
+          USED(WHERE(fv_has_hole, "cells that lie wholly in the box", "no cell lies wholly in the box"))),
+    PARAM(P, upwind,       "-", "-1.0", -1, 1e6,   "rk3, bdf2: strength of the upwind bias where the flow is finer than the cells; 0: none, -1: 1 with walls and where U h/nu is above 200, else none",
+          USED(NEED(PROJECTED, "newton has fv.flux"))),
+    PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema",
+          USED(WHERE(fv_has_extrema, "the first of them", "the first of them is 0")), .numbers = 3),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave; in a coupled job where sph.box ends in the water at an upright side"),
-    CHOICE(P, volume, "auto|shift|fraction", "auto", "how a free surface keeps its water: fraction: the share of water of each cell is carried by the fluxes, and phi follows it where the water is not calm; shift: phi is shifted as a whole; auto: fraction where the cells are upright, at rest, do not overlap and have no partner, else shift"),
-    PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force"),
-    PARAM(P, forced_order, "-", "2",    1, 2,     "order in time of a partner's velocities within a coupling step"),
+    CHOICE(P, volume, "auto|shift|fraction", "auto", "how a free surface keeps its water: fraction: the share of water of each cell is carried by the fluxes, and phi follows it where the water is not calm; shift: phi is shifted as a whole; auto: fraction where the cells are upright, at rest, do not overlap and have no partner, else shift",
+          USED(NEED(SURFACE, "without a free surface no cell holds less water than another"))),
+    PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force",
+          USED(NEED(FORCES, "no block has a side that is a \"wall\"")), .numbers = 3),
+    PARAM(P, forced_order, "-", "2",    1, 2,     "order in time of a partner's velocities within a coupling step",
+          USED(NEED(COUPLED, "this is no coupled job: no partner imposes velocities"))),
 };
 /* clang-format on */
 #undef P

@@ -14,6 +14,7 @@
 #include "../refinement/apr_params.h"
 #include "../refinement/mixed.h"
 #include "../refinement/regions_check.h"
+#include "../sph_facts.h"
 #include "../time/runge_kutta.h"
 #include "../walls/wall_ends.h"
 #include "../walls/wall_thin.h"
@@ -32,34 +33,52 @@ static const struct param rows[] = {
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed expected in the scene, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1"),
     CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface but no inlet or outlet, else riemann_ale"),
-    CHOICE(P, riemann, "linear|exact", "linear", "Riemann problem of each pair of the Riemann schemes: linearised; for comparison solved exactly, by Newton's iteration, in twice the time"),
-    CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles"),
+    CHOICE(P, riemann, "linear|exact", "linear", "Riemann problem of each pair of the Riemann schemes: linearised; for comparison solved exactly, by Newton's iteration, in twice the time",
+          USED(NEED(ONE_SIZE, "only the Riemann schemes solve Riemann problems, and sets of several sizes (apr.method) the linear ones alone"))),
+    CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles",
+          USED(NEED(RIEMANN, "schemes delta and standard reconstruct nothing between particles"))),
     CHOICE(P, transport, "tvs|tvo|none|eulerian|xsph", "tvs", "law of particle shifting: whole support, 2 dx (Oger), none; eulerian: particles at rest; xsph: smoothed velocity"),
-    CHOICE(P, surface_shift, "along|beta", "along", "how shifting ends at a free surface: along it alone near it, nothing on it; for comparison it fades within 2 dx as the support is cut (Chiron)"),
-    CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris"),
-    PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)"),
-    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0"),
-    PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure"),
-    PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0"),
-    PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R"),
-    PARAM(P, background, "-", "false", 0, 1, "background pressure that lifts the least pressure to 0; not with a free surface"),
+    CHOICE(P, surface_shift, "along|beta", "along", "how shifting ends at a free surface: along it alone near it, nothing on it; for comparison it fades within 2 dx as the support is cut (Chiron)",
+          USED(NEED(SHIFT_ENDS, "no law of shifting (sph.transport) meets a free surface, or sets of several sizes (apr.method) have their own"))),
+    CHOICE(P, viscosity, "morris|monaghan|auto", "auto", "form of the viscous term; auto: monaghan with a free surface, where it leaves no stress, else morris",
+          USED(NEED(VISCOUS, "fluid.nu is 0: nothing viscous is computed"))),
+    PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)",
+          USED(NEED(RIEMANN, "schemes delta and standard solve no Riemann problem"))),
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
+          USED(NEED(BOUNDED, "it is the floor of low_dissipation, which is off or has no Riemann scheme"))),
+    PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure",
+          USED(NEED(RIEMANN, "schemes delta and standard have no pair pressure that it could damp"))),
+    PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0",
+          USED(NEED(ARTIFICIAL, "the Riemann schemes have no artificial viscosity: see sph.dissipation"))),
+    PARAM(P, delta, "-", "0.05", 0.0, 0.2, "diffusion of density of scheme delta: delta c0 R",
+          USED(NEED(DIFFUSIVE, "only scheme delta diffuses density"))),
+    PARAM(P, background, "-", "false", 0, 1, "background pressure that lifts the least pressure to 0; not with a free surface",
+          USED(NEED(NO_SURFACE, "the pressure of a free surface is 0"))),
     CHOICE(P, integrator, "rk4|j3|auto", "auto", "scheme in time: classical Runge-Kutta; three stages for the spectrum of the pair interaction, order 2; auto: j3"),
     PARAM(P, cfl, "-", "0.0", 0.0, 2.0, "dt over R/(c + |u - u0|); 0: j3 0.5, in 3D 0.45; rk4 0.375"),
-    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), with no-slip walls 0.05 to 0.012; j3 of the Riemann schemes 1.18 times that"),
+    PARAM(P, cfl_viscous, "-", "0.0", 0.0, 2.0, "dt over R^2/nu; 0: 0.09 (morris), 0.035 (monaghan), with no-slip walls 0.05 to 0.012; j3 of the Riemann schemes 1.18 times that",
+          USED(NEED(VISCOUS, "fluid.nu is 0: nothing viscous limits dt"))),
     PARAM(P, box, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "region of the particles inside the domain; all 0: the domain"),
     PARAM(P, free, "m", "((0, 0, 0), (0, 0, 0))", -1e6, 1e6, "instead of box: its free zone, without transition and buffer"),
     PARAM(P, box_velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "velocity of the box: it moves through the fluid, particles are created ahead of it and removed behind it"),
     PARAM(P, box_follows, "-", "", 0, 0, "name of a body with which the box moves, along the axes whose both sides are open; \"breaker\": it moves with the crest in it, above initial.level"),
-    CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it"),
-    CHOICE(P, births, "faces|vertices", "faces", "where particles enter at open sides: at the faces of a lattice, half a spacing inside; for comparison at their vertices, on the side (Kassiotis)"),
+    CHOICE(P, outer, "none|exact|partner|sides", "none", "the flow around the box; none with a box: partner when coupled, else exact; sides: as inlets and outlets in walls have it",
+          USED(NEED(OUTER, "no side of the particles' region is open, or inlets and boxes say what is outside; sides needs an inlet or an outlet among the walls"))),
+    CHOICE(P, births, "faces|vertices", "faces", "where particles enter at open sides: at the faces of a lattice, half a spacing inside; for comparison at their vertices, on the side (Kassiotis)",
+          USED(NEED(ZONES, "no side of the particles' region is open"))),
     PARAM(P, density_limit, "-", "0.0", 0.0, 10.0, "|rho/rho0 - 1| that ends the run; 0: 0.1, compression at rest and twice the largest Mach number so far, at most 0.5"),
-    CHOICE(P, walls, "nfm|ghosts|fixed|auto", "auto", "normal flux (any polyline or mesh; scheme standard in viscous channels alone), mirrored ghosts (plane sides), for comparison fixed ghosts (Marrone; any polyline, 2D); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh"),
-    CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)"),
-    PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane"),
+    CHOICE(P, walls, "nfm|ghosts|fixed|auto", "auto", "normal flux (any polyline or mesh; scheme standard in viscous channels alone), mirrored ghosts (plane sides), for comparison fixed ghosts (Marrone; any polyline, 2D); auto: nfm, but ghosts where schemes delta and standard have no polyline or mesh",
+          USED(NEED(WALLS, "the particles have no wall and no body"))),
+    CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)",
+          USED(NEED(FLUXES, "the particles have no normal flux walls (sph.walls)"))),
+    PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane",
+          USED(NEED(CLIPPED, "sph.wall_integrals is not clipped"))),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
-    PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, with meshes up to 40 as long as they help, 40 with noise, else none"),
+    PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, with meshes up to 40 as long as they help, 40 with noise, else none",
+          USED(NEED(PACKED, "without walls, bodies and noise the lattice is uniform already"))),
     PARAM(P, noise, "-", "-1.0", -1.0, 0.5, "random displacement of the first lattice, in dx; -1: 0.3 where vortices fill a periodic domain, for a lattice that they shear breaks up in rows, else 0"),
-    PARAM(P, extrema, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema; 2D"),
+    PARAM(P, extrema, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema; 2D",
+          USED(NEED(PLANE, "centre lines are read in two dimensions only")), .numbers = 3),
 };
 /* clang-format on */
 
@@ -643,15 +662,6 @@ static void check_levels(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
     const struct apr_params *apr = apr_params_of(r);
-    params_unused(r->params, f, "apr.guards", apr->method == APR_GUARDS,
-                  "this method has particles of all sizes in one set");
-    params_unused(r->params, f, "apr.local_steps", apr->method == APR_GUARDS,
-                  "this method has particles of all sizes in one set");
-    params_unused(r->params, f, "apr.unshifted_finest",
-                  apr->method == APR_GUARDS &&
-                      (prm->transport == TRANSPORT_TVS || prm->transport == TRANSPORT_TVO),
-                  apr->method == APR_GUARDS ? "sph.transport is no law of shifting"
-                                            : "this method has particles of all sizes in one set");
     if (apr->method != APR_GUARDS) {
         mixed_check(r, prm, apr, f);
         return;
@@ -738,7 +748,7 @@ void sph_params_check(const struct run *r, struct faults *f)
         check_zones(r, f);
     if (f->n == 0)
         check_motion(r, f);
-    sph_unused_check(r, &given, sph_params_of(r), f);
+    sph_unused_check(r, sph_groups, &given, sph_params_of(r), f);
     if (f->n > 0)
         return;
     sph_sense_check(r, &given, sph_params_of(r), f);

@@ -5,9 +5,10 @@
 
 #include "../particles/params_derived.h"
 
-/* Adds a fault for each of them. given: the parameters as the case has them; used: the result of
- * sph_params_of. Call on all ranks alike. */
-void sph_unused_check(const struct run *r, const struct sph_params *given,
-                      const struct sph_params *used, struct faults *f);
+/* Adds a fault for each of them. groups: the tables of sph and apr; given: the parameters as the
+ * case has them; used: the result of sph_params_of. Call on all ranks alike. */
+void sph_unused_check(const struct run *r, const struct param_group groups[2],
+                      const struct sph_params *given, const struct sph_params *used,
+                      struct faults *f);
 
 #endif

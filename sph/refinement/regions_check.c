@@ -38,66 +38,12 @@ static const char *key_of(const struct check *c, const char *name)
     return params_given(c->r->params, key) ? key : "apr.regions";
 }
 
-/* Whether the case gives this member of the region. */
-static bool is_given(const struct check *c, const char *name)
-{
-    return strcmp(key_of(c, name), "apr.regions") != 0;
-}
-
-/* R of a level, m. */
 static double R_of(const struct check *c, int level)
 {
     return ldexp(c->used->R_dx * c->used->dx, -level);
 }
 
-/* --- keys of other shapes --- */
-
-/* Members that the region's shape does not read are faults. */
-static void check_unused(const struct check *c)
-{
-    static const struct {
-        const char *name;
-        unsigned shapes; /* bits of enum region_shape */
-        const char *why;
-    } rows[] = {
-        {"min", 1, "only a box has corners"},
-        {"max", 1, "only a box has corners"},
-        {"centre", 2, "only a sphere has a centre"},
-        {"radius", 2, "only a sphere has a radius"},
-        {"body", 4, "the shape is no body; to move with one: follow"},
-        {"wall", 8, "the shape is no wall"},
-        {"offset", 12, "only shapes body and wall have an offset"},
-        {"velocity", 3, "this shape moves with its body, or not at all"},
-        {"motion", 3, "this shape moves with its body, or not at all"},
-        {"follow", 3, "this shape moves with its body, or not at all"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (!(rows[i].shapes >> c->is->shape & 1) && is_given(c, rows[i].name))
-            params_fault(c->r->params, c->f, key_of(c, rows[i].name), "is not used: %s",
-                         rows[i].why);
-    if (!*c->is->follow && is_given(c, "along"))
-        params_fault(c->r->params, c->f, key_of(c, "along"), "is not used: nothing is followed");
-    if (strcmp(c->is->follow, "peak") != 0 && is_given(c, "pressure"))
-        params_fault(c->r->params, c->f, key_of(c, "pressure"), "is not used: no peak is followed");
-}
-
 /* --- size and place --- */
-
-/* In 2D a z component is a mistake. */
-static void check_flat(const struct check *c)
-{
-    const struct {
-        const char *name;
-        double z;
-    } rows[] = {{"min", c->is->min[2]},
-                {"max", c->is->max[2]},
-                {"centre", c->is->centre[2]},
-                {"velocity", c->is->velocity[2]}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0] && c->dim == 2; i++)
-        if (rows[i].z != 0.0)
-            params_fault(c->r->params, c->f, key_of(c, rows[i].name),
-                         "z component %g in a case of 2 dimensions", rows[i].z);
-}
 
 /* Bounds of a box or sphere at the start. */
 static void bounds(const struct apr_region *is, double lo[3], double hi[3])
@@ -530,11 +476,6 @@ static void check_criteria(const struct run *r, const struct sph_params *used,
     for (int k = 0; k < prm->criteria.n; k++) {
         const struct apr_criterion *is = prm->criteria.of + k;
         const bool surface = is->kind == CRITERION_SURFACE;
-        const char *const wanted = surface ? "distance" : "above";
-        snprintf(key, sizeof key, "apr.criteria.[%d].%s", k, surface ? "above" : "distance");
-        if (params_given(r->params, key))
-            params_fault(r->params, f, key, "is not used: this kind has a bound `%s'", wanted);
-        snprintf(key, sizeof key, "apr.criteria.[%d].%s", k, wanted);
         if (!surface && is->above <= 0.0)
             params_fault(r->params, f, "apr.criteria", "criterion %d needs `above', a bound > 0",
                          k + 1);
@@ -545,11 +486,6 @@ static void check_criteria(const struct run *r, const struct sph_params *used,
             used->scheme != SCHEME_RIEMANN)
             params_fault(r->params, f, key, "only the Riemann schemes reconstruct pressures");
     }
-    if (prm->criteria.n == 0 && params_given(r->params, "apr.around"))
-        params_fault(r->params, f, "apr.around", "is not used: there are no criteria");
-    if (prm->criteria.n == 0 && params_given(r->params, "apr.particles"))
-        params_fault(r->params, f, "apr.particles",
-                     "is not used: without criteria nothing adapts to a budget");
     double cells = 1.0;
     for (int a = 0; a < r->scene.domain.dim && prm->criteria.n > 0; a++)
         cells *= ceil((used->box[1][a] - used->box[0][a]) /
@@ -578,8 +514,6 @@ void regions_check_budget(const struct run *r, double n, struct faults *f)
 /* Nesting and motion need the regions and are checked later. */
 static void check_region(struct check *c)
 {
-    check_unused(c);
-    check_flat(c);
     if (c->is->shape < REGION_BODY)
         check_box_and_ball(c);
     else
@@ -588,10 +522,6 @@ static void check_region(struct check *c)
         check_motion_keys(c);
 }
 
-/* Whether any region or criterion goes beyond level 1: only then are outer ones made. */
-static bool has_outer(const struct apr_params *prm) { return prm->levels > 1; }
-
-/* Faults so far end the check early, since regions_create expects sound parameters. */
 void regions_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct apr_params *prm = apr_params_of(r);
@@ -606,7 +536,6 @@ void regions_check(const struct run *r, const struct sph_params *used, struct fa
     struct check c = {.r = r, .used = used, .prm = prm, .f = f, .dim = r->scene.domain.dim};
     check_levels(r, prm, f);
     check_criteria(r, used, prm, f);
-    params_unused(r->params, f, "apr.margin", has_outer(prm), "all regions are of level 1");
     for (c.k = 0; c.k < prm->regions.n; c.k++) {
         c.is = prm->regions.of + c.k;
         if (c.is->level <= prm->levels)
