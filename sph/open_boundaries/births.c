@@ -17,7 +17,9 @@
 #include "wet_faces.h"
 #include "zones.h"
 
-/* Particles beyond an open side give their mass to the nearest face. */
+/* Particles beyond an open side give their mass to the nearest face. A particle out of two sides at
+ * once belongs to that which it is farther out of. Places in the list are filled from its end, so i
+ * stays where a row has gone. */
 static void remove_leavers(struct sph *s)
 {
     struct openings *o = s->zones->openings;
@@ -54,7 +56,8 @@ static void remove_leavers(struct sph *s)
 }
 
 /* rho u.n dx^(D-1) of the faces this rank owns [6.13], from the flow outside at the middle of the
- * step. */
+ * step. drain is what leaves through every face for the voids' sake (openings.c): it is no inflow,
+ * and what is owed falls by it. */
 static void add_fluxes(struct sph *s, double dt)
 {
     struct openings *o = s->zones->openings;
@@ -91,7 +94,8 @@ static void add_fluxes(struct sph *s, double dt)
     o->owed -= dt * openings_faces(o) * s->rho0 * area * s->zones->drain;
 }
 
-/* Places near the open sides in a hash of cells of side dx, to keep births apart. */
+/* Particles near the open sides in a hash of cells of side dx, to keep births apart: chains by
+ * head[] and next[]. */
 struct birth_strip {
     int n, capacity, heads;
     double (*x)[3];
@@ -150,6 +154,8 @@ static void strip_free(struct birth_strip *t)
     mem_free(t->head);
 }
 
+/* Whether anything stands within dx/2 of x; all within that distance are in the 3^dim cells around
+ * it. */
 static bool crowded(const struct birth_strip *t, const struct openings *o, const double *x)
 {
     const double least2 = 0.25 * o->dx * o->dx;
@@ -167,6 +173,8 @@ static bool crowded(const struct birth_strip *t, const struct openings *o, const
     return false;
 }
 
+/* The id follows from the face and the time in ticks alone, so that it is the same on any number of
+ * ranks and no two are equal. */
 static void born(struct sph *s, int f, int side, const double *x, const double *u, double rho)
 {
     struct openings *o = s->zones->openings;
@@ -251,6 +259,8 @@ static void give_birth(struct sph *s)
     strip_free(&near);
 }
 
+/* Every rank holds the mass of all faces, and each changes those that its own particles and faces
+ * touch. */
 static void sum_changes(struct sph *s)
 {
     struct openings *o = s->zones->openings;
@@ -279,6 +289,8 @@ static void pass_debts(struct sph *s)
     }
 }
 
+/* Twice summed: births must see what all ranks have booked, and what they take must be known to all
+ * before the next step. */
 void births_step(struct sph *s, double dt)
 {
     if (s->zones->surface)

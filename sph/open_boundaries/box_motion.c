@@ -1,4 +1,8 @@
-/* box_motion.c - see box_motion.h. SPDX-License-Identifier: BSD-3-Clause */
+/* box_motion.c - see box_motion.h. The displacement z->way is known beforehand (a velocity, a
+ * driven body: box_motion_foretold), or only as the run goes on (a free body, a crest).
+ * box_motion_step is called after the positions of a step, before zones_openings, so that faces,
+ * zones and partition stand where the particles are looked at.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "box_motion.h"
 
 #include <math.h>
@@ -64,6 +68,8 @@ static void mask(const struct run *r, const struct sph_params *prm, double way[3
             way[a] = 0.0;
 }
 
+/* false: nobody knows, way is 0. A body of its own is made and moved, since the run's may not exist
+ * yet. */
 bool box_motion_foretold(const struct run *r, const struct sph_params *prm, double t, double way[3])
 {
     bool known = true;
@@ -89,6 +95,7 @@ bool box_motion_foretold(const struct run *r, const struct sph_params *prm, doub
     return known;
 }
 
+/* Of a driven body by differences of its displacement over TIMES parts of the run. */
 double box_motion_speed(const struct run *r, const struct sph_params *prm)
 {
     enum { TIMES = 200 };
@@ -150,6 +157,7 @@ static void judge(const struct sph *s, struct diagnosis *d)
     }
 }
 
+/* dt 0 at the start: the place alone, no speed. */
 void box_motion_step(struct sph *s, double dt, struct diagnosis *d)
 {
     struct zones *z = s->zones;
@@ -181,6 +189,8 @@ void box_motion_set(struct sph *s, const double way[3])
     place(s);
 }
 
+/* All that the box may reach until the end, for what is made once for the whole run; of unknown
+ * motion the whole domain, and a period more where it is periodic. */
 void box_motion_range(const struct sph *s, double lo[3], double hi[3])
 {
     const struct scene_domain *d = &s->run->scene.domain;

@@ -64,6 +64,7 @@ static int upright(const struct sph *s)
     return up;
 }
 
+/* n[0] columns across the transition, at least one; in 3D n[1] along the side. */
 static struct gap_columns columns_of(const struct sph *s, int side)
 {
     const struct zones *z = s->zones;
@@ -102,7 +103,8 @@ static void foot(const struct sph *s, const struct gap_columns *c, int i, int j,
         x[c->across] = s->lo[c->across] + (j + 0.5) * s->dx;
 }
 
-/* The topmost place of a column where phi changes its sign. */
+/* The topmost place of a column where phi changes its sign. From the top, so that a cavity in the
+ * water does not count. depth stays 0 where the outside has no surface. */
 static void find_surface(struct sph *s, struct gap_columns *c, int k)
 {
     struct zones *z = s->zones;
@@ -135,6 +137,7 @@ static bool is_beside_wall(const struct sph *s, const struct gap_columns *c, int
     return (!s->open[2 * a] && x < s->R) || (!s->open[2 * a + 1] && x > L - s->R);
 }
 
+/* To all probes within R, which are at most R/dx columns away. */
 static void add_particle(const struct sph *s, struct gap_columns *c, const double *y, double w)
 {
     const int a = c->side / 2, more = (int)ceil(s->R / s->dx);
@@ -157,6 +160,10 @@ static void add_particle(const struct sph *s, struct gap_columns *c, const doubl
         }
 }
 
+/* In order: the surface outside in each column, the kernel's share filled there summed over the
+ * ranks, the mean of the heights with weights alpha as in blending (1 at the buffer, 0 at the free
+ * zone), then the velocity outwards that lowers the gap. What the columns say at the start counts
+ * as 0: it is what the initial lattice makes of a surface. */
 static void look_at_side(struct sph *s, int side, double dt)
 {
     struct level_gap *g = s->zones->gap;
@@ -243,6 +250,7 @@ void level_gap_row(struct sph *s, double *values)
 
 static const double several = 10.0; /* windows */
 
+/* A mean over `several' coupling steps, so that a short peak does not end the run. */
 void level_gap_judge(struct sph *s, struct diagnosis *d)
 {
     struct level_gap *g = s->zones->gap;

@@ -21,6 +21,8 @@ static const double drain_time = 50.0;
 static const struct birth_law at_faces = {0.5, 1.0, 0.5, false},
                               at_vertices = {0.0, 0.5, 0.0, true};
 
+/* Faces of all sides are numbered one after the other, first[side] on. tick: 1/64 of the step as it
+ * is expected at the start, so that steps do not share one. */
 struct openings *openings_create(struct sph *s)
 {
     struct openings *o = NEW(struct openings, 1);
@@ -86,6 +88,8 @@ static double before_walls(const struct sph *s, const double *x)
                        : wall_meshes_nearest(s->walls, x, INFINITY, &mesh).distance;
 }
 
+/* By POINTS points along a face, in each direction of it, unless the face lies wholly before or
+ * behind the walls. Done again when the box has moved. */
 void openings_find_room(const struct sph *s, struct openings *o)
 {
     enum { POINTS = 8 }; /* along a face */
@@ -116,6 +120,8 @@ static int row_of(const struct openings *o, int a, double x)
     return (int)floor((x - o->lo[a]) / o->dx + (0.5 - o->law->along));
 }
 
+/* Of the faces next to f, round an edge between two open sides too, the one that holds most (sense
+ * 1) or least (-1) and is wet; f itself if there is none. */
 int openings_beside(const struct openings *o, int f, double sense)
 {
     double x[3], most = -INFINITY;
@@ -207,6 +213,7 @@ int openings_face_at(const struct openings *o, int side, const double *x)
     return openings_face(o, side, I);
 }
 
+/* Bilinear, for births at vertices; the mass goes to 2 of them in the plane, to 4 in space. */
 void openings_share(struct openings *o, int side, const double *x, double m)
 {
     for (int corner = 0; corner < 1 << o->dim; corner++) {

@@ -1,4 +1,8 @@
-/* outer_lattice.c - see outer_lattice.h. SPDX-License-Identifier: BSD-3-Clause */
+/* outer_lattice.c - see outer_lattice.h. Behind every face stands a row of places of the lattice
+ * that would move in with its flow: shifted by what the face holds (openings.c), at the flow
+ * outside, of volume dx^D. Their places follow from the faces alone, which every rank knows, so
+ * that no messages are needed. Made with each new list, moved at each stage.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "outer_lattice.h"
 
 #include <math.h>
@@ -29,7 +33,8 @@ static void add_ghost(struct sph *s, const double *y, const double *lo, const do
 }
 
 /* Lattice places beyond side `side'. Axes before the side's own stay inside, so that an edge is
- * counted once; behind walls there are none. */
+ * counted once; behind walls there are none. Only places that this rank's box, enlarged by the
+ * reach of its lists, can see. */
 static void list_side(struct sph *s, int side, const double *lo, const double *hi, double reach)
 {
     const struct openings *o = s->zones->openings;
@@ -83,7 +88,8 @@ void outer_lattice_ghosts(struct sph *s)
     outer_lattice_move(s);
 }
 
-/* They drift with the flow outside within the step. */
+/* They drift with the flow outside within the step. With no slopes, but the transport velocity of
+ * the flow outside. */
 void outer_lattice_move(struct sph *s)
 {
     struct openings *o = s->zones->openings;

@@ -1,4 +1,9 @@
-/* side_levels.c - see side_levels.h. SPDX-License-Identifier: BSD-3-Clause */
+/* side_levels.c - see side_levels.h. Under a free surface an open side does not know how high the
+ * water outside stands. Here it is measured in a band of the free zone beside the transition (as
+ * long as that), in the sense of level gauges (level_window.h), and smoothed over `memory'; or it
+ * is given, and then waves that leave raise it. Pressure outside is hydrostatic below that level.
+ * Updated at each stage's start, the same on all ranks.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "side_levels.h"
 
 #include <math.h>
@@ -88,7 +93,8 @@ void side_levels_free(struct side_levels **l)
     *l = NULL;
 }
 
-/* What walls leave of each row of faces. */
+/* What walls leave of each row of faces. The bed is the lower edge of the lowest row that walls
+ * leave open, in part for a row that they cut. */
 static void find_room(const struct sph *s, struct side_levels *l)
 {
     const struct openings *o = s->zones->openings;
@@ -122,6 +128,7 @@ static double section_below(const struct sph *s, const struct side_levels *l,
     return sum;
 }
 
+/* The inverse of section_below, row by row from the bottom. */
 static double level_of(const struct sph *s, const struct side_levels *l,
                        const struct side_water *of, double section)
 {
@@ -149,6 +156,8 @@ static double part_in_band(const struct sph *s, double in)
     return fmax(0.0, (fmin(in + half, to) - fmax(in - half, from)) / s->dx);
 }
 
+/* For each open side: volume in the band, in the window around the level and above it, and the
+ * volume's momentum outwards over density. */
 static void sum_band(const struct sph *s, const struct side_levels *l, double bands[6][BAND])
 {
     const int dim = s->dim;
@@ -175,7 +184,9 @@ static void sum_band(const struct sph *s, const struct side_levels *l, double ba
 }
 
 /* The level inside. As of level gauges, the section that the water fills is that of its inside:
- * where particles have come in their volumes do not quite add up to it. */
+ * where particles have come in their volumes do not quite add up to it. Where the window does not
+ * fit (shallow water, the first update, a jump of more than dx) the section is that of the
+ * volume. */
 static double measured(const struct sph *s, const struct side_levels *l,
                        const struct side_water *of, const double *band)
 {
@@ -203,6 +214,7 @@ static void let_waves_out(const struct sph *s, const struct side_levels *l, stru
     of->level = of->given + c / l->g * (of->mean - of->past);
 }
 
+/* rate is what a level that is free to move does; with a given level it does not enter. */
 static void update_side(const struct sph *s, const struct side_levels *l, struct side_water *of,
                         int side, const double *band, double dt)
 {

@@ -135,6 +135,7 @@ static void add_plane(const struct side_surround *r, struct side_plane *to)
     }
 }
 
+/* Bins with no fluid around add nothing. */
 static void fit(struct sides *d, const struct opening_side *of)
 {
     struct side_surround r;
@@ -195,7 +196,9 @@ static void add_to_lines(const struct sph *s, const struct sides *d, double line
 
 /* The pressure of an outlet is that at the domain's end; through buffer and transition it goes on
  * with the slope that it has in the free zone beside them. The slope follows over the time that
- * sound takes through the domain: at once it would answer its own change. */
+ * sound takes through the domain: at once it would answer its own change. Least squares over the
+ * particles up to R into the free zone; a slope is taken only where they spread over more than
+ * dx/10 in depth. */
 static void follow_slope(struct sph *s, struct sides *d)
 {
     double lines[6][LINE] = {{0.0}};
@@ -276,7 +279,8 @@ static double profile(const struct sph *s, const struct opening_side *of, const 
 }
 
 /* The wave that runs out keeps p + Z u.n of the flow inside, the one that runs in p - Z u.n of the
- * far state; n out of the domain. in: pressure and velocity inside. */
+ * far state; n out of the domain. in: pressure and velocity inside. rho c = Z; exact for plane
+ * waves that hit the side at right angles. */
 static void absorb(const struct sph *s, int side, const struct opening_side *of, const double *in,
                    double *u, double *p)
 {

@@ -1,4 +1,8 @@
-/* wave_outside.c - see wave_outside.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wave_outside.c - see wave_outside.h. A steady wave as the flow outside, for runs of SPH alone:
+ * the same function that sets the start, evaluated at every stage; velocity and pressure with their
+ * slopes (steady.h), and the surface as a level set of unit gradient, phi = (y - eta)/sqrt(1 +
+ * eta_x^2).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_outside.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
-/* wet_faces.c - see wet_faces.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wet_faces.c - see wet_faces.h. All from the level set phi of the water outside: phi < 0 in it.
+ * Each function looks at the points of its own list (zones->x), so that zones_look's list does not
+ * hold any longer after them.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wet_faces.h"
 
 #include <math.h>
@@ -9,7 +12,8 @@
 #include "zones.h"
 
 /* Share of the unit square around 0 where phi + n0 s + n1 t < 0, n0 >= n1 >= 0: corners that stand
- * over the line taken out. */
+ * over the line taken out. The area of a polygon in closed form, as in volume-of-fluid methods
+ * (Scardovelli & Zaleski, J. Comput. Phys. 164, 2000). */
 static double below(double phi, double n0, double n1)
 {
     const double sum = n0 + n1;
@@ -58,6 +62,8 @@ static int upright(const struct sph *s)
     return up;
 }
 
+/* Goes down from where the particle leaves to the first face that is wet, at most three rows; from
+ * higher up it is a drop and is counted as one. */
 int wet_faces_for(struct sph *s, int side, const double *x)
 {
     const struct openings *o = s->zones->openings;
@@ -108,6 +114,7 @@ double wet_faces_voids(const struct sph *s)
     return sum;
 }
 
+/* Along the gradient, by one Newton step of phi = -depth. */
 void wet_faces_lower(struct sph *s, double depth, int n, double *x)
 {
     for (int k = 0; k < n; k++) {
@@ -122,6 +129,7 @@ void wet_faces_lower(struct sph *s, double depth, int n, double *x)
     }
 }
 
+/* Those above the surface go; those less than dx/2 below it are pushed down to that. */
 void wet_faces_ghosts(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -160,6 +168,8 @@ static double counted_share(const struct sph *s, const double *y)
     return f;
 }
 
+/* Particles are counted by the part of their square or cube in the box; outside it those that are
+ * over the water outside, which no partner counts. */
 void wet_faces_water(struct sph *s, double water[2])
 {
     struct zones *z = s->zones;

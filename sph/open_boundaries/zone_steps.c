@@ -66,6 +66,8 @@ static void use_exact(struct sph *s, struct zones *z)
     z->gap = level_gap_create(s);
 }
 
+/* Widths, faces and the flow outside by sph.outer: exact, of the domain's sides, or none yet (a
+ * partner's, set by sph/coupling). */
 struct zones *zones_create(struct sph *s)
 {
     bool open = false;
@@ -156,7 +158,8 @@ static void move_row(struct zones *z, int dim, int to, int from)
     memmove(z->gu + 3 * dim * to, z->gu + 3 * dim * from, 3 * (size_t)dim * sizeof *z->gu);
 }
 
-/* Buffer particles in the air outside leave the list, those between are imposed in part. */
+/* Buffer particles in the air outside leave the list, those between are imposed in part. wet is 1
+ * in the water outside, 0 from 3 dx above it. */
 static void mix_with_own(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -177,6 +180,8 @@ static void mix_with_own(struct sph *s)
     z->n = n;
 }
 
+/* In this order: what looks at the flow inside, the lattice behind the faces, the buffer. So all of
+ * a stage sees the same outside. */
 void zones_stage(struct sph *s)
 {
     struct zones *z = s->zones;
@@ -199,6 +204,7 @@ void zones_stage(struct sph *s)
     }
 }
 
+/* Slopes of rho from those of p by the speed of sound. The list is still that of zones_stage. */
 void zones_slopes(struct sph *s)
 {
     const struct zones *z = s->zones;
@@ -344,6 +350,8 @@ void zones_openings(struct sph *s, double dt)
         level_gap_look(s, dt);
 }
 
+/* Masses of faces once, from rank 0, as all have the same; fluxes and counts are sums over the
+ * ranks, and each rank writes its part. */
 void zones_save(struct sph *s, struct h5 *f)
 {
     const struct openings *o = s->zones->openings;

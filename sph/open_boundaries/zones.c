@@ -1,4 +1,6 @@
-/* zones.c - where the zones lie, and what the flow outside is there; see zones.h.
+/* zones.c - where the zones lie, and what the flow outside is there; see zones.h. The functions
+ * that take a run and its parameters are pure, and serve the checks of a case as well as partners
+ * that ask for the boxes before any particle exists.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zones.h"
 
@@ -70,6 +72,8 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
     }
 }
 
+/* Of uniform cells only whole ones count, rounded into the box; eps keeps a cell whose edge lies on
+ * the box's. */
 void zones_counted_box(const struct run *r, const struct sph_params *prm, const double way[3],
                        double lo[3], double hi[3])
 {
@@ -148,7 +152,9 @@ void zones_look_at_surface(struct zones *z, double t)
 }
 
 /* The pressure outside is that of a constant density, and where the surface is near no suction:
- * interpolation across it must not make any. The level of the flow inside draws at that outside. */
+ * interpolation across it must not make any. The level of the flow inside draws at that outside. In
+ * order: no suction near the surface, from the partner's constant density to this equation of
+ * state, and the flow that levels ask for. */
 static void look_under_surface(struct zones *z, double t)
 {
     const struct sph_eos *e = &z->eos;
@@ -163,6 +169,8 @@ static void look_under_surface(struct zones *z, double t)
     }
 }
 
+/* The one place where the outer solution is asked for: then the gauge is added to p, and drain and
+ * outflow to u. */
 void zones_look(struct zones *z, double t, bool gradients)
 {
     if (!z->eval) { /* a partner's patch has not come: at rest */
@@ -188,6 +196,7 @@ double zones_depth(const struct sph *s, const double *x)
     return below;
 }
 
+/* Falls from 1 to 0 over one dx around the rim of the free zone. */
 double zones_share(const struct sph *s, int i)
 {
     const double *y = state_row(&s->p, s->p.y, i);
