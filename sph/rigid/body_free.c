@@ -41,6 +41,8 @@ static void unit(const double *from, double *to)
         to[a] = from[a] / size;
 }
 
+/* About a hinge the state is the angle and L along the axis, with J by Steiner's theorem; the
+ * centre follows. */
 static void set_hinge(struct body *b, const struct scene_hinge *h)
 {
     static const double z[3] = {0.0, 0.0, 1.0};
@@ -73,6 +75,7 @@ static void set_rotation(struct body *b)
     }
 }
 
+/* From the velocity and the rotation at the start, as far as constraints allow them. */
 static void set_momenta(struct body *b)
 {
     struct body_free *f = b->free;
@@ -94,6 +97,7 @@ static void set_momenta(struct body *b)
         turn3(f->inertia, spin, L);
 }
 
+/* mass and inertia about the centre at the start. q = (1, 0, 0, 0): not rotated. */
 static void create_free(struct body *b, const struct body_mass *m)
 {
     struct body_free *f = b->free = NEW(struct body_free, 1);
@@ -131,6 +135,8 @@ static void set_middle(struct body *b)
         b->middle[a] = 0.5 * (lo[a] + hi[a]);
 }
 
+/* The centre of a free body is that of its mass, of a driven one what the case says. reach is the
+ * radius of a sphere around all of its points. */
 void body_create(struct body *b, const struct scene_body *is, const struct trimesh *mesh, int dim,
                  struct motion_files *files)
 {
@@ -173,6 +179,8 @@ static void over_inertia(const struct body_free *f, const struct body_motion *m,
     turn3((double(*)[3])m->Q, in_body, out);
 }
 
+/* Rotation, rotation vector and omega from the state; while held omega is 0, though the momentum of
+ * the start is kept for the release. */
 static void move_rotation(const struct body_free *f, struct body_motion *m)
 {
     const double *y = f->y, *L = y + BODY_L;
@@ -194,6 +202,7 @@ static void move_rotation(const struct body_free *f, struct body_motion *m)
         m->omega[a] = 0.0;
 }
 
+/* On a hinge the centre is carried round by the arm; else locked axes keep what the drive says. */
 static void move_centre(const struct body *b, struct body_motion *m)
 {
     const struct body_free *f = b->free;
@@ -223,7 +232,8 @@ static void accelerate_turn(const struct body_free *f, struct body_motion *m)
     over_inertia(f, m, torque, m->domega);
 }
 
-/* Accelerations, of the last stage: averaged forces carry pressures with them. */
+/* Accelerations, of the last stage: averaged forces carry pressures with them. On a hinge a =
+ * domega x arm + omega x u. */
 static void accelerate(const struct body *b, struct body_motion *m)
 {
     const struct body_free *f = b->free;
@@ -297,7 +307,8 @@ static double about_hinge(const struct body *b, const double *F, const double *T
     return vec3_dot(b->free->axis, M) + vec3_dot(b->free->axis, T);
 }
 
-/* What of a force (at the centre) and a moment moves the body: change of P and L. */
+/* What of a force (at the centre) and a moment moves the body: change of P and L. What constraints
+ * take up is left out; a locked axis takes no share. */
 static void moving_part(const struct body *b, const double *F, const double *T, double *P,
                         double *L)
 {
@@ -319,6 +330,7 @@ static void moving_part(const struct body *b, const double *F, const double *T, 
         memcpy(L, T, 3 * sizeof *L);
 }
 
+/* While held nothing changes. */
 void body_rates(struct body *b, const double F[3], const double T[3])
 {
     struct body_free *f = b->free;
@@ -369,6 +381,8 @@ double body_energy(const struct body *b, const double g[3], double *kinetic)
     return *kinetic - f->mass * vec3_dot(g, b->now.x);
 }
 
+/* 1/m_eff = n.P/m + w.I^-1 w, where P and w are what n at r changes: constraints count as infinite
+ * mass. */
 double body_effective_mass(const struct body *b, const double *r, const double *n)
 {
     struct body_free *f = b->free;

@@ -7,6 +7,8 @@
 #include "../../common/geometry/body_math.h"
 #include "body_impedance.h"
 
+/* One piece of surface with the impedances `along' its normal and `across' it, rho c dS, kg/s: adds
+ * to the 6 x 6 matrix Z for velocity and rotation about the centre. */
 void impedance_add(struct impedance *z, const double *arm, const double *n, double along,
                    double across)
 {
@@ -60,6 +62,7 @@ static void factor(double A[6][6], int n)
         }
 }
 
+/* A holds the factor: forward, then back. */
 static void solve(double A[6][6], int n, double *v)
 {
     for (int i = 0; i < n; i++) {
@@ -83,6 +86,9 @@ static double form(double D[6][6], double A[6][6], int i, int j)
     return sum;
 }
 
+/* Z and M in the directions that constraints leave (D^T Z D), then the largest eigenvalue of M^-1 Z
+ * by powers: six unknowns at most, so 500 of them cost nothing. The first vector has all
+ * components, unequal, so that it is no eigenvector by symmetry. */
 double impedance_rate(const struct impedance *z, const struct body *b)
 {
     double D[6][6], M6[6][6] = {{0.0}}, M[6][6], Z[6][6], v[6], rate = 0.0;
@@ -99,7 +105,7 @@ double impedance_rate(const struct impedance *z, const struct body *b)
     factor(M, n);
     for (int i = 0; i < n; i++)
         v[i] = 1.0 / (1.0 + 0.3 * i) / sqrt(M[i][i]);
-    for (int k = 0; k < 500; k++) { /* powers; the rate from above by the largest growth */
+    for (int k = 0; k < 500; k++) { /* powers; the growth of the last one is the rate */
         double w[6] = {0.0}, size = 0.0, before = 0.0;
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++)

@@ -1,4 +1,6 @@
-/* body_mass.c - mass, centre and inertia of a body, given or of a uniform density.
+/* body_mass.c - mass, centre and inertia of a body, given or of a uniform density. Called with the
+ * case, to refuse what no body can have, and by body_create; in 2D all per metre, and inertia is
+ * that about z.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +17,7 @@ static bool no(char *why, size_t size, const char *what)
     return false;
 }
 
+/* From J (2D; halves about x and y are never used) or J_xx, J_yy, J_zz, J_xy, J_yz, J_zx. */
 static void take_inertia(const struct param_numbers *v, int dim, double J[3][3])
 {
     static const int at[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
@@ -28,7 +31,8 @@ static void take_inertia(const struct param_numbers *v, int dim, double J[3][3])
         J[at[k][0]][at[k][1]] = J[at[k][1]][at[k][0]] = v->v[k];
 }
 
-/* Eigenvalues of a symmetric matrix (Smith 1961), ascending. */
+/* Eigenvalues of a symmetric matrix (Smith 1961), ascending. With cosines: exact for multiple
+ * eigenvalues too, up to rounding. */
 static void eigenvalues(double A[3][3], double e[3])
 {
     const double off = A[0][1] * A[0][1] + A[0][2] * A[0][2] + A[1][2] * A[1][2];
@@ -95,6 +99,7 @@ double body_volume_of(const struct scene_body *is, const struct trimesh *mesh)
     return fabs(mesh ? trimesh_solid(mesh, -1).volume : line_area(&l));
 }
 
+/* Density with what it can be integrated over, or mass with inertia; one of them. */
 bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int dim,
                   struct body_mass *m, char *why, size_t size)
 {
