@@ -1,4 +1,8 @@
-/* fv_step.c - size of a step, what it may not do, and the surface around it.
+/* fv_step.c - size of a step, what it may not do, and the surface around it. integrate() is the
+ * program's step: the size from limits.c, cut so that an output, the end of a coupling step or of a
+ * motion is met; the step itself (projection.c, or newton.c) between the two halves of the
+ * surface's (surface_steps.c); the zones of waves; then the diagnosis, on all ranks. pressure_start
+ * finds the pressure that belongs to the start.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stages.h"
 

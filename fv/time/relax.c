@@ -1,4 +1,8 @@
-/* relax.c - see relax.h. SPDX-License-Identifier: BSD-3-Clause */
+/* relax.c - see relax.h. Called at the end of a step, at the new time: u <- u + change towards the
+ * waves' velocity, at the rate of the zone there, and the same for the velocity of the step before
+ * that bdf2 keeps, so that its difference in time does not see the zone. Cells deep in the air are
+ * left out.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "relax.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
-/* stages.c - see stages.h: what the operators of the cells make, and what stands around them.
+/* stages.c - see stages.h: what the operators of the cells (s->ops) make, and what stands around
+ * them: openings, a partner's cells, moving blocks, the surface, boxes. In the order of a stage:
+ * convection, sides at the stage's time, viscous solve, fluxes between cells, pressure.
+ * projection.c puts them together.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stages.h"
 

@@ -1,4 +1,10 @@
-/* surface_steps.c - the surface at the start and around a step of the velocity.
+/* surface_steps.c - the surface at the start and around a step of the velocity. A step goes half a
+ * step of phi, the velocity with the surface at half time, the other half of phi: second order in
+ * time. Each half: phi (or the shares of water, fraction.c) is carried, what others impose on it is
+ * set, the cut faces are found anew (rebuild), then values of the water are continued into the air
+ * as far as stencils reach (surface_extend). At the end phi becomes a distance again where it has
+ * travelled, and the volume is kept. surface_keep_state and surface_back take a step back that was
+ * too long.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../surface/levelset.h"
 
