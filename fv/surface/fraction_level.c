@@ -1,5 +1,8 @@
 /* fraction_level.c - phi from the shares of water: the plane through a cell that has phi's slopes
- * and the cell's share gives phi of its centre. SPDX-License-Identifier: BSD-3-Clause */
+ * and the cell's share gives phi of its centre. fraction_correct_level draws phi there after the
+ * shares have been carried: all of the way where phi is smooth around (is_trusted), in part
+ * elsewhere; fraction_is_calm tells whether phi alone would do. Called by surface_steps.c.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "fraction.h"
 
 #include <math.h>

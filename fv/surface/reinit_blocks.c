@@ -1,5 +1,8 @@
-/* reinit_blocks.c - reinitialisation on blocks (reinit_band.h): Godunov's Hamiltonian in the
- * indices of the cells. SPDX-License-Identifier: BSD-3-Clause */
+/* reinit_blocks.c - reinitialisation on blocks (reinit_band.h): phi_tau = sign(phi) (1 - |grad
+ * phi|) with Godunov's Hamiltonian in the indices of the cells, |grad phi|^2 = sum K_ab phi_a
+ * phi_b, K the metric of the indices; slopes by WENO5 (weno.h), beside the surface by differences
+ * that end on it.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "reinit_band.h"
 
 #include "levelset.h"

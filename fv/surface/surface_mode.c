@@ -1,4 +1,7 @@
-/* surface_mode.c - the amplitude of a standing wave, sampled as the run goes.
+/* surface_mode.c - the amplitude of a standing wave, sampled as the run goes: the momentum of the
+ * water in the inviscid mode, sum of u . grad(cosh kz cos ax cos bz) over the water in cells, from
+ * which the period and damping are fitted at the end (common/base/fit.h). Air and far cells are
+ * left out (layer > 2), cells beside the surface count by their share of water.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 

@@ -1,4 +1,6 @@
-/* weno.c - see weno.h. Bodies are written without branches, for vector registers.
+/* weno.c - see weno.h. Bodies are written without branches, for vector registers. A derivative
+ * needs the five one-sided differences around a cell, D[0 .. 4] from the left or D[5 .. 1] from the
+ * right; weno5 weights the three parabolas through them by their smoothness.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weno.h"
 
