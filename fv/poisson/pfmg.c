@@ -1,5 +1,8 @@
 /* pfmg.c - see pfmg.h. Red-black relaxation with non-Galerkin coarse operators: this pair and no
- * wider stencil (METHODS.md). SPDX-License-Identifier: BSD-3-Clause */
+ * wider stencil (METHODS.md). A cycle starts from zero and is one iteration of hypre's PFMG with
+ * one relaxation before and one after the coarse grid; it is the preconditioner of the backends and
+ * is set up anew whenever the matrix is (pfmg_set_matrix).
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "pfmg.h"
 
 #include <HYPRE_struct_ls.h>

@@ -1,4 +1,10 @@
-/* poisson.c - see poisson.h. SPDX-License-Identifier: BSD-3-Clause */
+/* poisson.c - see poisson.h. poisson_create asks the backends in turn, the fastest first, and takes
+ * the first that suits the cells: uniform ones, those with a surface, one index space, any blocks.
+ * The others need the rows that are made here: -Lap psi = -div/tau in this rank's computed cells,
+ * integrated over each cell. Without a side that gives the pressure psi is known up to a constant:
+ * the excess of div and the mean of psi are taken out. poisson_cycle is a single cycle, for
+ * newton.c.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "poisson.h"
 
 #include <math.h>
