@@ -1,4 +1,7 @@
-/* bins.c - see bins.h. SPDX-License-Identifier: BSD-3-Clause */
+/* bins.c - see bins.h. Counting sort of points into boxes of the width of the reach (wider where
+ * there would be many more boxes than points): those near a place lie in the 3^dim boxes around it,
+ * of which those along x follow each other in the list and make one run. O(n) to build.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bins.h"
 
 #include <math.h>

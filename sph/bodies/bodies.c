@@ -1,4 +1,9 @@
-/* bodies.c - see bodies.h. SPDX-License-Identifier: BSD-3-Clause */
+/* bodies.c - see bodies.h. In a stage (bodies_stage): the fluid's forces are summed by rank 0 and
+ * sent to all, so that every rank has the same bits; to them come seals, lines, contacts, weight
+ * and the loads of the case, then the rates (body_free.c). bodies_advance carries on with the
+ * weights of the fluid's stages. stopping_rate bounds the step at the start: how fast the fluid's
+ * impedance stops each body, wet all over.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "bodies.h"
 
 #include <stdio.h>

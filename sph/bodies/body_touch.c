@@ -1,4 +1,7 @@
-/* body_touch.c - corners of one polyline against another. SPDX-License-Identifier: BSD-3-Clause */
+/* body_touch.c - corners of one polyline against another: contact in the plane is where a corner of
+ * either comes nearer to the other than the gap. Pairs whose boxes are apart are left out first.
+ * What a hinge holds is no contact. Called by body_contact.c.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "body_touch.h"
 
 #include <string.h>

@@ -1,4 +1,8 @@
-/* paddles.c - see paddles.h. SPDX-License-Identifier: BSD-3-Clause */
+/* paddles.c - see paddles.h. Once a step (paddles_steer) each paddle's correction, displacement x
+ * and velocity v, gets a new acceleration from e, the level at its gauge less that of the wave that
+ * it is to make and less a slow mean: a = (-gain e - v - rate x)/lag - rate v at the still level.
+ * It then moves on with that until the next step, on every level of refinement alike.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "paddles.h"
 
 #include <math.h>
