@@ -1,4 +1,9 @@
-/* forces.c - see forces.h. SPDX-License-Identifier: BSD-3-Clause */
+/* forces.c - see forces.h. Sums by owner: each body, all walls at rest (REST). A stage's forces
+ * (stage) enter those of the step with its weight times dt (step), which at the end of the step are
+ * summed over the ranks, added to the impulse since the start and, over dt, are the force that
+ * series and gauges show (now). hit holds impulses of particles that were put back. Moments are
+ * about each body's centre, of walls about the origin.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "forces.h"
 
 #include <math.h>

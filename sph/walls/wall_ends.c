@@ -1,4 +1,8 @@
-/* wall_ends.c - see wall_ends.h. SPDX-License-Identifier: BSD-3-Clause */
+/* wall_ends.c - see wall_ends.h. An end of a line is free if it lies inside the domain, off all
+ * sides, bodies and other walls, and its own line does not come back to it; it is told where water
+ * stands beyond it, or where the other end of the line stands on a wall. Of the case alone, before
+ * particles exist.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_ends.h"
 
 #include <math.h>
