@@ -1,4 +1,10 @@
-/* walls.c - geometry and motion of the walls; see walls.h. SPDX-License-Identifier: BSD-3-Clause */
+/* walls.c - geometry and motion of the walls; see walls.h. walls_create goes through the case's
+ * walls in their order: sides and polylines become segments in the plane (what others cover is left
+ * out), bodies come behind them, then images beyond periodic sides and, in 3D, the meshes
+ * (wall_mesh.c); last the wall model makes its state from the walls as they are at t = 0.
+ * walls_move sets them to a stage's time. What has come behind a wall is put back before it by
+ * walls_put_back.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
 #include <float.h>
