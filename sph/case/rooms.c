@@ -1,4 +1,8 @@
-/* rooms.c - see rooms.h. SPDX-License-Identifier: BSD-3-Clause */
+/* rooms.c - see rooms.h. By the trees of the meshes at the start: distances and crossings tell
+ * where a particle has room and which links of the lattice a mesh cuts; the winding number, where a
+ * part that is linked together holds fluid. What cannot be told is refused with a place and a
+ * remedy.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "rooms.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
-/* sph_state.c - struct sph from the case's parameters, at t = 0 or from a restart file.
+/* sph_state.c - struct sph from the case's parameters, at t = 0 or from a restart file. sph_create
+ * makes the levels from the coarsest on; at t = 0 then the first lattice, a first look at the
+ * criteria of refinement, the finer levels' particles and the volumes. All ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_state.h"
 
