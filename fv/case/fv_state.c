@@ -1,4 +1,7 @@
-/* fv_state.c - struct fv from the case's parameters, at t = 0 or from a restart file.
+/* fv_state.c - struct fv from the case's parameters, at t = 0 or from a restart file. fv_create:
+ * the cells (uniform here, blocks in mesh_state.c), the output, then the restart file's fields or
+ * those of the case; the latter are projected where an inflow or boxes that are cut out would push
+ * the flow at once, and given the pressures of outlets.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
