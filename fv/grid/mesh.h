@@ -155,8 +155,7 @@ void mesh_open_faces(struct mesh *m);
  * m->trouble as in overset.h. Collective. */
 bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3]);
 void mesh_recut(struct mesh *m, const double (*box)[2][3]);
-/* The computed neighbours of an imposed cell c of this rank whose mean its psi is, as steps along
- * the indices; their number, 0: none is near. */
+/* Room for the offsets of mesh_given_sources. */
 enum { MESH_SOURCES = 12 };
 /* The computed neighbours whose mean is psi of the imposed cell c of this rank, as offsets along
  * the indices; returns their number, 0: none is near. */

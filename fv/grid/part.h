@@ -5,7 +5,6 @@
 
 #include <stdint.h>
 
-/* A rank's part of a block. Cell (i, j, k), counted from 0 at lo: see part_at. */
 /* EVEN: all cells are equal boxes along the axes; UPRIGHT: boxes along the axes of any size;
  * CURVED: any shape. */
 enum part_kind { PART_CURVED, PART_UPRIGHT, PART_EVEN };
