@@ -85,6 +85,22 @@ void log_say(const char *fmt, ...)
         SAY(true, true, "");
 }
 
+/* Whether this is a process of a later program of an MPMD job (MPI_APPNUM counts them from 0). */
+static bool is_of_later_program(void)
+{
+    int up = 0, known = 0, *number = NULL;
+    MPI_Initialized(&up);
+    if (up)
+        MPI_Comm_get_attr(MPI_COMM_WORLD, MPI_APPNUM, &number, &known);
+    return known && *number > 0;
+}
+
+void log_early(const char *fmt, ...)
+{
+    if (rank_now() == 0 || is_of_later_program())
+        SAY(true, true, "");
+}
+
 /* Two rounds over the list, first what is on, then what is off, into one line; the parts' first
  * words are told apart by whether anything stands there. */
 void log_uses(const struct log_use *uses, int n)

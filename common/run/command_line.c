@@ -57,12 +57,11 @@ static void usage(const char *name, const char *help)
            name, help, name, name);
 }
 
-/* Says what is wrong. log_open comes later, so this is rank 0 of the world alone: in a job, a
- * program without that rank says nothing. */
+/* Says what is wrong, before log_open. */
 static int refuse(const char *name, const char *what, const char *arg)
 {
     struct hint_nearest n = hint_nearest_start(arg);
-    log_say("%s: %s%s%s", name, what, *arg ? " " : "", arg);
+    log_early("%s: %s%s%s", name, what, *arg ? " " : "", arg);
     if (strncmp(arg, "--", 2) == 0) {
         char known[64] = "";
         n.word = arg + 2;
@@ -70,7 +69,7 @@ static int refuse(const char *name, const char *what, const char *arg)
             hint_nearest_try(&n, o->name);
         if (hint_nearest_word(&n))
             snprintf(known, sizeof known, "did you mean `--%s'? ", hint_nearest_word(&n));
-        log_say("%s: %ssee %s --help", name, known, name);
+        log_early("%s: %ssee %s --help", name, known, name);
     }
     return RUN_INPUT;
 }
@@ -208,9 +207,9 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
         return refuse(name, "one case at a time; not understood:", argv[optind + 1]);
     c->case_file = find_case(given);
     if (!c->case_file) {
-        log_say("%s: there is no case %s: neither a .cfg file, nor a folder with a case.cfg, nor "
-                "in cases/",
-                name, given);
+        log_early("%s: there is no case %s: neither a .cfg file, nor a folder with a case.cfg, nor "
+                  "in cases/",
+                  name, given);
         return RUN_INPUT;
     }
     if (c->groups)

@@ -170,8 +170,7 @@ void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagn
 {
     const double whole = w->start + s->surface->entered;
     if (watch_judge(&w->watched, fabs(w->missing) / whole, s->t, s->run->step, d))
-        snprintf(d->where, sizeof d->where, "all water, %g m^%d, t = %.4g s", whole, s->b.dim,
-                 s->t);
+        snprintf(d->where, sizeof d->where, "all water, %g m^%d, t = %.4g s", whole, s->dim, s->t);
 }
 
 void water_budget_save(const struct water_budget *w, struct h5 *f)

@@ -99,7 +99,7 @@ static double viscous_flux(const struct fv *s, const struct side_face *d, const 
 
 /* Share of a face that is below the level set's 0, straight between its ends; xi: middle of that
  * share, in the face's cell. Along the second tangent at Gauss points. Without a surface all of it.
- * / phi is taken linear on the face, from four cells around; its mean over the two cells beside the
+ * phi is taken linear on the face, from four cells around; its mean over the two cells beside the
  * face is that at the face. */
 static double wet_share(const struct fv *s, const struct side_face *d, double xi[3])
 {

@@ -173,25 +173,28 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
                  s->t, (long long)s->run->step);
 }
 
-enum { KEPT = 2 }; /* of a watch */
+enum { KEPT = 2, MEANS = 3 }; /* numbers of each watch; of the means that are judged */
 
 void overlap_save(const struct overlap *o, struct h5 *f)
 {
     const struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
-    double v[3 * KEPT];
+    double v[3 * KEPT + MEANS] = {[3 * KEPT] = o->looks, o->du_mean, o->dp_mean};
     for (int k = 0; k < 3; k++) {
         v[KEPT * k] = of[k]->worst;
         v[KEPT * k + 1] = of[k]->warned;
     }
-    h5_write_real(f, "overlap", "-", 3 * KEPT, 1, v, false);
+    h5_write_real(f, "overlap", "-", 3 * KEPT + MEANS, 1, v, false);
 }
 
 void overlap_load(struct overlap *o, struct h5 *f)
 {
     struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
-    double v[3 * KEPT];
-    if (!h5_read_same(f, "overlap", 3 * KEPT, v))
+    double v[3 * KEPT + MEANS];
+    if (!h5_read_same(f, "overlap", 3 * KEPT + MEANS, v))
         return;
+    o->looks = v[3 * KEPT];
+    o->du_mean = v[3 * KEPT + 1];
+    o->dp_mean = v[3 * KEPT + 2];
     for (int k = 0; k < 3; k++) {
         of[k]->worst = v[KEPT * k];
         of[k]->warned = v[KEPT * k + 1] != 0.0;

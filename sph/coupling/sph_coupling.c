@@ -85,8 +85,9 @@ void coupling_offer(struct run *r, const struct sph_params *prm)
     cpl_zone(r->partner_ctx, named(r, "speed"), speed, speed);
 }
 
-/* Values and gradients of the patch, one field after the other. gu[n dim 3], gp[n 3]; the linear
- * part of the pressure is taken off the value, its gradient is left. */
+/* Values and gradients of the patch, one field after the other. gu[n dim 3], gp[n 3] or NULL; the
+ * particles' pressure is what is beyond the linear reference, so that and its slope are taken off.
+ */
 static void eval_patch(void *ctx, double t, int n, const double *x, double *u, double *p,
                        double *gu, double *gp)
 {
@@ -95,6 +96,9 @@ static void eval_patch(void *ctx, double t, int n, const double *x, double *u, d
     cpl_patch_eval(k->c, k->patch_pressure, t, n, x, p, gp);
     for (int i = 0; i < n; i++)
         p[i] -= scene_reference_at(&k->reference, k->dim, x + 3 * i);
+    for (int i = 0; i < (gp ? n : 0); i++)
+        for (int a = 0; a < k->dim; a++)
+            gp[3 * i + a] -= k->reference.slope[a];
 }
 
 /* fv's level set, m, negative in water. */
@@ -172,7 +176,7 @@ void sph_coupling_free(struct sph *s)
 }
 
 /* m: how far around its part a rank may look in a window of T s: a support, and where the box goes.
- * / 0 along axes that do not exist. fastest: the speed at which the box may follow something. */
+ * 0 along axes that do not exist. fastest: the speed at which the box may follow something. */
 static double looks_beyond(const struct sph *s, int a, double T)
 {
     const struct zones *z = s->zones;
