@@ -18,8 +18,8 @@ void log_file(const char *path);
 /* One or more whole lines of at most 8190 bytes, the rest is cut; a newline is added if there is
  * none. log_quiet writes to the file only. */
 void log_say(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
-/* Before log_open, of the command line: from rank 0 of the world, and from each rank of the programs
- * of an MPMD job behind the first one, whose command lines are their own. */
+/* Before log_open, of the command line: from rank 0 of the world, and from each rank of the
+ * programs of an MPMD job behind the first one, whose command lines are their own. */
 void log_early(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 void log_quiet(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 /* An ingredient of a run for the line "on: A, B; off: C", which says what the case uses and leaves
