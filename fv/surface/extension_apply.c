@@ -26,6 +26,26 @@ static void look(const struct surface *f, const struct carry *x, int dim, double
     }
 }
 
+enum { SAMPLES = 4 };
+
+/* Of a stencil's n cells one that stands for others: what is within the bounds of a few is within
+ * those of all, and mostly it is. */
+static int sample(int n, int m) { return m * (n - 1) / (SAMPLES - 1); }
+
+/* How far beyond what the stencil has, whose range it is, a velocity may be. */
+static double slack(int layer, double range) { return layer <= 2 ? 0.5 * range : 0.0; }
+
+static bool is_within_some(const double *v, int n, int layer, double value)
+{
+    double low = v[0], high = v[0];
+    for (int m = 1; m < SAMPLES; m++) {
+        low = lesser(v[sample(n, m)], low);
+        high = greater(v[sample(n, m)], high);
+    }
+    const double more = slack(layer, high - low);
+    return value >= low - more && value <= high + more;
+}
+
 /* No more than half as much again beyond what the stencil has, nothing far from the water. A
  * viscous film over a wall (film) is slower in the second layer than all of it, by three times as
  * much where the surface lies just above a wet centre; slower, but not the other way, needs no
@@ -33,8 +53,10 @@ static void look(const struct surface *f, const struct carry *x, int dim, double
 static double within(const double *v, int n, int layer, bool film, double value)
 {
     double low, high;
+    if (is_within_some(v, n, layer, value))
+        return value;
     lanes_bounds(v, n, &low, &high);
-    const double range = high - low, more = layer <= 2 ? 0.5 * range : 0.0;
+    const double range = high - low, more = slack(layer, range);
     double least = low - more, most = high + more;
     if (film) {
         least = lesser(least, greater(0.0, low - 3.0 * range));
@@ -79,32 +101,42 @@ static void normal_slopes(const struct fv *s, const struct carry *x, const struc
     }
 }
 
-/* No more than a quarter faster than what is around: bounds on components alone let a rough
- * surface overshoot in each layer anew, to three times the water's speed beside a breaking front.
- * A wave's velocity grows by exp(2 pi/n) over a cell, n cells a length: all of 28 and more pass. */
-static void slow_down(int dim, const struct stencil_values *r, int n, double u[3])
-{
-    double own = 0.0, least, most, square[STENCIL];
-    for (int k = 0; k < n; k++)
-        square[k] = r->v[0][k] * r->v[0][k];
-    for (int q = 1; q < dim; q++)
-        for (int k = 0; k < n; k++)
-            square[k] += r->v[q][k] * r->v[q][k];
-    for (int q = 0; q < dim; q++)
-        own += u[q] * u[q];
-    lanes_bounds(square, n, &least, &most);
-    if (own <= 1.25 * 1.25 * most)
-        return;
-    for (int q = 0; q < dim; q++)
-        u[q] *= 1.25 * sqrt(most / own);
-}
-
 static double square_of(int dim, const double *u)
 {
     double sum = 0.0;
     for (int q = 0; q < dim; q++)
         sum += u[q] * u[q];
     return sum;
+}
+
+static double square_in(int dim, const struct stencil_values *r, int k)
+{
+    double sum = 0.0;
+    for (int q = 0; q < dim; q++)
+        sum += r->v[q][k] * r->v[q][k];
+    return sum;
+}
+
+/* No more than a quarter faster than what is around: bounds on components alone let a rough
+ * surface overshoot in each layer anew, to three times the water's speed beside a breaking front.
+ * A wave's velocity grows by exp(2 pi/n) over a cell, n cells a length: all of 28 and more pass. */
+static void slow_down(int dim, const struct stencil_values *r, int n, double u[3])
+{
+    const double often = 1.25 * 1.25, own = square_of(dim, u);
+    double least, most, square[STENCIL];
+    for (int m = 0; m < SAMPLES; m++)
+        if (own <= often * square_in(dim, r, sample(n, m)))
+            return;
+    for (int k = 0; k < n; k++)
+        square[k] = r->v[0][k] * r->v[0][k];
+    for (int q = 1; q < dim; q++)
+        for (int k = 0; k < n; k++)
+            square[k] += r->v[q][k] * r->v[q][k];
+    lanes_bounds(square, n, &least, &most);
+    if (own <= often * most)
+        return;
+    for (int q = 0; q < dim; q++)
+        u[q] *= 1.25 * sqrt(most / own);
 }
 
 /* Water that the pressure does not see, drops and films thinner than a cell, has the velocity of
