@@ -15,9 +15,10 @@
 
 enum {
     MARGIN = 2, /* ghosts of coarse grids: what the transfers reach */
-    LEVELS = 64
+    MOST_LEVELS = 64
 };
 
+/* One grid. Fields are 0 where no row is. */
 struct halved {
     int n[3], lo[3], all[3]; /* cells here, where they begin, those of all ranks */
     int g[3];
@@ -36,7 +37,7 @@ struct halved {
 struct halving {
     const struct block *block; /* borrowed */
     int dim, n, ranks;
-    struct halved level[LEVELS];
+    struct halved level[MOST_LEVELS];
 };
 
 static int64_t at(const struct halved *l, int i, int j, int k)
@@ -47,7 +48,7 @@ static int64_t at(const struct halved *l, int i, int j, int k)
 static int lines(const struct halved *l) { return l->n[1] * l->n[2]; }
 
 /* Lines of cells along x that have rows: c is the first cell, len their number. */
-#define RUNS(l, j, k, c, len)                                                                      \
+#define HALVED_LINES(l, j, k, c, len)                                                              \
     for (int k = 0, j; k < (l)->n[2]; k++)                                                         \
         for (j = 0; j < (l)->n[1]; j++)                                                            \
             for (int64_t c = at(l, (l)->run[j + (l)->n[1] * k][0], j, k),                          \
@@ -176,8 +177,7 @@ static void sum_ranks(const struct halving *h, const struct halved *l, double *q
 static void clear(const struct halving *h, const struct halved *l)
 {
     double *const fields[] = {l->own, l->diagonal, l->per, l->y, l->x, l->b};
-    RUNS(l, j, k, c, len)
-    {
+    HALVED_LINES (l, j, k, c, len) {
         const size_t bytes = (size_t)len * sizeof(double);
         for (int q = 0; q < (l == h->level ? 4 : 6); q++)
             memset(fields[q] + c, 0, bytes);
@@ -229,8 +229,7 @@ static void coarsen(const struct halving *h, const struct halved *l, struct halv
 {
     const int axis = l->axis;
     set_run(h, l, to);
-    RUNS(l, j, k, c, len)
-    {
+    HALVED_LINES (l, j, k, c, len) {
         const int64_t first = c - at(l, 0, j, k) + l->lo[0];
         const int line[3] = {0, j + l->lo[1], k + l->lo[2]};
         const int64_t t =
@@ -243,21 +242,20 @@ static void coarsen(const struct halving *h, const struct halved *l, struct halv
         add_line(l->own + c, len, first, axis == 0, false, 1.0, to->own + t);
     }
     sum_ranks(h, to, to->own);
-    for (int a = 0; a < h->dim; a++) {
+    for (int a = 0; a < h->dim; a++)
         sum_ranks(h, to, to->through[a]);
-    }
 }
 
 static void set_diagonal(const struct halving *h, struct halved *l)
 {
-    RUNS(l, j, k, c, len)
-    for (int64_t i = c; i < c + len; i++) {
-        double sum = l->own[i];
-        for (int a = 0; a < h->dim; a++)
-            sum += l->through[a][i] + l->through[a][i + l->stride[a]];
-        l->diagonal[i] = sum;
-        l->per[i] = sum > 0.0 ? 1.0 / sum : 0.0;
-    }
+    HALVED_LINES (l, j, k, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            double sum = l->own[i];
+            for (int a = 0; a < h->dim; a++)
+                sum += l->through[a][i] + l->through[a][i + l->stride[a]];
+            l->diagonal[i] = sum;
+            l->per[i] = sum > 0.0 ? 1.0 / sum : 0.0;
+        }
 }
 
 void halving_begin(struct halving *h)
@@ -292,8 +290,7 @@ static inline __attribute__((always_inline)) void relax_body(const struct halved
                            *restrict wx = l->through[0], *restrict wy = l->through[1],
                            *restrict wz = l->through[dim == 3 ? 2 : 1];
     const int64_t sy = l->stride[1], sz = l->stride[2];
-    RUNS(l, j, k, c, len)
-    {
+    HALVED_LINES (l, j, k, c, len) {
         if (share < 0.0)
             for (int64_t i = c; i < c + len; i++)
                 y[i] = AROUND(i) + (dim == 3 ? AROUND_TOO(i) : 0.0) - diagonal[i] * x[i];
@@ -319,9 +316,9 @@ static void relax(const struct halving *h, const struct halved *l, const double 
 static void relax_first(const struct halved *l, const double *restrict b, double *restrict y)
 {
     const double *restrict per = l->per, share = l->share[0];
-    RUNS(l, j, k, c, len)
-    for (int64_t i = c; i < c + len; i++)
-        y[i] = share * per[i] * b[i];
+    HALVED_LINES (l, j, k, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            y[i] = share * per[i] * b[i];
 }
 
 /* --- between levels --- */
@@ -386,8 +383,7 @@ static void restrict_across(const struct halved *l, const double *r, int j, int 
 static void restrict_to(const struct halving *h, const struct halved *l, const double *r,
                         const struct halved *to)
 {
-    RUNS(to, j, k, c, len)
-    {
+    HALVED_LINES (to, j, k, c, len) {
         const int64_t base = at(to, 0, j, k), first = c - base;
         double *out = to->b + base;
         memset(to->b + c, 0, (size_t)len * sizeof(double));
@@ -400,9 +396,9 @@ static void restrict_to(const struct halving *h, const struct halved *l, const d
                           (int)(first + len), out);
     }
     sum_ranks(h, to, to->b);
-    RUNS(to, j, k, c, len) /* as prolong does */
-    for (int64_t i = c; i < c + len; i++)
-        to->b[i] = to->per[i] > 0.0 ? to->b[i] : 0.0;
+    HALVED_LINES (to, j, k, c, len) /* as prolong does */
+        for (int64_t i = c; i < c + len; i++)
+            to->b[i] = to->per[i] > 0.0 ? to->b[i] : 0.0;
 }
 
 /* The cell of n beside the one that cell m of twice as many lies in, on m's side; at an end that
@@ -460,8 +456,7 @@ static void prolong_across(const struct halved *l, int64_t c, int64_t len, const
 static void prolong(const struct halved *l, const struct halved *from, double *x)
 {
     const int axis = l->axis;
-    RUNS(l, j, k, c, len)
-    {
+    HALVED_LINES (l, j, k, c, len) {
         const int64_t first = c - at(l, 0, j, k) + l->lo[0];
         int line[3] = {0, j + l->lo[1], k + l->lo[2]};
         if (axis == 0) {
@@ -492,9 +487,9 @@ void halving_cycle(struct halving *h, double *r, double *x)
         restrict_to(h, l, l->relaxes ? l->y : b, l + 1);
     }
     const struct halved *end = h->level + last;
-    RUNS(end, j, k, c, len)
-    for (int64_t i = c; i < c + len; i++)
-        (last == 0 ? x : end->x)[i] = end->per[i] * (last == 0 ? r : end->b)[i];
+    HALVED_LINES (end, j, k, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            (last == 0 ? x : end->x)[i] = end->per[i] * (last == 0 ? r : end->b)[i];
     for (int q = last - 1; q >= 0; q--) {
         const struct halved *l = h->level + q;
         double *b = q == 0 ? r : l->b, *to = q == 0 ? x : l->x;
