@@ -2,7 +2,7 @@
  *   du/dt = -r (u - u_w),   r = r_0 chi^2,
  * chi from 0 at the inner edge to 1 at the side, r_0 twice the angular frequency of the waves (a
  * rate per time, not per step, since a fixed share per step would make the zone reflect like a
- * wall). Beach: u_w = 0, or the current that the waves are on: incoming waves are absorbed. Wave:
+ * wall). Beach: u_w = 0, or the mean flow that goes through: incoming waves are absorbed. Wave:
  * u_w is the velocity of the waves of the group waves, so that the zone makes them and absorbs what
  * comes back. Closed sides behind the zones keep the volume of water, and the waves are made
  * without net transport; on a current: scene_currents.h.

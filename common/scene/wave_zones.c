@@ -19,7 +19,7 @@ struct wave_zones {
         double rate;         /* 1/s: at the side */
         struct waves *waves; /* NULL: a beach; owned */
     } zone[6];
-    double current;                          /* m/s: along */
+    double current;                          /* m/s: along, of what goes through the sides */
     double along[3], across[3], level, sign; /* of waves; height is sign times x[up] */
 };
 
@@ -40,6 +40,16 @@ static struct waves *waves_of(const struct scene *s, const struct wave_zones *z,
     return w;
 }
 
+/* The mean velocity of what the waves and their current bring. */
+static double mean_of(const struct scene *s)
+{
+    const struct wave_spec of = scene_waves_spec(s);
+    struct waves *made = waves_create(&of);
+    const double mean = scene_currents_mean(s, made);
+    waves_free(&made);
+    return mean;
+}
+
 struct wave_zones *wave_zones_create(const struct scene *s, bool pass)
 {
     struct wave_zones *z = NEW(struct wave_zones, 1);
@@ -48,7 +58,7 @@ struct wave_zones *wave_zones_create(const struct scene *s, bool pass)
         z->sign = s->fluid.gravity[z->up] < 0.0 ? 1.0 : -1.0;
         z->level = scene_waves_level(s);
         scene_waves_direction(s, z->along, z->across);
-        z->current = s->waves.current;
+        z->current = scene_currents_flow(s) ? mean_of(s) : 0.0;
     }
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
@@ -130,7 +140,7 @@ static void add_velocity(const struct wave_zones *z, int k, double rate, const d
     u[z->up] += rate * z->sign * v[1];
 }
 
-/* A beach brings the water to the current. */
+/* A beach brings the water to the mean flow. */
 static void add_current(const struct wave_zones *z, double rate, double *u)
 {
     for (int a = 0; a < 3; a++)
