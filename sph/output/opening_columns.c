@@ -79,6 +79,21 @@ double *opening_row(const struct sph *s, double *values)
     return values;
 }
 
+/* Around a region with a surface that the flow outside crosses, particles alone are not its water:
+ * faces hold what has come in and is no whole particle yet. What all of that and the drops that
+ * left over the water differ from the start and what has flown through the faces, over the start.
+ */
+static void budget_summary(const struct sph *s, struct summary *to)
+{
+    const struct openings *o = s->zones->openings;
+    const double held = openings_held(s);
+    double sums[2] = {o->inflow, o->rain[0]};
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    summary_real(to, "faces_hold", held / s->start.mass);
+    summary_real(to, "drift.budget",
+                 (zones_mass(s) + held + sums[1] - sums[0]) / s->start.mass - 1.0);
+}
+
 /* drift.budget: the mass at the end less that of the start and what has passed, over what was there
  * and came in. */
 void opening_summary(const struct sph *s, struct summary *to)
@@ -86,6 +101,9 @@ void opening_summary(const struct sph *s, struct summary *to)
     double through[6], sum = 0.0, in = s->start.mass;
     bool any = false;
     char name[32];
+    const bool around = s->prm.outer == OUTER_EXACT && s->zones && s->zones->surface;
+    if (around)
+        budget_summary(s, to);
     sum_through(s, through);
     for (int side = 0; side < 2 * s->dim; side++) {
         if (passing(s->run, open_sides(s), side) == PASSES_NOTHING)
@@ -96,6 +114,6 @@ void opening_summary(const struct sph *s, struct summary *to)
         sum += through[side];
         in += fmax(through[side], 0.0);
     }
-    if (any)
+    if (any && !around)
         summary_real(to, "drift.budget", (zones_mass(s) - sum - s->start.mass) / in);
 }
