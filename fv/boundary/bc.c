@@ -396,7 +396,8 @@ void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void 
         if (!has_side(b, k))
             continue;
         const struct bc_side d = side_of(s->bc, b, k, false);
-        struct side_face f = {.kind = bc_kind(s, k),
+        struct side_face f = {.once = 1.0,
+                              .kind = bc_kind(s, k),
                               .part = &s->whole,
                               .side = k,
                               .a = d.a,

@@ -34,6 +34,7 @@ struct side_face {
     int side, a;                   /* of the domain or of the block: 2 a + (1 if upper) */
     int64_t cell, in;              /* the cell inside; offset one cell inwards */
     int64_t face;                  /* place in U[a] */
+    double once;                   /* -: share of it that no other block has */
     double flow_area;              /* makes a flow in m^dim/s of U there */
     const struct scene_wall *wall; /* of the scene; NULL: a side of a block alone */
 };

@@ -69,7 +69,7 @@ void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face 
                        void *with)
 {
     const struct blocked *w = s->blocked;
-    struct side_face f = {.part = &s->whole};
+    struct side_face f = {.part = &s->whole, .once = 1.0};
     for (f.a = 0; f.a < s->dim; f.a++)
         for (int64_t k = 0; k < w->nnear[f.a]; k++)
             for (int up = 0; up < 2; up++) {

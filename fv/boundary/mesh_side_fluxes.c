@@ -71,6 +71,7 @@ double mesh_bc_rate(const struct fv *s, double *speed)
 void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                    void *with)
 {
+    mesh_bc_share_faces(s);
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
         struct side_face f = {.kind = d->kind,
@@ -84,8 +85,8 @@ void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, 
         SIDE_PLACES (d, 0, i, j, at, c) {
             f.cell = c;
             f.face = c + d->face;
+            f.once = d->once ? d->once[at] : 1.0;
             visit(&f, with);
-            (void)at;
         }
     }
 }

@@ -217,8 +217,10 @@ void mesh_bc_free(struct mesh_bc **b)
                                    d->grad_xi[1][c]};
             for (int q = 0; q < 5; q++)
                 mem_free(all[q]);
-            if (c == 0)
+            if (c == 0) {
                 mem_free(d->tilt);
+                mem_free(d->once);
+            }
         }
     if (*b) {
         mem_free((*b)->side);

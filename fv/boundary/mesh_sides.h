@@ -25,6 +25,7 @@ struct side {
     double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
     double *slip[3];         /* m/s: what the next projection will take off the side's velocity */
     double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
+    double *once;            /* -: share of each face that counts once; NULL: all */
     double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
 };
 
@@ -42,8 +43,14 @@ struct mesh_bc {
     struct beyond *beyond;
     struct mesh_exchange walls; /* from ghosts behind walls to those of `beyond' */
     bool pressure_given;
-    bool set; /* values have been */
+    bool set;         /* values have been */
+    bool shared;      /* shares of faces have been found, for */
+    double shared_at; /* s */
 };
+
+/* shared_faces.c: where blocks overlap, the shares of their walls' faces that count once, if those
+ * of this time are not known. */
+void mesh_bc_share_faces(const struct fv *s);
 
 /* Index in the side's values of the place (i, j) along its tangents; side_cell: index in a field of
  * the cell inside. */

@@ -41,8 +41,12 @@ struct forces {
 static void add_force(const struct side_face *f, void *with)
 {
     struct forces *x = with;
-    if (f->kind == MESH_WALL || f->kind == MESH_SLIP)
-        x->s->ops->face_force(x->s, f, x->sum[f->body]);
+    double force[4] = {0.0};
+    if ((f->kind != MESH_WALL && f->kind != MESH_SLIP) || f->once == 0.0)
+        return;
+    x->s->ops->face_force(x->s, f, force);
+    for (int q = 0; q < 4; q++)
+        x->sum[f->body][q] += f->once * force[q];
 }
 
 /* all is what the bodies and all other walls feel together. One reduction. */
@@ -73,7 +77,7 @@ struct power {
 static void add_power(const struct side_face *f, void *with)
 {
     struct power *x = with;
-    x->sum += x->s->ops->face_power(x->s, f);
+    x->sum += f->once * x->s->ops->face_power(x->s, f);
 }
 
 /* This rank's part; the caller sums. */

@@ -47,5 +47,22 @@ grep -q '^warning: initial.level: 0.3 m .*no free surface.*form = "below"' full.
 sed -i 's/level = 0.3/level = 0.5/' full.cfg
 run full
 ! grep -q 'warning: initial.level' full.txt || bad "a level on the top of the domain is warned of" full.txt
+# a fine block on the floor of a tank of still water: the floor that both have counts once (it pressed with 1.15 of the weight)
+cat >floor.cfg <<'END'
+format = 1;
+time:    { end = 0.05; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (1, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = 0.53; } );
+blocks:  ( { name = "tank"; max = (1, 1); cells = (24, 24); j_max = "slip"; },
+           { name = "fine"; min = (0.3, 0); max = (0.7, 0.4); cells = (20, 20); j_min = "slip"; } );
+fv:      { };
+END
+run floor
+$mpi -np 2 "$b/fv" floor.cfg -o floor2 >floor2.txt 2>&1 || bad "floor on two ranks ends with $?" floor2.txt
+for name in floor floor2; do
+    close_to "$(last $name/series.csv 'force y')" -5199.3 0.001 || bad "$name: $(last $name/series.csv 'force y') N" $name.txt
+done
 echo "fv_scenes: $failed faults"
 [ $failed = 0 ]
