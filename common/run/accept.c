@@ -117,12 +117,7 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
 {
     for (int k = 0; k < s->naccept; k++) {
         const struct scene_accept *a = s->accept + k;
-        static const char *const with[] = {"column", "measure", "from", "until", "start", "unit"};
         char key[64], path[1024 + PARAM_TEXT_SIZE];
-        for (int i = 0; i < 6; i++) {
-            snprintf(key, sizeof key, "accept.[%d].%s", k, with[i]);
-            params_unused(p, f, key, *a->reference, "no reference is given to compare with");
-        }
         snprintf(key, sizeof key, "accept.[%d].reference", k);
         if (!*a->reference)
             continue;
