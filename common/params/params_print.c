@@ -9,6 +9,8 @@
 
 static const char *kind(const struct param *r)
 {
+    if (r->numbers == 2)
+        return "(v, v)";
     switch (r->type) {
     case PARAM_BOOL:
         return "true|false";
@@ -63,7 +65,8 @@ static void print_row(const struct param_group *g, const struct param *r)
     if (numeric)
         printf("; from %g to %g%s%s", r->min, r->max, strcmp(r->unit, "-") ? " " : "",
                strcmp(r->unit, "-") ? r->unit : "");
-    printf("%s%s\n", *when ? "; used when: " : "", when);
+    printf("%s%s%s\n", *when ? "; used when: " : "", when,
+           r->comparison ? "; for comparisons" : "");
 }
 
 /* The group that a row stands for, "bodies.motion". */
@@ -130,24 +133,29 @@ static void print_cell(const char *text)
 {
     for (const char *c = text; *c; c++)
         printf(*c == '|' ? "\\|" : "%c", *c);
-    printf(" | ");
+    printf(" |");
 }
 
-static void manual_rows(const struct param_group *g)
+/* Rows that are for comparisons, or those that are not. */
+static void manual_rows(const struct param_group *g, bool comparison)
 {
     for (int r = 0; r < g->nrows; r++) {
         const struct param *p = g->rows + r;
         char range[80] = "", name[160];
         if (is_numeric(p))
             snprintf(range, sizeof range, "%g .. %g", p->min, p->max);
-        printf("| `%s.%s` | ", g->name, p->key);
-        print_cell(kind(p));
-        printf("%s | %s | ", default_of(p), range);
-        print_cell(params_use_words(g->rows, g->nrows, p));
-        printf("%s |\n", p->help);
+        if (p->comparison == comparison) {
+            printf("| `%s.%s` | ", g->name, p->key);
+            print_cell(kind(p));
+            printf(" %s | %s | ", default_of(p), range);
+            print_cell(params_use_words(g->rows, g->nrows, p));
+            printf(" ");
+            print_cell(p->help);
+            printf("\n");
+        }
         if (p->type == PARAM_LIST) {
             const struct param_group inner = inner_of(g, p, name, sizeof name);
-            manual_rows(&inner);
+            manual_rows(&inner, comparison);
         }
     }
 }
@@ -163,9 +171,13 @@ void params_manual(const struct param_group *groups, int ngroups)
 {
     for (int k = 0; k < ngroups; k++) {
         manual_head(groups[k].name, groups[k].help);
-        manual_rows(groups + k);
+        manual_rows(groups + k, false);
         printf("\n");
     }
+    manual_head("For comparisons", "Keys that compare methods with those of others, or tune what "
+                                   "nobody needs to tune; a case of practice has none");
+    for (int k = 0; k < ngroups; k++)
+        manual_rows(groups + k, true);
 }
 
 static int print_numbers(char *to, size_t size, const struct param *r, const char *at, int n)

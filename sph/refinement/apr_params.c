@@ -85,21 +85,21 @@ static const struct param_list criteria = {
 
 #define P struct apr_params
 const struct param apr_rows[APR_ROWS] = {
-    CHOICE(P, method, "guards|weights|coalescence|graded", "guards", "method: levels with guard particles between them; the others are for comparison, in 2D on one rank: parents and children together, weighted (Barcarolo); splitting and merging in pairs (Vacondio); spacing that grows by 2.5 % a particle away from a box"),
+    CHOICE(P, method, "guards|weights|coalescence|graded", "guards", "method: levels with guard particles between them; the others are for comparison, in 2D on one rank: parents and children together, weighted (Barcarolo); splitting and merging in pairs (Vacondio); spacing that grows by 2.5 % a particle away from a box", .comparison = true),
     CHOICE(P, guards, "slopes|shepard", "slopes", "fields of guards: by the slopes of what flows around them, third order; for comparison by Shepard's mean over it, which damps what turns",
-          USED(ONLY(method, ONE(APR_GUARDS), "this method has particles of all sizes in one set"))),
+          USED(ONLY(method, ONE(APR_GUARDS), "this method has particles of all sizes in one set")), .comparison = true),
     PARAM(P, levels,    "-", "0", 0, APR_LEVELS_MAX, "levels of refinement: dx of the finest is sph.dx / 2^levels; 0: the largest level of regions and criteria, 1 if none is given"),
     PARAM(P, margin,    "-", "3.0", 1.5, 100, "a region of level 2 and more has one of each coarser level around it, made where the case gives none: distance of their edges, in R of the level outside of both",
-          USED(WHERE(has_outer, "a level above 1", "all regions are of level 1"))),
+          USED(WHERE(has_outer, "a level above 1", "all regions are of level 1")), .comparison = true),
     PARAM(P, around,    "-", "3", 2, 20, "cells, as wide as R of the coarser level, that are refined around those where a criterion asks for it",
-          USED(WITH(criteria, "there are no criteria"))),
+          USED(WITH(criteria, "there are no criteria")), .comparison = true),
     PARAM(P, particles, "-", "0.0", 0, 1e12, "most particles of all levels together: criteria refine less rather than exceed it; 0: no bound",
           USED(WITH(criteria, "without criteria nothing adapts to a budget"))),
     PARAM(P, local_steps, "-", "false", 0, 1, "each level steps with a time step of its own: the next finer one halves it, or takes as many steps as it needs",
           USED(ONLY(method, ONE(APR_GUARDS), "this method has particles of all sizes in one set"))),
     PARAM(P, unshifted_finest, "-", "false", 0, 1, "the law of shifting moves particles of coarser levels alone, not those of the finest: to compare",
           USED(ONLY(method, ONE(APR_GUARDS), "this method has particles of all sizes in one set"),
-               NEED(SHIFTED, "sph.transport is no law of shifting"))),
+               NEED(SHIFTED, "sph.transport is no law of shifting")), .comparison = true),
     LIST(P, regions, &regions, "where particles are refined; regions of one level are united"),
     LIST(P, criteria, &criteria, "quantities of the flow that ask for refinement"),
 };
