@@ -16,7 +16,6 @@ enum sph_fact {
     FACT_NO_SURFACE,
     FACT_WALLS, /* walls or bodies that particles meet */
     FACT_FLUXES,
-    FACT_CLIPPED,
     FACT_PACKED, /* the first places are rearranged */
     FACT_PLANE,
     FACT_OUTER /* open sides that the case leaves to sph.outer */
@@ -32,7 +31,6 @@ enum sph_fact {
 #define WORDS_NO_SURFACE "no free surface"
 #define WORDS_WALLS "walls or bodies"
 #define WORDS_FLUXES "normal flux walls"
-#define WORDS_CLIPPED "wall_integrals = clipped in 3D"
 #define WORDS_PACKED "walls, bodies or noise"
 #define WORDS_PLANE "domain.dim = 2"
 #define WORDS_OUTER "open sides, or inlets and outlets"

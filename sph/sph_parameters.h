@@ -64,7 +64,6 @@ struct sph_params {
     char box_follows[128];  /* name of a body, "": none */
     int walls;              /* enum sph_walls */
     int wall_integrals;     /* enum sph_integrals */
-    int wall_squares;       /* along each side, of clipped ones */
     int surface;            /* enum sph_surface: the fluid has a free surface */
     int outer;              /* enum sph_outer: what the zones impose */
     int births;             /* enum sph_births: where particles enter */

@@ -71,8 +71,6 @@ static const struct param rows[] = {
           USED(NEED(WALLS, "the particles have no wall and no body"))),
     CHOICE(P, wall_integrals, "closed|clipped|centroids|numerical", "closed", "integrals over walls: in closed form; for comparison by squares that are clipped (3D), by a point a triangle or 15 points along R of a line, and so the Shepard factor, too (numerical, 2D)",
           USED(NEED(FLUXES, "the particles have no normal flux walls (sph.walls)")), .comparison = true),
-    PARAM(P, wall_squares, "-", "6", 1, 100, "of clipped integrals: squares along each side of what the support has of a plane",
-          USED(NEED(CLIPPED, "sph.wall_integrals is not clipped")), .comparison = true),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: when the fluid does not fill the domain"),
     PARAM(P, packing, "-", "-1", -1, 100000, "steps of rearrangement at the start; -1: 200 with polylines or bodies, with meshes up to 40 as long as they help, 40 with noise, else none",
           USED(NEED(PACKED, "without walls, bodies and noise the lattice is uniform already")), .comparison = true),

@@ -71,7 +71,6 @@ static unsigned long long find_own(const struct run *r, const struct sph_params 
     has |= c->fluid.nu > 0.0 ? FACT(VISCOUS) : 0;
     has |= walls ? FACT(WALLS) : 0;
     has |= fluxes ? FACT(FLUXES) : 0;
-    has |= fluxes && !planar && used->wall_integrals == INTEGRALS_CLIPPED ? FACT(CLIPPED) : 0;
     has |= walls || used->noise > 0.0 ? FACT(PACKED) : 0;
     has |= surface ? 0 : FACT(NO_SURFACE);
     has |= planar ? FACT(PLANE) : 0;

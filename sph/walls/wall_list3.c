@@ -199,16 +199,18 @@ void wall_list3_build(const struct sph *s, struct wall_list *l)
     wall_list3_cut(s, l);
 }
 
-/* The quadratures that the thesis compares, in place of the closed form; gamma stays. */
+/* The quadratures that the thesis compares, in place of the closed form; gamma stays. The clipped
+ * one has SQUARES along each side of what the support has of a plane. */
 static void by_quadrature(const struct sph *s, struct wall_list *l)
 {
+    enum { SQUARES = 6 };
     for (int k = 0; k < l->n; k++)
         for (int j = l->first[k]; j < l->first[k + 1]; j++) {
             struct wall_touch *t = l->touch + j;
             double own[3];
             wall_list3_to_own(s, t, prim_line(&s->p, l->who[k]), own);
             if (s->prm.wall_integrals == INTEGRALS_CLIPPED)
-                facet_clip(wall_list3_facet(l, t), own, s->R, s->prm.wall_squares, &t->is);
+                facet_clip(wall_list3_facet(l, t), own, s->R, SQUARES, &t->is);
             else
                 facet_centroid(wall_list3_facet(l, t), own, s->R, &t->is);
         }

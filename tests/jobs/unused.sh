@@ -71,7 +71,6 @@ sph.density_limit 1e-6
 sph.walls ghosts
 sph.wall_integrals clipped
 sph.births vertices
-sph.wall_squares 3
 sph.surface yes
 sph.packing 7
 sph.noise 0.1
