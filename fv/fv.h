@@ -50,8 +50,7 @@ struct fv_params {
     double extrema[3];   /* m/s: known ones on the centre lines, see fv_lines.c; 0: none */
     int surface;         /* enum fv_surface */
     int volume;          /* enum fv_volume: how the surface keeps its water */
-    double force[3];  /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
-    int forced_order; /* in time, of partners' data within a coupling step: 1 linear, 2 quadratic */
+    double force[3]; /* N, N, 1/s: known mean along x, amplitude along y, its frequency; 0: none */
     /* what follows from these and from the scene */
     bool water;                         /* there is a free surface */
     bool errors;                        /* those against the exact solution are measured */

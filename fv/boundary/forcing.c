@@ -353,13 +353,13 @@ void forcing_zero(const struct forcing *f, double *q)
         q[f->local[i]] = 0.0;
 }
 
-/* A partner's velocity at t, linear over the coupling step [t0, t1], or with `quadratic' the
- * parabola through the one before, too. */
-static double partner_value(const struct forcing *f, bool quadratic, int a, int64_t i, double t)
+/* Partner's velocity at t: a parabola through the ends of the coupling step and of the one before,
+ * as soon as there was one. */
+static double partner_value(const struct forcing *f, int a, int64_t i, double t)
 {
     const double T = f->t1 - f->t0, x = T > 0.0 ? (t - f->t0) / T : 0.0;
     const double linear = f->v[a][i] + x * (f->v_next[a][i] - f->v[a][i]);
-    if (!quadratic || f->levels < 3)
+    if (f->levels < 3)
         return linear;
     const double y = (f->t0 - f->t_old) / T; /* 1 for even windows */
     const double second =
@@ -449,7 +449,7 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
     }
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->npartner; i++)
-            u[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
+            u[a][f->partner[i]] = partner_value(f, a, i, t);
 }
 
 void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3])
@@ -488,7 +488,7 @@ static void look_at_partner(const struct fv *s, double t)
     const struct forcing *f = s->forcing;
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->npartner + f->nrim; i++)
-            f->given[a][f->partner[i]] = partner_value(f, s->prm.forced_order == 2, a, i, t);
+            f->given[a][f->partner[i]] = partner_value(f, a, i, t);
     grid_halo(&s->grid, f->dim, f->given);
 }
 

@@ -50,8 +50,6 @@ static const struct param rows[] = {
           USED(NEED(SURFACE, "without a free surface no cell holds less water than another")), .comparison = true),
     PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force",
           USED(NEED(FORCES, "no block has a side that is a \"wall\"")), .numbers = 3, .comparison = true),
-    PARAM(P, forced_order, "-", "2",    1, 2,     "order in time of a partner's velocities within a coupling step",
-          USED(NEED(COUPLED, "this is no coupled job: no partner imposes velocities")), .comparison = true),
 };
 /* clang-format on */
 #undef P
