@@ -117,7 +117,7 @@ static unsigned long long find_facts(const struct run *r)
     lacks |= some_inflow_of_start() ? 0 : FACT(INFLOW);
     if (r->coupled)
         partner = FACT(SPH) | FACT(COUPLED) | FACT(ZONES) | FACT(WEIGHT) | FACT(LEVEL) |
-                  FACT(STILL) | FACT(INFLOW) | FACT(PICTURES);
+                  FACT(STILL) | FACT(PICTURES);
     return (has & ~lacks) | partner;
 }
 
