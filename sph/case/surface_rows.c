@@ -198,7 +198,7 @@ bool surface_rows_wanted(const struct sph *s)
     bool off = c->nshapes == 0 && c->initial.field == FIELD_DROP;
     for (int k = 0; k < c->nshapes; k++)
         off = off || is_off(s, c->shapes + k);
-    return off && s->surface && !s->zones && s->prm.noise == 0.0 && !scene_has_wave(c);
+    return off && s->surface && s->prm.noise == 0.0 && !scene_has_wave(c);
 }
 
 double surface_rows_shift(const struct sph *s, const struct exact *e, const double *x, int axis,

@@ -47,9 +47,10 @@ job narrow 1:1:1 narrow.cfg -p output.snapshots=false
 below "$(number narrow water_missing)" 1e-3 || bad "narrow: $(number narrow water_missing) of the water is missing, wanted at most 1e-3"
 below "$(number narrow level_gap)" 0.1 || bad "narrow: levels $(number narrow level_gap) dx apart, wanted at most 0.1"
 
-# a gauge is read by the program in whose part it lies, and by that alone
+# a gauge is read by the program in whose part it lies, and by that alone; levels within dx/10 (particles that began on
+# the rows of their lattice had theirs at 1.0)
 close_to "$(last off/fv-series.csv left)" 1.015 0.005 || bad "off: fv's gauge at $(last off/fv-series.csv left), water at 1.015"
-close_to "$(last off/sph-series.csv right)" 1.015 0.02 || bad "off: sph's gauge at $(last off/sph-series.csv right), water at 1.015"
+near "$(last off/sph-series.csv right)" 1.015 0.005 || bad "off: sph's gauge at $(last off/sph-series.csv right), water at 1.015"
 [ -z "$(last off/sph-series.csv left)$(last off/fv-series.csv right)" ] || bad "off: a gauge is read by both programs"
 back=$(last off/fv-series.csv 'volume put back')
 { below 1e-12 "$back" && below "$back" 1e-3; } || bad "off: columns of fv's series are out of place: volume put back $back"
