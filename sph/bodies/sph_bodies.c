@@ -15,6 +15,7 @@
 #include "../open_boundaries/box_motion.h"
 #include "../open_boundaries/zones.h"
 #include "../walls/walls.h"
+#include "body_backs.h"
 #include "body_check.h"
 #include "paddles.h"
 
@@ -181,30 +182,44 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
         }
 }
 
-/* A line acts on what stands on its left. A free body of which the nearest line that is no side of
- * the domain shows its back to all corners stands in that line's solid: it would fall through it,
- * and be thrown out where it comes to the other side. */
-static void check_backs(const struct run *r, const struct bound *all, int n, struct faults *f)
+/* The wall next to x, of all or of lines alone; shows: its back. NULL: there is none. */
+static const struct bound *nearest_wall(const struct run *r, const struct bound *all, int n,
+                                        bool lines, const double *x, bool *shows)
+{
+    const struct bound *next = NULL;
+    double least = INFINITY;
+    for (int m = r->scene.nbodies; m < n; m++) {
+        double foot[2], side = 0.0;
+        if (lines && is_side(all + m))
+            continue;
+        foot_of(&all[m].line, x, foot, &side);
+        const double d = hypot(x[0] - foot[0], x[1] - foot[1]);
+        if (d >= least)
+            continue;
+        least = d;
+        *shows = side < 0.0;
+        next = all + m;
+    }
+    return next;
+}
+
+/* A line acts on what stands on its left. A body in a room that a wall shows its back to, or a free
+ * one of which the nearest line that is no side of the domain shows its back to all corners, stands
+ * in that line's solid: it would fall through it, and be thrown out where it comes to the other
+ * side, and water beside it would have no floor. */
+static void check_backs(const struct run *r, const struct sph_params *used, const struct bound *all,
+                        int n, struct faults *f)
 {
     for (int k = 0; k < r->scene.nbodies; k++) {
-        const struct bound *at_back = NULL;
-        bool behind = is_free(&r->scene, all + k);
+        bool behind = is_free(&r->scene, all + k), shows = false;
         for (int i = 0; i < all[k].line.n && behind; i++) {
-            double least = INFINITY, side = 0.0;
-            for (int m = r->scene.nbodies; m < n; m++) {
-                const double *x = all[k].line.x[i];
-                double foot[2], of = 0.0;
-                foot_of(&all[m].line, x, foot, &of);
-                const double d = hypot(x[0] - foot[0], x[1] - foot[1]);
-                if (d >= least)
-                    continue;
-                least = d;
-                side = is_side(all + m) ? 1.0 : of;
-                at_back = all + m;
-            }
-            behind = side < 0.0;
+            const struct bound *next = nearest_wall(r, all, n, false, all[k].line.x[i], &shows);
+            behind = next && !is_side(next) && shows;
         }
-        if (!behind || !at_back)
+        if (!behind && (all[k].line.n == 0 || !body_backs_shut_in(&r->scene, used, k)))
+            continue;
+        const struct bound *at_back = nearest_wall(r, all, n, true, all[k].line.x[0], &shows);
+        if (!at_back)
             continue;
         char key[64];
         snprintf(key, sizeof key, "bodies.[%d]", k);
@@ -523,7 +538,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     }
     if (f->n == before && plane)
         check_contacts(r, used, all, n, f);
-    check_backs(r, all, n, f);
+    check_backs(r, used, all, n, f);
     if (!plane)
         check_meshes(r, used, bodies, times, f);
     for (int k = 0; k < c->nbodies; k++)

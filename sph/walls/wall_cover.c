@@ -353,19 +353,41 @@ static bool are_whole(const struct cover_plane *p, int n, const struct wall_part
     return whole;
 }
 
-struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo, const double *hi,
-                             double near)
+static struct cover_plane make_plane(int n, const double (*ends)[2][2], const double *lo,
+                                     const double *hi, double near)
 {
-    struct wall_parts parts = {0};
     struct cover_plane p = {.near = near, .lo = lo, .hi = hi};
     for (int k = 0; k < n; k++)
         add_line(&p, ends[k][0], ends[k][1], true);
     add_open_sides(&p, lo, hi);
+    return p;
+}
+
+static void part_plane(struct cover_plane *p)
+{
+    lay_pieces(p);
+    drop_doubles(p);
+    find_rooms(p);
+}
+
+static void free_plane(struct cover_plane *p)
+{
+    mem_free(p->line);
+    mem_free(p->piece);
+    mem_free(p->cut);
+    mem_free(p->node);
+    mem_free(p->face);
+    mem_free(p->shut);
+}
+
+struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo, const double *hi,
+                             double near)
+{
+    struct wall_parts parts = {0};
+    struct cover_plane p = make_plane(n, ends, lo, hi, near);
     parts.cut = cut_lines(&p);
     if (parts.cut) {
-        lay_pieces(&p);
-        drop_doubles(&p);
-        find_rooms(&p);
+        part_plane(&p);
         for (int i = 0, k = 0; i < n; i++) /* the first n lines are the walls */
             k = keep_seen(&p, i, k, &parts);
     }
@@ -373,11 +395,40 @@ struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo
         mem_free(parts.part);
         parts = (struct wall_parts){0};
     }
-    mem_free(p.line);
-    mem_free(p.piece);
-    mem_free(p.cut);
-    mem_free(p.node);
-    mem_free(p.face);
-    mem_free(p.shut);
+    free_plane(&p);
     return parts;
+}
+
+/* The half of the nearest piece that shows itself to x: its room is that of x, for nothing is
+ * between. At a node it is the piece from whose line x is farther. */
+static int half_before(const struct cover_plane *p, const double *x)
+{
+    double least = INFINITY, sure = -1.0;
+    int half = -1;
+    for (int k = 0; k < p->npieces; k++) {
+        const struct piece *c = p->piece + k;
+        const struct cover_line *l = p->line + c->line;
+        const double d[2] = {x[0] - l->a[0], x[1] - l->a[1]};
+        const double along = fmax(c->from, fmin(d[0] * l->t[0] + d[1] * l->t[1], c->to));
+        const double left = d[1] * l->t[0] - d[0] * l->t[1];
+        const double r = hypot(d[0] - along * l->t[0], d[1] - along * l->t[1]);
+        if (r > least + 1e-9 * p->near || (r > least - 1e-9 * p->near && fabs(left) <= sure))
+            continue;
+        least = fmin(r, least);
+        sure = fabs(left);
+        half = 2 * k + (left < 0.0);
+    }
+    return half;
+}
+
+bool wall_cover_shuts(int n, const double (*ends)[2][2], const double *lo, const double *hi,
+                      double near, const double *x)
+{
+    struct cover_plane p = make_plane(n, ends, lo, hi, near);
+    cut_lines(&p);
+    part_plane(&p);
+    const int half = half_before(&p, x);
+    const bool shut = half >= 0 && p.shut[p.face[half]];
+    free_plane(&p);
+    return shut;
 }

@@ -22,5 +22,9 @@ struct wall_parts {
  * as joined. `part' of the result is owned by the caller (mem_free). */
 struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo, const double *hi,
                              double near);
+/* Whether the point x, inside the domain, lies in a room in which a wall shows its back: in what is
+ * solid there. The rest as above. */
+bool wall_cover_shuts(int n, const double (*ends)[2][2], const double *lo, const double *hi,
+                      double near, const double *x);
 
 #endif

@@ -296,6 +296,12 @@ refuses() { # CASE WORDS
 sed 's/((1, 1.5), (4.46410162, -0.5))/((4.46410162, -0.5), (1, 1.5))/' slope.cfg >back.cfg
 sed 's/gap = 0.5/gap = 0.1/; s/((1.4.*))/((1.5, 1.6), (1.5, 1.8), (1.7, 1.8), (1.7, 1.6))/; s/restitution = 0.01/restitution = 0.5/' slope.cfg >through.cfg
 refuses back.cfg "bodies.\[0\]: body 1 (block) stands behind wall 4, an open line"
+# one whose corners are nearer to the floor than to the line, and one that is held
+sed 's/points = ((1.4.*))/points = ((0.4, -0.9), (0.4, -0.7), (0.6, -0.7), (0.6, -0.9))/; s/(4.46410162, -0.5)/(4.4, -1)/' slope.cfg >low.cfg
+sed 's/((1, 1.5), (4.4, -1))/((0, 2.2), (4.4, -1))/' low.cfg >shut.cfg
+sed 's/free = true; density = 1000; contact = {[^}]*};//' shut.cfg >held.cfg
+refuses shut.cfg "bodies.\[0\]: body 1 (block) stands behind wall 4, an open line"
+refuses held.cfg "bodies.\[0\]: body 1 (block) stands behind wall 4, an open line"
 refuses through.cfg "bodies.\[0\].contact: contact.gap of 0.1 sph.dx is 0.005 m, and a body that falls"
 
 echo "bodies: block $low, $high N/m; in a gap $lift, $side N/m; rebound $up, in 3D $up3; momentum $defect, $defect3; $failed faults"
