@@ -157,6 +157,24 @@ static void corners_cut_nothing(void **state)
     }
 }
 
+/* Behind a beach from the floor to the side, wherever the point is nearest; before it nowhere. */
+static void rooms_behind_beaches_are_shut(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 200; k++) {
+        struct tank t;
+        const double foot = any(0.2, 1.6), top = any(0.2, 0.9);
+        tank_make(&t, true);
+        add(&t, foot, 0.0, 2.0, top);
+        const double x[2] = {any(0.01, 1.99), any(0.01, 0.99)};
+        const double over = x[1] - top * (x[0] - foot) / (2.0 - foot);
+        if (fabs(over) > 0.01)
+            assert_int_equal(
+                wall_cover_shuts(t.n, (const double(*)[2][2])t.ends, t.lo, t.hi, near, x),
+                over < 0.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(beaches_hide_the_floor),
@@ -164,6 +182,7 @@ int main(void)
                                        cmocka_unit_test(blocks_on_the_floor_have_no_bottom),
                                        cmocka_unit_test(beds_through_open_sides_hide_the_floor),
                                        cmocka_unit_test(what_hides_nothing_stays),
-                                       cmocka_unit_test(corners_cut_nothing)};
+                                       cmocka_unit_test(corners_cut_nothing),
+                                       cmocka_unit_test(rooms_behind_beaches_are_shut)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
