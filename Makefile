@@ -107,7 +107,7 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@cc $(SAN) -o $@ $^ -lm
-# the tests' own lines take little of their time, and two thirds of the compiler's if they are made fast
+# the tests' own lines take little of their time, and more than half of the compiler's if it is to make them fast
 $(B)/o/tests/unit/%.o: CFLAGS += -O0 -g1
 units: $(filter $(B)/tests/test_% $(B)/tests/toy%,$(tests_bin))
 tests: all $(tests_bin) $(mocks) $(B)/tests/heat $(B)/tests/kill_at.so $(B)/tests/properties_scene
