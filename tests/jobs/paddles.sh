@@ -22,7 +22,7 @@ output:  { snapshots = false; series = 3; };
 END
 }
 tank active 19.6 'absorb = true;'
-tank passive 19.6 ''
+tank passive 14.0 ''
 # column NAME TITLE FROM: its mean from then on
 column() { awk -F, -v p="$2" -v from="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, p) == 1) c = i; next } $1 >= from { n++; sum += $c } END { if (n) print sum/n }' "$1/series.csv"; }
 # onward NAME: amplitude of what runs away from the paddle, whichever of both is the larger
