@@ -26,8 +26,6 @@ static bool mesh_covers(const struct fv *s, const struct overset *o, const doubl
     return false;
 }
 
-/* Values of phi at places along gravity over x, from the top of the domain; `far' where no cells
- * are. */
 enum { ALONG = 400 };
 
 /* Values of phi at ALONG + 1 positions along gravity over x, from the top of the domain down; 0, as
@@ -58,14 +56,14 @@ static bool is_known(const struct fv *s, const double *at, int up)
     return !s->partners.past[0][0];
 }
 
-/* Coordinate along gravity's axis of the highest water over x, linear between samples; the domain's
- * end if there is none, NAN where FV does not compute. */
+/* Height against gravity, as keys of levels are, of the highest water over x, linear between
+ * samples; that of the domain's end if there is none, NAN where FV does not compute. */
 static double level_at(struct fv *s, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
     const int up = still_upright(&s->run->scene);
     const bool down = s->run->scene.fluid.gravity[up] > 0.0;
-    const double top = down ? d->min[up] : d->max[up], end = down ? d->max[up] : d->min[up];
+    const double top = down ? -d->min[up] : d->max[up], end = down ? -d->max[up] : d->min[up];
     double phi[ALONG + 1];
     if (!is_known(s, x, up))
         return NAN;

@@ -1,6 +1,7 @@
 /* test_fv_gauges.c - gauges of velocity and discharge read averages of a cubic exactly, up to walls
  * and boxes and under a surface, whatever stands in the air; on a stretched block they are of
- * fourth order. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+ * fourth order; levels are heights against gravity. ranks: 1 2.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/boundary/blocked.h"
@@ -129,11 +130,38 @@ static void stretched_blocks(void **state)
     assert_true(log2(coarse / fine) > 3.0);
 }
 
+/* Gauges of levels tell heights against gravity, whichever way it points. */
+static void levels_on_blocks(void **state)
+{
+    (void)state;
+    for (int way = -1; way <= 1; way += 2) {
+        struct mesh_case c;
+        double level;
+        mesh_case_read(&c, MPI_COMM_WORLD,
+                       "{ min = (0, 0); max = (1, 1); cells = (8, 16); i_min = \"slip\"; i_max = "
+                       "\"slip\"; j_min = \"slip\"; j_max = \"slip\"; }",
+                       (const char *const[]){
+                           "initial.field=\"rest\"", "fv.surface=\"yes\"",
+                           way < 0 ? "fluid.gravity=(0,-9.81)" : "fluid.gravity=(0,9.81)", NULL});
+        const double at_rest = way < 0 ? 0.53 : -0.47; /* the same 0.53 m of water */
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BELOW, .level = at_rest};
+        add_gauge(&c.run.scene, PROBE_LEVEL, 0.0, 0.0);
+        fv_params_check(&c.run, &c.faults);
+        assert_int_equal(params_report(&c.faults), 0);
+        struct fv *s = fv_create(&c.run, NULL);
+        fv_probe(s, &level);
+        assert_close(level, at_rest, 1e-9);
+        mesh_case_end(&c, &s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_and_layers), cmocka_unit_test(beside_a_box),
-        cmocka_unit_test(under_a_surface), cmocka_unit_test(stretched_blocks)};
+        cmocka_unit_test(under_a_surface), cmocka_unit_test(stretched_blocks),
+        cmocka_unit_test(levels_on_blocks)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
