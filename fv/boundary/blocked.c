@@ -170,6 +170,16 @@ void blocked_free(struct blocked **wp)
     *wp = NULL;
 }
 
+/* Three layers of ghosts follow the last own cell. */
+struct near_box blocked_near(const struct fv *s, int64_t c, int a)
+{
+    struct near_box x = {.cell = c, .own = true};
+    for (int up = 0; up < 2; up++)
+        x.free[up] =
+            count_free(s->blocked, c, up ? s->b.stride[a] : -s->b.stride[a], GHOSTS, x.box + up);
+    return x;
+}
+
 /* Scalars (q < 0) have zero gradient. */
 enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a)
 {

@@ -59,6 +59,8 @@ void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int 
 struct blocked *blocked_create(const struct fv *s);
 void blocked_free(struct blocked **w);
 
+/* A free cell of this rank as list near has it, along the axis a: near a box or not. */
+struct near_box blocked_near(const struct fv *s, int64_t c, int a);
 /* The rule behind a box's face for component q along axis a (q < 0: for a scalar). */
 enum blocked_ghost blocked_rule(const struct fv *s, int box, int q, int a);
 /* Sets v[-reach .. reach] to q around the cell along the offset d, with ghosts behind boxes. */

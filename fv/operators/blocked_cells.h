@@ -25,6 +25,8 @@ void blocked_set_slip(const struct fv *s, double tau, const double *psi);
 void blocked_add_slip(const struct fv *s, int q, double *out);
 /* out = nu Lap of component q, in the cells near boxes. */
 void blocked_viscous(const struct fv *s, int q, const double *u, double *out);
+/* Derivative of component q along a in the own cell c, 0 in boxes. */
+double blocked_derivative(const struct fv *s, int q, int a, int64_t c);
 /* Sets q to zero in boxes. */
 void blocked_zero(const struct fv *s, double *q);
 

@@ -11,17 +11,24 @@
 #include "../boundary/forcing.h"
 #include "../boundary/mesh_bc.h"
 #include "../surface/levelset.h"
+#include "blocked_cells.h"
 #include "mesh_ops.h"
 
 static const int none[3] = {0, 0, 0};
 
+/* d_a u_q in the cell c of row j, average over it; boxes that are cut out have ghosts of their own.
+ */
+static double derivative(const struct fv *s, int q, int a, int64_t c, int j)
+{
+    return s->blocked ? blocked_derivative(s, q, a, c) : block_derivative(&s->b, s->u[q] + c, a, j);
+}
+
 /* w = dv/dx - du/dy, averages over cells. */
 static void vorticity_of_even(const struct fv *s, double *w)
 {
-    const struct block *b = &s->b;
-    BLOCK_ROWS_AT (b, 0, j, c, n)
+    BLOCK_ROWS_AT (&s->b, 0, j, c, n)
         for (int64_t i = c; i < c + n; i++)
-            w[i] = block_derivative(b, s->u[1] + i, 0, j) - block_derivative(b, s->u[0] + i, 1, j);
+            w[i] = derivative(s, 1, 0, i, j) - derivative(s, 0, 1, i, j);
 }
 
 /* Two gradients, of which one component each is kept; then averages over indices, which errors and
@@ -63,7 +70,7 @@ static double curl_in_even(const struct fv *s, int64_t c)
         double w = 0.0;
         for (int k = 0; k < 2; k++) {
             const int along = (a + 1 + k) % 3, of = (a + 2 - k) % 3;
-            w += (k ? -1.0 : 1.0) * block_derivative(b, s->u[of] + c, along, j);
+            w += (k ? -1.0 : 1.0) * derivative(s, of, along, c, j);
         }
         sum += w * w;
     }

@@ -224,7 +224,7 @@ static void duct_has_its_parabola(void **state)
 {
     (void)state;
     struct fv_case c;
-    double most = 0.0, x[3], force[FLOW_BODIES_MAX][4], all[4];
+    double most = 0.0, turned = 0.0, x[3], force[FLOW_BODIES_MAX][4], all[4];
     BOX("floor", WALL_NO_SLIP, -1, -0.5, 0, 2, 0, 0);
     BOX("roof", WALL_NO_SLIP, -1, 1, 0, 2, 2, 0);
     struct fv *s =
@@ -235,13 +235,21 @@ static void duct_has_its_parabola(void **state)
                                     "fv.cells=(8,16)", NULL},
               NULL, WALL_SLIP);
     assert_true(fv_case_run(&c, 1000, 30.0));
+    double *w = NEW(double, s->size);
+    flow_vorticity(s, w);
     BLOCK_CELLS (&s->b, i, j, k, at) {
         block_centre(&s->b, i, j, k, x);
         const double y = x[1], h = s->b.h[1];
-        const double exact = y > 0.0 && y < 1.0 ? 4.0 * (y * (1.0 - y) - h * h / 12.0) : 0.0;
+        const bool flows = y > 0.0 && y < 1.0;
+        const double vorticity = flows ? 4.0 * (2.0 * y - 1.0) : 0.0;
+        turned = fmax(turned, fabs(w[at] - vorticity));
+        turned = fmax(turned, fabs(flow_curl_squared(s, s->grid.part, at) - vorticity * vorticity));
+        const double exact = flows ? 4.0 * (y * (1.0 - y) - h * h / 12.0) : 0.0;
         most = fmax(most, fabs(s->u[0][at] - exact));
     }
+    mem_free(w);
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    assert_close(turned, 0.0, 1e-4); /* 1e-6 over a fifteenth of h, times 8 of the square */
     flow_forces(s, force, all);
     print_message("duct: %.3g off the parabola, friction %.8g and %.8g\n", most, force[0][0],
                   force[1][0]);
