@@ -12,9 +12,8 @@
 /* A cell of air beside the water whose divergence is removed by a potential: fraction_flow.c. */
 struct air_cell {
     int64_t cell, step[3];
-    double g[3][2]; /* m^(dim-2): conductance of its lower and upper faces; 0: not free */
-    double out;     /* m^dim/s: its divergence */
-    double per;     /* 1/m^(dim-2): change of the potential with what is left of it */
+    double share[3][2]; /* -: of its lower and upper faces in its conductance; 0: not free */
+    double out;         /* m^2/s: its divergence over its conductance */
 };
 
 /* The shares and the planes (plane.h) that reconstruct the interface. Fields have the size of phi
@@ -29,8 +28,8 @@ struct fraction {
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
     double *volume;  /* m^dim: of cells, ghosts included */
     double *flux, *work, *next;
-    int64_t nair, air_room, first_air[3];
-    struct air_cell *air;  /* those of one colour behind those of the other */
+    int64_t nair, air_room;
+    struct air_cell *air;
     unsigned char *smooth; /* 1: phi resolves the surface here */
     bool boxes;            /* boxes are cut out of this rank's cells */
     double carries;      /* 1: phi follows the shares; 0: the water is calm, and they follow phi */

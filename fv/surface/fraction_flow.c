@@ -10,10 +10,11 @@
 #include "levelset.h"
 #include "mesh_view.h"
 
-/* Layers of air where there is no divergence; sweeps over all of their cells, and their relaxation.
- */
-enum { AIR = 3, SWEEPS = 12 };
-#define RELAXATION 1.5
+/* Layers of air where there is no divergence; sweeps over their cells. */
+enum { AIR = 3, SWEEPS = 14 };
+/* Square of the largest eigenvalue of a sweep without relaxation that is counted with: three layers
+ * under air at 0 on an even surface have 0.89. */
+#define SPECTRAL 0.89
 
 static const int none[3] = {0, 0, 0};
 
@@ -52,51 +53,72 @@ static struct air_cell look(const struct fv *s, const struct part *p, int64_t c)
         for (int up = 0; up < 2; up++) {
             const int64_t face = c + up * d;
             if (is_free(s, face, d))
-                x.g[a][up] = conductance(s, face, d, a);
-            sum += x.g[a][up];
+                x.share[a][up] = conductance(s, face, d, a);
         }
+        sum += x.share[a][0] + x.share[a][1];
     }
-    x.per = sum > 0.0 ? -RELAXATION / sum : 0.0;
+    const double per = sum > 0.0 ? 1.0 / sum : 0.0;
+    x.out *= per;
+    for (int a = 0; a < s->dim; a++)
+        for (int up = 0; up < 2; up++)
+            x.share[a][up] *= per;
     return x;
 }
 
-/* The cells of air, those of one colour behind those of the other. */
 static void list_air(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    int at[3];
     f->nair = 0;
-    for (int colour = 0; colour < 2; colour++) {
-        f->first_air[colour] = f->nair;
-        FLOW_NEAR_AT (s, p, j, c, n) {
-            part_index(p, c, at);
-            const int odd = (at[0] + p->lo[0]) ^ (at[1] + p->lo[1]) ^ (at[2] + p->lo[2]);
-            for (int64_t i = c + ((odd ^ colour) & 1); i < c + n; i += 2) {
-                if (!is_air(s, i))
-                    continue;
-                if (f->nair == f->air_room) {
-                    const int64_t more = 2 * f->air_room + 256;
-                    GROW(f->air, f->nair, more);
-                    f->air_room = more;
-                }
-                f->air[f->nair++] = look(s, p, i);
+    FLOW_NEAR_AT (s, p, j, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            if (!is_air(s, i))
+                continue;
+            if (f->nair == f->air_room) {
+                const int64_t more = 2 * f->air_room + 256;
+                GROW(f->air, f->nair, more);
+                f->air_room = more;
             }
+            f->air[f->nair++] = look(s, p, i);
         }
-    }
-    f->first_air[2] = f->nair;
 }
 
-/* Gauss and Seidel's step of the cells of one colour: nothing is to be left of their divergence. */
-static void relax(struct fv *s, int colour)
+/* Chebyshev's step of all cells at once, so that none comes first and mirrored scenes stay
+ * mirrored: before is the potential of the step before now, and becomes the next one. */
+static inline __attribute__((always_inline)) void relax_body(const struct fraction *f,
+                                                             const int dim, const double *now,
+                                                             double *before, double weight)
+{
+    for (const struct air_cell *x = f->air; x < f->air + f->nair; x++) {
+        const double *const q = now + x->cell;
+        double *const next = before + x->cell, mean = -x->out;
+        for (int a = 0; a < dim; a++)
+            mean += x->share[a][0] * q[-x->step[a]] + x->share[a][1] * q[x->step[a]];
+        *next += weight * (mean - *next);
+    }
+}
+
+static void relax(const struct fv *s, const double *now, double *before, double weight)
+{
+    if (s->dim == 2)
+        relax_body(s->surface->fraction, 2, now, before, weight);
+    else
+        relax_body(s->surface->fraction, 3, now, before, weight);
+}
+
+/* The potential into work. */
+static void find_potential(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
-    double *const work = f->work;
-    for (const struct air_cell *x = f->air + f->first_air[colour];
-         x < f->air + f->first_air[colour + 1]; x++) {
-        double *const q = work + x->cell, own = *q, out = x->out;
-        for (int a = 0; a < s->dim; a++)
-            out -= x->g[a][0] * (q[-x->step[a]] - own) + x->g[a][1] * (q[x->step[a]] - own);
-        *q = own + x->per * out;
+    double weight = 1.0;
+    memset(f->work, 0, (size_t)s->size * sizeof(double));
+    memset(f->next, 0, (size_t)s->size * sizeof(double));
+    for (int k = 0; k < SWEEPS; k++) {
+        double *const now = f->work;
+        weight = k == 1 ? 1.0 / (1.0 - 0.5 * SPECTRAL) : 1.0 / (1.0 - 0.25 * SPECTRAL * weight);
+        relax(s, now, f->next, k == 0 ? 1.0 : weight);
+        f->work = f->next;
+        f->next = now;
+        grid_fill(&s->grid, 1, &f->work);
     }
 }
 
@@ -104,11 +126,7 @@ static void take_divergence_away(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     list_air(s);
-    memset(f->work, 0, (size_t)s->size * sizeof(double));
-    for (int k = 0; k < 2 * SWEEPS; k++) {
-        relax(s, k % 2);
-        grid_fill(&s->grid, 1, &f->work);
-    }
+    find_potential(s);
     for (int a = 0; a < s->dim; a++) {
         int up[3] = {0, 0, 0};
         up[a] = 1;

@@ -1,9 +1,11 @@
 /* test_fraction.c - the share of water of each cell is carried without loss; a level is that of the
- * water; a drop, a full tank and none run or say why not. ranks: 1 2 4.
+ * water; a column in mid-tank falls evenly; a drop, a full tank and none run or say why not.
+ * ranks: 1 2 4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/grid/block.h"
+#include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/surface/fraction.h"
 #include "../../../fv/surface/near_water.h"
 #include "surface_case.h"
@@ -145,6 +147,32 @@ static void air_beyond_the_band_is_dry(void **state)
     fv_free(&c.s);
 }
 
+/* A column that collapses in mid-tank and reaches both walls at once pushes to no side: none of its
+ * halves is computed first. */
+static void column_stays_even(void **state)
+{
+    (void)state;
+    const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0.8, 0, 0}, {1.2, 0.6, 0}}};
+    struct diagnosis d = {0};
+    double force[FLOW_BODIES_MAX][4], all[4], aside = 0.0, down = 0.0;
+    struct fv_case c;
+    struct fv *s =
+        start(&c, MPI_COMM_WORLD,
+              (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "domain.min=(0,0)",
+                                    "domain.max=(2,1)", "fv.cells=(64,32)", NULL},
+              &column, WALL_SLIP);
+    while (s->t < 0.44 && !d.bad) {
+        integrate(s, 0.44, &d);
+        flow_forces(s, force, all);
+        aside = fmax(aside, fabs(all[0]));
+        down = fmax(down, fabs(all[1]));
+    }
+    print_message("column in mid-tank: %.2g N aside, %.4g N down\n", aside, down);
+    assert_false(d.bad);
+    assert_true(aside <= 1e-6 * down);
+    fv_free(&c.s);
+}
+
 /* Some steps; NULL, or why the run stopped. */
 static const char *odd(const struct scene_shape *shape, int steps)
 {
@@ -187,10 +215,10 @@ static void odd_water_runs_or_says_why_not(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(disc_in_a_vortex),
-                                       cmocka_unit_test(sphere_in_a_vortex),
-                                       cmocka_unit_test(air_beyond_the_band_is_dry),
-                                       cmocka_unit_test(odd_water_runs_or_says_why_not)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(disc_in_a_vortex), cmocka_unit_test(sphere_in_a_vortex),
+        cmocka_unit_test(air_beyond_the_band_is_dry), cmocka_unit_test(column_stays_even),
+        cmocka_unit_test(odd_water_runs_or_says_why_not)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
