@@ -34,19 +34,11 @@ static int base(const struct block *b, int a, double x, double *weight)
     return b->periodic[a] ? (i % b->cells[a] + b->cells[a]) % b->cells[a] : i;
 }
 
-/* The cell that x lies in, of those about it. More than half a cell away from the lower centre it
- * is the upper one. */
-static void host_of(const int *i, const double *w, int host[3])
-{
-    for (int a = 0; a < 3; a++)
-        host[a] = i[a] + (w[a] > 0.5); /* no weight beyond dim */
-}
-
-/* Its index in a field. */
+/* The index in a field of the cell that x lies in. */
 static int64_t host_at(const struct fv *s, const int *i, const double *w)
 {
     int host[3];
-    host_of(i, w, host);
+    even_host(s, i, w, host);
     return block_at(&s->b, host[0], host[1], host[2]);
 }
 
@@ -78,7 +70,7 @@ static void look_past_boxes(const struct fv *s, const double *x, int *i, double 
 {
     const struct block *b = &s->b;
     int host[3];
-    host_of(i, w, host);
+    even_host(s, i, w, host);
     leave_box(s, x, host);
     for (int a = 0; a < b->dim; a++) {
         const double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];

@@ -4,6 +4,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "even_value.h"
 
+#include <math.h>
+
 #include "../boundary/blocked.h"
 #include "../boundary/still.h"
 #include "../surface/levelset.h"
@@ -29,6 +31,29 @@ static bool is_known(const struct fv *s, const int *at)
     if (even_is_solid(s, at))
         return false;
     return !s->surface || s->surface->layer[block_at(b, at[0], at[1], at[2])] == 0;
+}
+
+/* The cells that x lies in: of those about it, where it is on faces, number m of up to 2^dim;
+ * false: there is no such one. */
+static bool host_number(const struct fv *s, const int *i, const double *w, int m, int host[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const bool on_face = a < s->dim && fabs(w[a] - 0.5) < 1e-9, up = m >> a & 1;
+        if (up && !on_face)
+            return false;
+        host[a] = i[a] + (on_face ? up : w[a] > 0.5); /* no weight beyond dim */
+    }
+    return true;
+}
+
+void even_host(const struct fv *s, const int *i, const double *w, int host[3])
+{
+    for (int dry = 0; dry < 2; dry++)
+        for (int m = 0; m < 1 << s->dim; m++)
+            if (host_number(s, i, w, m, host) &&
+                (dry ? !even_is_solid(s, host) : is_known(s, host)))
+                return;
+    host_number(s, i, w, 0, host);
 }
 
 /* Weights of the averages of n cells between the edges e for the value at x: derivative of the
@@ -57,7 +82,8 @@ struct line_of_cells {
 };
 
 /* Known cells along axis a around `at', which is one, those nearest to x first; x counts in cells
- * from the first one of this rank on. */
+ * from the first one of this rank on. Around a centre three cells have what four would, and are
+ * alike on both sides. */
 static void choose(const struct fv *s, const int *at, int a, double x, struct line_of_cells *l)
 {
     int low[3] = {at[0], at[1], at[2]}, high[3] = {at[0], at[1], at[2]};
@@ -65,7 +91,11 @@ static void choose(const struct fv *s, const int *at, int a, double x, struct li
     l->first = at[a];
     l->n = 1;
     while (l->n < MOST && (open[0] || open[1])) {
-        const bool up = !open[0] || (open[1] && x - l->first > l->first + l->n - x);
+        const double more = (x - l->first) - (l->first + l->n - x); /* room below */
+        const bool up = !open[0] || (open[1] && more > 1e-9);
+        if (l->n == LEAST_CELLS && open[0] && open[1] && fabs(more) < 1e-9 &&
+            !(a == 1 && s->b.rows))
+            break;
         int *to = up ? high : low;
         to[a] += up ? 1 : -1;
         open[up] = is_known(s, to);
@@ -85,22 +115,18 @@ static void weigh_line(const struct fv *s, int a, double x, double y, struct lin
     weigh(e, l->n, uneven ? y : x, l->w);
 }
 
-bool even_value(const struct fv *s, const double *q, const double *x, const int *i, const double *w,
-                double *value)
+/* The value by the cells around one that holds fluid. */
+static bool value_from(const struct fv *s, const double *q, const double *x, const double *place,
+                       const int *host, double *value)
 {
     struct line_of_cells l[3] = {{0, 1, {1.0}}, {0, 1, {1.0}}, {0, 1, {1.0}}};
-    int at[3], host[3];
-    double sum = 0.0;
-    for (int a = 0; a < 3; a++)
-        host[a] = i[a] + (w[a] > 0.5); /* no weight beyond dim */
-    if (!is_known(s, host))
-        return false;
+    int at[3];
+    *value = 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double place = i[a] + w[a] + 0.5;
-        choose(s, host, a, place, l + a);
+        choose(s, host, a, place[a], l + a);
         if (l[a].n < LEAST_CELLS)
             return false;
-        weigh_line(s, a, place, x[a], l + a);
+        weigh_line(s, a, place[a], x[a], l + a);
     }
     for (int m = 0; m < l[0].n * l[1].n * l[2].n; m++) {
         const int of[3] = {m % l[0].n, m / l[0].n % l[1].n, m / l[0].n / l[1].n};
@@ -112,8 +138,25 @@ bool even_value(const struct fv *s, const double *q, const double *x, const int 
         if (!is_known(s, at))
             return false;
         const int64_t c = block_at(&s->b, at[0], at[1], at[2]);
-        sum += f * (q ? q[c] : fv_pressure(s, c));
+        *value += f * (q ? q[c] : fv_pressure(s, c));
     }
-    *value = sum;
     return true;
+}
+
+/* On faces the mean of what the cells on both sides say, so that mirrored scenes read the same. */
+bool even_value(const struct fv *s, const double *q, const double *x, const int *i, const double *w,
+                double *value)
+{
+    int host[3], n = 0;
+    double place[3], sum = 0.0, one;
+    for (int a = 0; a < 3; a++)
+        place[a] = i[a] + w[a] + 0.5;
+    for (int m = 0; m < 1 << s->dim; m++)
+        if (host_number(s, i, w, m, host) && is_known(s, host) &&
+            value_from(s, q, x, place, host, &one)) {
+            sum += one;
+            n++;
+        }
+    *value = sum / fmax(n, 1.0);
+    return n > 0;
 }

@@ -94,6 +94,32 @@ static void under_a_surface(void **state)
     reads_the_cubic(&c, 0.0, 0.5, 0.5);
 }
 
+/* A gauge on the face between water and air is in the water, on whichever side it stands. */
+static void between_water_and_air(void **state)
+{
+    (void)state;
+    for (int side = 0; side < 2; side++) {
+        struct fv_case c;
+        double value[2];
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){"initial.field=\"rest\"", "fv.surface=\"yes\"",
+                                          "domain.periodic=(false,false,false)",
+                                          "fluid.gravity=(0,-9.81)", "fv.cells=(8,16)", NULL});
+        for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
+            wall_add(&c, k, WALL_SLIP, 0.0);
+        c.run.scene.shapes[c.run.scene.nshapes++] = (struct scene_shape){
+            .form = SHAPE_BOX, .box = {{0.5 * side, 0, 0}, {0.5 + 0.5 * side, 0.75, 0}}};
+        c.run.scene.probes[c.run.scene.nprobes++] =
+            (struct scene_probe){.kind = PROBE_VELOCITY, .at = {0.5, 0.2, 0}};
+        struct fv *s = fv_case_start(&c, NULL);
+        for (int64_t i = 0; i < s->size; i++)
+            s->u[0][i] = 7.0;
+        fv_probe(s, value);
+        assert_close(value[0], 7.0, 1e-12);
+        fv_free(&c.s);
+    }
+}
+
 /* Error of the readings of a channel that a lid drives, u = y once steady. */
 static double stretched_error(int n)
 {
@@ -160,8 +186,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cells_and_layers), cmocka_unit_test(beside_a_box),
-        cmocka_unit_test(under_a_surface), cmocka_unit_test(stretched_blocks),
-        cmocka_unit_test(levels_on_blocks)};
+        cmocka_unit_test(under_a_surface),  cmocka_unit_test(between_water_and_air),
+        cmocka_unit_test(stretched_blocks), cmocka_unit_test(levels_on_blocks)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
