@@ -280,11 +280,50 @@ static bool is_enclosed(const struct scene *s, int k)
     return any;
 }
 
+/* Whether both ends of a line lie on one side of the domain, or beyond it. */
+static bool hangs_from_side(const struct scene *s, const struct line *l)
+{
+    bool any = false;
+    for (int a = 0; a < 2; a++) {
+        const double lo = s->domain.min[a], hi = s->domain.max[a], near = 1e-6 * (hi - lo);
+        const double from = l->x[0][a], to = l->x[l->n - 1][a];
+        any = any || fmax(from, to) < lo + near || fmin(from, to) > hi - near;
+    }
+    return any;
+}
+
+/* Whether the water that line k would hold, between itself and the side from which it hangs, is
+ * hardly a tenth of the water around it. */
+static bool holds_little(const struct scene *s, int k)
+{
+    enum { ACROSS = 200 };
+    const struct exact e = exact_create(s);
+    const struct line l = line_of(&s->walls[k].points, true);
+    const double *lo = s->domain.min, *hi = s->domain.max;
+    int n[2] = {0, 0};
+    for (int i = 0; i < ACROSS * ACROSS; i++) {
+        const double x[3] = {lo[0] + (i % ACROSS + 0.5) / ACROSS * (hi[0] - lo[0]),
+                             lo[1] + (i / ACROSS + 0.5) / ACROSS * (hi[1] - lo[1]), 0.0};
+        n[line_inside(&l, x)] += wet(s, &e, x);
+    }
+    return n[1] < 0.1 * n[0];
+}
+
+/* An open line with water on both sides that hangs from a side of the domain, between other walls,
+ * is a baffle and not the only tank: what is inside it is solid. */
+static bool is_baffle_inside_out(const struct scene *s, int k)
+{
+    const struct line open = line_of(&s->walls[k].points, false);
+    const struct line shut = line_of(&s->walls[k].points, true);
+    return open.n > 2 && line_area(&shut) > 0.0 && hangs_from_side(s, &open) && is_enclosed(s, k) &&
+           holds_little(s, k);
+}
+
 /* An open line is turned when hardly half as much of it has fluid on its left as on its right:
- * those of an island between two waters, or of a fillet in a corner, are equal or nearly so. A
- * closed one may be a tank in which the shapes let water go on through its walls, or an island: it
- * is turned if all fluid is on its right, or if it is a tank by its sense, with water around,
- * inside other walls: an island. */
+ * those of an island between two waters, or of a fillet in a corner, are equal or nearly so; or
+ * when it is a baffle that would hold the water inside itself. A closed one may be a tank in which
+ * the shapes let water go on through its walls, or an island: it is turned if all fluid is on its
+ * right, or if it is a tank by its sense, with water around, inside other walls: an island. */
 static bool is_reversed(const struct scene *s, int k)
 {
     const struct scene_wall *w = s->walls + k;
@@ -292,7 +331,7 @@ static bool is_reversed(const struct scene *s, int k)
     double share[2];
     sides_of(s, &l, share);
     if (!w->closed)
-        return share[0] < 0.5 * share[1];
+        return share[0] < 0.5 * share[1] || is_baffle_inside_out(s, k);
     if (share[0] > 0.01 && share[1] > 0.01)
         return line_area(&l) > 0.0 && is_enclosed(s, k);
     return share[0] < share[1];

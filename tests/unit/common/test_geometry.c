@@ -231,6 +231,35 @@ static void walls_with_water_on_both_sides_stay(void **state)
         }
 }
 
+/* A baffle from a side of a tank of walls, with water inside it, too, as a level draws it, and a
+ * channel that is drawn into the same tank and holds half of its water. */
+static void baffles_have_their_fluid_outside(void **state)
+{
+    (void)state;
+    static const double baffle[][2] = {{-1, 10}, {-1, -3}, {1, -3}, {1, 10}};
+    static const double channel[][2] = {{-9, 10}, {-4, -9}, {4, -9}, {9, 10}};
+    static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
+    for (int trial = 0; trial < 60; trial++)
+        for (int reversed = 0; reversed < 2; reversed++)
+            for (int side = 0; side < 4; side++) { /* the same tank on each of its sides */
+                struct placing p = anywhere();
+                struct scene s;
+                p.angle = side * 0.5 * M_PI;
+                scene_at(&s, &p, sea, 4);
+                s.nwalls = 2;
+                s.walls[0].points = placed(&p, trial % 2 ? channel : baffle, 4);
+                s.walls[1].side = SIDE_X_MIN;
+                if (reversed)
+                    points_reverse(&s.walls[0].points);
+                scene_orient(&s);
+                const struct line l = line_of(&s.walls[0].points, true);
+                if (trial % 2)
+                    assert_false(s.walls[0].turned);
+                else
+                    assert_true(line_area(&l) < 0.0);
+            }
+}
+
 static void bodies_have_their_fluid_outside(void **state)
 {
     (void)state;
@@ -260,6 +289,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(gaps_and_overlaps_are_told_apart),
         cmocka_unit_test(walls_that_run_the_wrong_way_are_turned),
         cmocka_unit_test(walls_with_water_on_both_sides_stay),
+        cmocka_unit_test(baffles_have_their_fluid_outside),
         cmocka_unit_test(bodies_have_their_fluid_outside),
     };
     MPI_Init(&argc, &argv);
