@@ -433,8 +433,9 @@ for key in $("$b/sph" --params | sed -n 's/^| `\([a-z_A-Z0-9]*\.[a-zA-Z_0-9.]*\)
     case $key in accept.*) continue ;; esac
     echo "$known" | grep -qx "$key" || { echo "FAIL: no other value is known for $key: add it here"; failed=$((failed + 1)); }
 done
-# float and train have all else of these scenes, so that by default the keys of the groups that differ will do
-ours() { case $every:$1 in :hinge | :touch) echo bodies ;; :group) echo waves ;; esac; }
+# float has all else of hinge and touch, dam all else of train but waves and walls, train all else of group, so that by
+# default the keys of the groups that differ will do
+ours() { case $every:$1 in :hinge | :touch) echo bodies ;; :train) echo wa ;; :group) echo waves ;; esac; }
 every=
 [ "${1:-}" = all ] && every=yes && set -- vortices delta dam body float hinge touch box channel cube mesh wave train group drop lines regions swirls
 [ $# -gt 0 ] || set -- dam channel float hinge touch mesh train group swirls
