@@ -7,5 +7,7 @@
 
 /* Whether all corners of body k lie in rooms of the domain in which a wall shows its back. */
 bool body_backs_shut_in(const struct scene *c, const struct sph_params *used, int k);
+/* The same of a place inside the domain. */
+bool body_backs_hold(const struct scene *c, const struct sph_params *used, const double *x);
 
 #endif

@@ -13,6 +13,7 @@
 #include "../../common/scene/scene_geometry.h"
 #include "../../common/scene/scene_mesh.h"
 #include "../../common/scene/scene_probe.h"
+#include "../bodies/body_backs.h"
 #include "../open_boundaries/wave_outside.h"
 #include "../open_boundaries/wave_stream.h"
 #include "../sph.h"
@@ -203,6 +204,33 @@ static bool cuts_tank(const struct scene *c, int side, double dx, double x[3])
     return false;
 }
 
+/* The same of a tank of open lines and other sides: fluid fills what does not lie behind them. */
+static bool cuts_channel(const struct scene *c, const struct sph_params *used, int side,
+                         double x[3])
+{
+    enum { PLACES = 64 };
+    const int a = side / 2, b = 1 - a;
+    const double *lo = c->domain.min, *hi = c->domain.max;
+    for (int k = 0; k < c->nwalls; k++)
+        if (c->walls[k].closed)
+            return false;
+    for (int i = 0; i < PLACES; i++) {
+        double least = INFINITY;
+        x[a] = side % 2 ? hi[a] - 0.5 * used->dx : lo[a] + 0.5 * used->dx;
+        x[b] = lo[b] + (i + 0.5) / PLACES * (hi[b] - lo[b]);
+        x[2] = 0.0;
+        for (int k = 0; k < c->nwalls; k++) {
+            const struct line l = line_of(&c->walls[k].points, false);
+            least = l.n > 1 ? fmin(least, line_distance(&l, x)) : least;
+        }
+        if (least > 1.5 * used->dx && scene_is_room(c, x) && !body_backs_hold(c, used, x)) {
+            x[a] = side % 2 ? hi[a] : lo[a];
+            return true;
+        }
+    }
+    return false;
+}
+
 /* Fluid that fills the domain up to a side where nothing is. */
 static void check_bare(const struct run *r, const struct sph_params *used, struct faults *f)
 {
@@ -224,6 +252,13 @@ static void check_bare(const struct run *r, const struct sph_params *used, struc
                          "its side %s, which is open, cuts the tank at (%g, %g), where fluid is: "
                          "make the domain larger than the tank, or give this side a wall, an "
                          "outflow or a period",
+                         scene_side_names[side], x[0], x[1]);
+        else if (tank && plane && used->surface != SURFACE_YES && c->nshapes == 0 &&
+                 sph_params_reaches(&c->domain, used, side) && cuts_channel(c, used, side, x))
+            params_fault(r->params, f, "domain",
+                         "its side %s, which is open, has fluid at (%g, %g), which lies behind no "
+                         "line: give this side a wall, an outflow or a period; or reverse a line "
+                         "that has the fluid on its right; or say by shapes where the fluid ends",
                          scene_side_names[side], x[0], x[1]);
     }
 }

@@ -146,6 +146,22 @@ END
 run cut 2
 [ "$(grep -c 'which is open, cuts the tank at' cut.txt)" = 3 ] || bad "a tank that the domain cuts off" cut.txt
 
+# So is a channel of open lines that run the wrong way, between an inlet and an outlet: fluid at bare sides (it diverged)
+cat >bare.cfg <<END
+format = 1;
+time:   { end = 0.05; };
+domain: { max = (1.2, 0.7); };
+walls:  ( { side = "x_min"; kind = "inflow"; velocity = (0.5, 0); }, { side = "x_max"; kind = "outflow"; },
+          { points = ((0, 0.2), (0.4, 0.2), (0.4, 0.6), (1.2, 0.6)); }, { points = ((1.2, 0.3), (0.7, 0.3), (0.7, 0), (0, 0)); } );
+sph:    { dx = 0.025; };
+output: { snapshots = false; };
+END
+sed 's/(0, 0.2), (0.4, 0.2), (0.4, 0.6), (1.2, 0.6)/(1.2, 0.6), (0.4, 0.6), (0.4, 0.2), (0, 0.2)/
+    s/(1.2, 0.3), (0.7, 0.3), (0.7, 0), (0, 0)/(0, 0), (0.7, 0), (0.7, 0.3), (1.2, 0.3)/' bare.cfg >right.cfg
+run bare 2
+[ "$(grep -c 'which is open, has fluid at' bare.txt)" = 2 ] || bad "fluid at bare sides" bare.txt
+run right 0
+
 # A line that hangs from the lid, drawn the wrong way round, is a baffle, not the only tank; a channel between walls that
 # leaves out two thirds of what a level draws is warned of (1 %: the weight compresses the water by gH/c0^2)
 cat >baffle.cfg <<END
