@@ -101,10 +101,19 @@ static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const
                       scene_is_room(&s->run->scene, centre);
 }
 
-/* More water left out than kept: of the lines one runs the wrong way, or the shapes are wrong. */
+static bool has_wall_sides(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nwalls; k++)
+        any = any || (c->walls[k].side != SIDE_NONE && c->walls[k].kind < WALL_INFLOW);
+    return any;
+}
+
+/* More water left out than kept: of the lines one runs the wrong way, or the shapes are wrong. A
+ * line that is all there is of a tank may leave out what a level draws beyond it. */
 static void check_behind(const struct sph *s, double kept, double behind)
 {
-    if (behind > kept)
+    if (behind > kept && has_wall_sides(&s->run->scene))
         log_warn(
             "lines among the walls leave out %.2g %% of the water that the shapes draw, "
             "%.3g of %.3g m^%d, which lies behind them: a line has its fluid on its left; "
