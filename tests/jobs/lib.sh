@@ -18,6 +18,12 @@ bad() {
     echo "FAIL: $1"
     [ -z "$2" ] || tail -n 6 "$2"
 }
+# refused_by PROGRAM CASE CHANGE WORDS: the case, changed by sed, is refused by --check with these words
+refused_by() {
+    sed "$3" "$2" >faulty.cfg
+    "$b/$1" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $3"
+    grep -q "$4" faulty.log || bad "$3: not told \"$4\"" faulty.log
+}
 # number DIR KEY: of DIR/summary.json; number_of FILE KEY; the first of that name
 number() { number_of "$1/summary.json" "$2"; }
 number_of() { sed -n "s/.*\"$2\": *\([-+0-9.eE]*\).*/\1/p" "$1" | head -n 1; }

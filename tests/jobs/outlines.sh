@@ -36,11 +36,7 @@ for name in files points; do
 done
 close_to "$(last fv_files/series.csv 'volume')" "$(last fv_points/series.csv 'volume')" 1e-9 || bad "fv: another volume from a file"
 # refused CHANGE MESSAGE
-refused() {
-    sed "$1" files.cfg >faulty.cfg
-    "$b/sph" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $1"
-    grep -q "$2" faulty.log || bad "$1: not told \"$2\"" faulty.log
-}
+refused() { refused_by sph files.cfg "$1" "$2"; }
 printf 'x,y\n0,0\n1,zero\n' >wrong.csv
 refused 's/bed.csv/none.csv/' 'faulty.cfg:[0-9]*: walls.\[3\].outline: .*none.csv cannot be read'
 refused 's/bed.csv/wrong.csv/' 'walls.\[3\].outline: .*wrong.csv: line 3 is no row of x, y'

@@ -65,11 +65,7 @@ for run in "with:0.3:0.7127:closed = false;:0.3:0.04899" "against:-0.2:1.1149::-
     near "$3" $h 0.0003 || bad "beach on $U m/s: the mean level is $3 m"
 done
 # refused CHANGE MESSAGE
-refused() {
-    sed "$1" against.cfg >faulty.cfg
-    "$b/fv" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $1"
-    grep -q "$2" faulty.log || bad "$1: not told \"$2\"" faulty.log
-}
+refused() { refused_by fv against.cfg "$1" "$2"; }
 refused 's/-0\.2/-0.9/g' 'waves.current: -0.9 m/s: the energy of waves of 1 m moves at 0.845 m/s over the water'
 refused 's/length = 1.0/period = 0.5/; s/-0\.2/-0.9/g' 'waves.current: -0.9 m/s: no waves of 0.5 s come forward against it'
 refused 's/velocity = (-0.2/velocity = (0.2/' 'waves.current: -0.2 m/s from the start: give initial'
