@@ -53,7 +53,7 @@ enum cpl_interpolation { CPL_LINEAR, CPL_CUBIC }; /* grid to anywhere */
  * step, with a polynomial in time around it where the source has one. */
 enum cpl_when {
     CPL_START,  /* those of the window's start, followed in time: waits for nobody's window */
-    CPL_END,    /* those of its end: waits until the giver has done the window */
+    CPL_END,    /* those of its end: waits until the source has done the window */
     CPL_BETWEEN /* the straight line between the two */
 };
 
@@ -107,22 +107,22 @@ int cpl_points(struct cpl *c, const char *set, int dim, double support, int *id)
 int cpl_period(struct cpl *c, int set, const double period[3]);
 /* A field of a set: 1 to 64 components. One set of one program gives it, any number of sets of
  * others take it: matched by the field's name; unit and ncomp must agree. From a grid it arrives as
- * a patch (cpl_patch_get), from points mapped to the taker's points (cpl_get). d: cpl_direction;
+ * a patch (cpl_patch_get), from points mapped to the target's points (cpl_get). d: cpl_direction;
  * how: for CPL_GET, cpl_mapping (points) or cpl_interpolation (grid). */
 int cpl_field(struct cpl *c, int set, const char *name, const char *unit, int ncomp, int d, int how,
               int *id);
 /* The plan is checked by the coupler: all problems at once, printed by all programs. t: where this
- * solver starts, the same in all. dt_wish: the longest window it wants (INFINITY: no wish). A giver
- * of grid fields puts their first values after this and before the first cpl_window. */
-int cpl_ready(struct cpl *c, double t, double dt_wish);
+ * solver starts, the same in all. dt_longest: the longest window it wants (INFINITY: no wish). A
+ * source of grid fields puts their first values after this and before the first cpl_window. */
+int cpl_ready(struct cpl *c, double t, double dt_longest);
 
 /* The next window [t0, t1] and its action; CPL_STOP: there is none, *code is the job's exit code (0
  * done, 3 diverged, 5 stopped on request). */
 int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code);
 /* New places of a set's points on this rank: x[3 n], ids that are unique over all ranks (sums run
  * in their order, so results do not depend on the number of ranks), volumes (m^dim): their weight
- * as givers, and as takers of a conservative mapping (NULL: all alike). Takers of consistent ones
- * need neither (NULL). Kept until the next call. */
+ * as sources, and as targets of a conservative mapping (NULL: all alike). Targets of consistent
+ * ones need neither (NULL). Kept until the next call. */
 int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid,
              const double *volume);
 /* The same for general cells, held by their centroids and volumes. In 2D polygons of nvertex[i] >=

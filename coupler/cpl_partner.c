@@ -51,9 +51,9 @@ static int partner_meet(void *ctx, const struct faults *f, bool sound, unsigned 
     return refused(c, code);
 }
 
-static int partner_ready(void *ctx, double t, double dt_wish)
+static int partner_ready(void *ctx, double t, double dt_longest)
 {
-    return refused(ctx, cpl_ready(ctx, t, dt_wish));
+    return refused(ctx, cpl_ready(ctx, t, dt_longest));
 }
 
 static bool partner_window(void *ctx, double *t0, double *t1, bool *output, bool *save, int *code)

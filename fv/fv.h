@@ -12,7 +12,7 @@
 #include "grid/grid.h"
 #include "grid/mesh_blocks.h"
 
-enum { PARTNERS_MAX = PARAM_KIN_MAX };
+enum { PARTNERS_MAX = PARAM_PROGRAMS_MAX };
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
 enum fv_volume { VOLUME_AUTO, VOLUME_SHIFT, VOLUME_FRACTION };
 enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };

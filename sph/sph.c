@@ -350,7 +350,7 @@ static void check(const struct run *r, struct faults *f)
 
 static void offer(struct run *r) { coupling_offer(r, sph_params_of(r)); }
 
-static double window_wish(void *state)
+static double longest_window(void *state)
 {
     const struct sph *s = state;
     return windows_choose(s->run, &s->prm).T;
@@ -424,7 +424,7 @@ static struct program sph_program = {.name = "sph",
                                      .create = create,
                                      .destroy = destroy,
                                      .step = step,
-                                     .window_wish = window_wish,
+                                     .longest_window = longest_window,
                                      .window_begin = window_begin,
                                      .window_end = sph_coupling_window_end,
                                      .tell = tell,

@@ -633,14 +633,14 @@ static const char *key_of(const struct params *p, const char *key, char buffer[1
     return buffer;
 }
 
-int params_kin(const struct params *p, const char *kind, char names[PARAM_KIN_MAX][64])
+int params_programs(const struct params *p, const char *kind, char names[PARAM_PROGRAMS_MAX][64])
 {
     const size_t n = strlen(kind);
     int found = 0;
     for (const char *at = p->names; *at;) {
         const size_t space = strspn(at, " "), length = strcspn(at + space, " ");
         at += space;
-        if (length >= n && length < 64 && found < PARAM_KIN_MAX && strncmp(at, kind, n) == 0 &&
+        if (length >= n && length < 64 && found < PARAM_PROGRAMS_MAX && strncmp(at, kind, n) == 0 &&
             (length == n || at[n] == '_')) {
             memcpy(names[found], at, length);
             names[found++][length] = '\0';

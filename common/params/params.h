@@ -155,8 +155,8 @@ bool params_has_group(const struct params *p, const char *group);
 void params_alias(struct params *p, const char *kind, const char *as);
 /* The case's groups of a kind, "sph", "sph_left", ..., in the order of the case; returns their
  * number. Same on all ranks. */
-enum { PARAM_KIN_MAX = 8 };
-int params_kin(const struct params *p, const char *kind, char names[PARAM_KIN_MAX][64]);
+enum { PARAM_PROGRAMS_MAX = 8 };
+int params_programs(const struct params *p, const char *kind, char names[PARAM_PROGRAMS_MAX][64]);
 /* 64-bit FNV-1a of the case as read (file, included files, overrides) but for -p output.*; same on
  * all ranks. Two programs of a job must agree on it. */
 unsigned long long params_hash(const struct params *p);

@@ -26,10 +26,10 @@ bool crossing_box(const struct run *r, const char *group, double box[2][3])
 
 /* Boxes of the groups sph, sph_NAME; those of SPH's program `only' alone, NULL: all. Returns how
  * many. Collective. */
-static int peek_boxes(const struct run *r, const char *only, double box[PARAM_KIN_MAX][2][3])
+static int peek_boxes(const struct run *r, const char *only, double box[PARAM_PROGRAMS_MAX][2][3])
 {
-    char names[PARAM_KIN_MAX][64];
-    const int n = params_kin(r->params, "sph", names);
+    char names[PARAM_PROGRAMS_MAX][64];
+    const int n = params_programs(r->params, "sph", names);
     int found = 0;
     for (int k = 0; k < n; k++)
         if (!only || strcmp(only, names[k]) == 0)
@@ -56,7 +56,7 @@ static bool ends_inside(const struct scene *c, int up, double box[2][3])
 
 bool crossing_find(const struct run *r)
 {
-    double box[PARAM_KIN_MAX][2][3];
+    double box[PARAM_PROGRAMS_MAX][2][3];
     bool ends = false;
     if (!r->coupled || !r->scene.has_sph || !r->scene.has_fv || !scene_has_surface(&r->scene))
         return false;
@@ -93,8 +93,8 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
 /* Whether the box of some group of particles moves: a gauge at rest may lie in it for a while. */
 static bool any_moves(const struct run *r)
 {
-    char names[PARAM_KIN_MAX][64], key[96];
-    const int n = params_kin(r->params, "sph", names);
+    char names[PARAM_PROGRAMS_MAX][64], key[96];
+    const int n = params_programs(r->params, "sph", names);
     bool moves = false;
     for (int k = 0; k < n; k++) {
         snprintf(key, sizeof key, ":%.63s.box_velocity", names[k]);
@@ -113,7 +113,7 @@ void crossing_deal(struct run *r)
     const int up = scene_still_axis(c);
     const bool shared = r->coupled && c->has_sph && c->has_fv,
                particles = strncmp(r->name, "sph", 3) == 0;
-    double box[PARAM_KIN_MAX][2][3];
+    double box[PARAM_PROGRAMS_MAX][2][3];
     const int n = shared ? peek_boxes(r, particles ? r->name : NULL, box) : 0;
     const bool both = !shared || (!r->crossed && any_moves(r));
     for (int k = 0; k < c->nprobes; k++) {

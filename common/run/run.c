@@ -88,8 +88,8 @@ static void collect_groups(struct life *l)
 static void check_place(struct life *l)
 {
     struct run *r = &l->r;
-    char kin[PARAM_KIN_MAX][64];
-    r->scene.has_sph = params_kin(l->params, "sph", kin) > 0;
+    char kin[PARAM_PROGRAMS_MAX][64];
+    r->scene.has_sph = params_programs(l->params, "sph", kin) > 0;
     r->scene.has_fv = params_has_group(l->params, "fv");
     if (!params_has_group(l->params, r->name))
         params_fault(l->params, &l->faults, r->name,
@@ -625,7 +625,7 @@ static int run_state(struct life *l, struct h5 *restart)
     signals_started(); /* from the first file on a stop is orderly */
     start_series(l);
     if (r->coupled) {
-        const double wish = l->p->window_wish ? l->p->window_wish(l->s) : INFINITY;
+        const double wish = l->p->longest_window ? l->p->longest_window(l->s) : INFINITY;
         const int code = r->partner->ready(r->partner_ctx, r->t, wish);
         if (code)
             return code;

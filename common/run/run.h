@@ -57,8 +57,9 @@ struct diagnosis {
 
 /* What a solver provides to run_main: its names, its part of the parameter table and its functions.
  * `s' is the state that `create' returned; create, destroy, step and all that take s are collective
- * over r->comm. Order of the calls: meshes, complete, check, offer, describe, create, window_wish,
- * first, then steps with rows, snapshots and checkpoints between them, finish, destroy. */
+ * over r->comm. Order of the calls: meshes, complete, check, offer, describe, create,
+ * longest_window, first, then steps with rows, snapshots and checkpoints between them, finish,
+ * destroy. */
 struct program {
     const char *name; /* "sph": name of its group, of its files */
     const char *help; /* one sentence */
@@ -96,7 +97,7 @@ struct program {
      * all ranks when the state cannot be trusted. */
     double (*step)(void *s, double t_stop, struct diagnosis *d);
     /* Coupled: the longest coupling step that suits this program, s; NULL: it has no wish. */
-    double (*window_wish)(void *s);
+    double (*longest_window)(void *s);
     /* Coupled: sends the fields that partners need before the first coupling step; NULL:
      * nothing. */
     void (*first)(void *s);
@@ -144,8 +145,8 @@ struct partner {
     int (*meet)(void *ctx, const struct faults *f, bool sound, unsigned long long hash,
                 int64_t window, const char *dir);
     /* After create, which declares sets and fields: the coupler checks the plan. t: time of the
-     * start, s; dt_wish: longest coupling step, s. Returns 0, or the exit code. */
-    int (*ready)(void *ctx, double t, double dt_wish);
+     * start, s; dt_longest: longest coupling step, s. Returns 0, or the exit code. */
+    int (*ready)(void *ctx, double t, double dt_longest);
     /* Gets the next coupling step [*t0, *t1], s, and whether an output or a restart file is due at
      * its end. false: the job ends, *code says how (RUN_DONE, RUN_STOPPED or RUN_DIVERGED). */
     bool (*window)(void *ctx, double *t0, double *t1, bool *output, bool *save, int *code);

@@ -38,8 +38,8 @@ static bool holds(int dim, double box[2][3], const double *lo, const double *hi)
 
 bool solids_elsewhere(const struct run *r, enum mesh_owner owner, int k)
 {
-    char names[PARAM_KIN_MAX][64];
-    const int n = r->coupled ? params_kin(r->params, "sph", names) : 0;
+    char names[PARAM_PROGRAMS_MAX][64];
+    const int n = r->coupled ? params_programs(r->params, "sph", names) : 0;
     double lo[3], hi[3], box[2][3];
     bool elsewhere = false;
     if (n < 2 || !extent(&r->scene, owner, k, lo, hi))

@@ -92,7 +92,7 @@ static void at_work(const struct cpl *c)
 }
 
 /* Waits for one certain message. Whatever else comes meanwhile is kept, except needs, which are
- * served at once: a giver that waits for another field must not keep its takers waiting, or two
+ * served at once: a source that waits for another field must not keep its targets waiting, or two
  * programs that take from each other would wait for ever. */
 struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int64_t tick, int rank,
                              const char *what)
@@ -256,12 +256,12 @@ int cpl_find_zone(struct cpl *c, const char *zone, double lo[3], double hi[3])
 
 /* Sets and fields as declared; of a grid, rank 0's own block is part of it, which the coupler does
  * not use. */
-static void send_plan(struct cpl *c, double t, double dt_wish)
+static void send_plan(struct cpl *c, double t, double dt_longest)
 {
     struct pack p;
     pack_begin(&p, WIRE_READY, 0, c->window);
     pack_real(&p, t);
-    pack_real(&p, dt_wish);
+    pack_real(&p, dt_longest);
     pack_int(&p, c->nsets);
     for (int i = 0; i < c->nsets; i++) {
         const struct client_set *s = &c->set[i];
@@ -285,14 +285,14 @@ static void send_plan(struct cpl *c, double t, double dt_wish)
     wire_send(&c->wire, 0, 0, &p);
 }
 
-/* Needs of faster takers may come before the plan; they wait in the inbox until their fields are
+/* Needs of faster targets may come before the plan; they wait in the inbox until their fields are
  * known. */
-int cpl_ready(struct cpl *c, double t, double dt_wish)
+int cpl_ready(struct cpl *c, double t, double dt_longest)
 {
     if (c->state != MET)
         return client_out_of_order(c, "cpl_ready", "once, after cpl_meet");
     if (c->rank == 0)
-        send_plan(c, t, dt_wish);
+        send_plan(c, t, dt_longest);
     struct message *m = client_await(c, WIRE_PLAN, -1, 0, 0, "the plan");
     if (!m)
         return c->error;
@@ -305,15 +305,15 @@ int cpl_ready(struct cpl *c, double t, double dt_wish)
             take_text(&c->wire, m, f->partner, sizeof f->partner);
             f->from_grid = take_int(&c->wire, m) != 0;
             take_bytes(&c->wire, m, &f->grid, sizeof f->grid);
-            f->ntakers = (int)take_int(&c->wire, m);
-            const size_t n = (size_t)f->ntakers * (size_t)c->ncoupler * sizeof *f->need;
+            f->ntargets = (int)take_int(&c->wire, m);
+            const size_t n = (size_t)f->ntargets * (size_t)c->ncoupler * sizeof *f->need;
             f->need = wire_alloc(n);
             memset(f->need, 0, n);
         }
         c->state = PLANNED;
     }
     message_free(&m);
-    while (code == CPL_OK && (m = from_inbox(c, WIRE_NEED, -1, 0, -1))) { /* takers were faster */
+    while (code == CPL_OK && (m = from_inbox(c, WIRE_NEED, -1, 0, -1))) { /* targets were faster */
         client_need(c, m);
         message_free(&m);
     }

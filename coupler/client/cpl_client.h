@@ -48,26 +48,26 @@ struct slot {
     int terms;
     double *v[CPL_TERMS]; /* terms in time; NULL: zero */
     struct client_places *places;
-    int *served; /* [ntakers][ncoupler]: generation of the region that was answered with them */
+    int *served; /* [ntargets][ncoupler]: generation of the region that was answered with them */
 };
 
 /* A declared field, of which this solver is the source (CPL_PUT) or the target (CPL_GET). */
 struct client_field {
     char name[CPL_NAME], unit[CPL_NAME];
     int set, ncomp, how, direction;
-    int ntakers;            /* source: number of its targets */
+    int ntargets;           /* source: number of its targets */
     char partner[CPL_NAME]; /* name of the program at the other side, for messages */
     bool from_grid;
     struct need {
         int generation; /* 0: nothing wanted yet */
         struct region region;
-    } * need;                  /* giver: [ntakers][ncoupler] */
-    struct slot slot[2];       /* giver: by tick & 1 */
-    int64_t last_tick;         /* giver: of the last put, -1 */
-    int64_t got_tick;          /* taker: of the last patch, -1 */
-    int asked_moves;           /* taker: moves of the set that the coupler knows */
-    struct client_patch patch; /* taker */
-    struct cpl_grid grid;      /* taker: the giver's grid */
+    } * need;                  /* source: [ntargets][ncoupler] */
+    struct slot slot[2];       /* source: by tick & 1 */
+    int64_t last_tick;         /* source: of the last put, -1 */
+    int64_t got_tick;          /* target: of the last patch, -1 */
+    int asked_moves;           /* target: moves of the set that the coupler knows */
+    struct client_patch patch; /* target */
+    struct cpl_grid grid;      /* target: the source's grid */
 };
 
 /* The solver's whole state in the job. */

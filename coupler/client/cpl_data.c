@@ -75,7 +75,7 @@ int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid
         p->gid = copy(gid, (size_t)n * sizeof *gid);
     if (volume)
         p->volume = copy(volume, (size_t)n * sizeof *volume);
-    /* takers: which share of all targets is mine decides who of the coupler maps them */
+    /* targets: which share of all targets is mine decides who of the coupler maps them */
     int64_t mine = n;
     s->first = 0;
     MPI_Exscan(&mine, &s->first, 1, MPI_INT64_T, MPI_SUM, c->mine);
@@ -208,10 +208,10 @@ static void serve_grid(const struct client_field *f, const struct slot *s, const
 
 /* Sends what this need asks for of a slot, unless it has had it: served[] holds the generation of
  * the need that was served last. */
-static void serve(struct cpl *c, int field, struct slot *s, int taker, int rank)
+static void serve(struct cpl *c, int field, struct slot *s, int target, int rank)
 {
     struct client_field *f = &c->field[field];
-    const int which = taker * c->ncoupler + rank;
+    const int which = target * c->ncoupler + rank;
     const struct need *d = &f->need[which];
     const struct client_set *set = &c->set[f->set];
     struct pack p;
@@ -219,7 +219,7 @@ static void serve(struct cpl *c, int field, struct slot *s, int taker, int rank)
         return;
     pack_begin(&p, WIRE_PUT, field, s->tick);
     pack_head(&p)->generation = d->generation;
-    pack_head(&p)->taker = taker;
+    pack_head(&p)->target = target;
     pack_head(&p)->terms = s->terms;
     pack_head(&p)->t = s->t;
     if (set->is_grid)
@@ -234,18 +234,18 @@ static void serve(struct cpl *c, int field, struct slot *s, int taker, int rank)
  * replaces the old one. */
 void client_need(struct cpl *c, struct message *m)
 {
-    const int field = m->head.field, taker = m->head.taker;
-    if (field < 0 || field >= c->nfields || taker < 0 || taker >= c->field[field].ntakers)
+    const int field = m->head.field, target = m->head.target;
+    if (field < 0 || field >= c->nfields || target < 0 || target >= c->field[field].ntargets)
         c->wire.broken("the coupler asks for a field that this program does not have");
     struct client_field *f = &c->field[field];
-    struct need *d = &f->need[taker * c->ncoupler + m->rank];
+    struct need *d = &f->need[target * c->ncoupler + m->rank];
     region_free(&d->region);
     d->region = region_take(&c->wire, m);
     d->generation = m->head.generation;
     const int first = f->slot[1].tick < f->slot[0].tick;
     for (int i = 0; i < 2; i++)
         if (f->slot[first ^ i].tick >= m->head.tick)
-            serve(c, field, &f->slot[first ^ i], taker, m->rank);
+            serve(c, field, &f->slot[first ^ i], target, m->rank);
 }
 
 /* Windows before the time t: the start of this window, or its end. */
@@ -317,11 +317,11 @@ int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
     s->places = set->places;
     if (s->places)
         s->places->users++;
-    const size_t nserved = (size_t)f->ntakers * (size_t)c->ncoupler * sizeof *s->served;
+    const size_t nserved = (size_t)f->ntargets * (size_t)c->ncoupler * sizeof *s->served;
     s->served = wire_alloc(nserved);
     memset(s->served, 0, nserved);
     f->last_tick = tick;
-    for (int k = 0; k < f->ntakers; k++)
+    for (int k = 0; k < f->ntargets; k++)
         for (int r = 0; r < c->ncoupler; r++)
             serve(c, field, s, k, r);
     return CPL_OK;
@@ -338,7 +338,7 @@ void client_free_fields(struct cpl *c)
 {
     for (int i = 0; i < c->nfields; i++) {
         struct client_field *f = &c->field[i];
-        for (int r = 0; r < f->ntakers * c->ncoupler; r++)
+        for (int r = 0; r < f->ntargets * c->ncoupler; r++)
             region_free(&f->need[r].region);
         free(f->need);
         clear_slot(&f->slot[0]);

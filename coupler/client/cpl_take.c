@@ -74,7 +74,7 @@ static void sum_terms(const unsigned char *from, int terms, size_t nc, double dt
 }
 
 /* Values of a tick at the time t (NAN: their own, which comes back). A rank without targets waits
- * as the others do: it may hold what the giver waits for, and hands it over here. */
+ * as the others do: it may hold what the source waits for, and hands it over here. */
 static int take_points(struct cpl *c, int field, int64_t tick, double *t, double *v,
                        unsigned char *mask)
 {
@@ -111,7 +111,7 @@ static int take_points(struct cpl *c, int field, int64_t tick, double *t, double
 }
 
 /* The straight line between the values of the window's start and of its end. Both ends must be
- * there (mask); the giver must put at both. */
+ * there (mask); the source must put at both. */
 static int take_between(struct cpl *c, int field, double t, long n, double *v, unsigned char *mask)
 {
     const size_t nc = (size_t)c->field[field].ncomp;
@@ -183,7 +183,7 @@ int cpl_get(struct cpl *c, int field, long n, double *v, unsigned char *mask)
 /* --- patches --- */
 
 /* Ranks of the program are dealt out to the coupler's: rank r asks rank r mod n, which cuts its
- * patch from what the giver's blocks send. Cells come back in the box's own index space. */
+ * patch from what the source's blocks send. Cells come back in the box's own index space. */
 static int take_patch(struct cpl *c, int field, int64_t tick, const double lo[3],
                       const double hi[3], struct client_patch *q)
 {

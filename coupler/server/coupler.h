@@ -44,7 +44,7 @@ struct solver {
         char name[CPL_NAME];
         double lo[3], hi[3];
     } zone[LIMIT_ZONES];
-    double t, dt_wish;
+    double t, dt_longest;
     int nsets, nfields;
     struct solver_set {
         char name[CPL_NAME];
@@ -56,9 +56,9 @@ struct solver {
     struct solver_field {
         char name[CPL_NAME], unit[CPL_NAME];
         int set, ncomp, direction, how;
-        int link;                         /* taker: its link, -1: none */
-        int ntakers, taker[LIMIT_TAKERS]; /* giver: the links of its takers */
-        int64_t last_tick; /* giver: of its last put, as of its last advance or get */
+        int link;                            /* target: its link, -1: none */
+        int ntargets, target[LIMIT_TARGETS]; /* source: the links of its targets */
+        int64_t last_tick; /* source: of its last put, as of its last advance or get */
     } field[LIMIT_FIELDS];
     int64_t advanced;                      /* last coupling step done, -1: none */
     int byes, code;                        /* ranks that have closed; the worst code among them */
@@ -69,22 +69,22 @@ struct solver {
     struct told told;
 };
 
-/* A field on its way from one solver, the source ("giver"), to another, the target ("taker"):
+/* A field on its way from one solver, the source ("source"), to another, the target ("target"):
  * rendezvous.c. */
 struct partner_link {
-    int giver, gfield, taker, tfield; /* solver and its field */
+    int source, gfield, target, tfield; /* solver and its field */
     bool from_grid;
     int ncomp, dim;
-    int number;            /* among the takers of the giver's field */
+    int number;            /* among the targets of the source's field */
     map_points *map;       /* consistent mappings; NULL: conservative, `deal' says which */
     enum map_dealing deal; /* conservative ones */
-    struct cpl_grid grid;  /* of the giver */
+    struct cpl_grid grid;  /* of the source */
     double support, period[3];
     /* what this rank has announced that it wants */
     int generation;
-    bool moved; /* takers have moved since */
+    bool moved; /* targets have moved since */
     struct region region;
-    /* what takers asked for; by rank of the taker */
+    /* what targets asked for; by rank of the target */
     int64_t asked_tick;  /* -1: nothing asked */
     int nasked, naskers; /* ranks that have asked, and how many will */
     double asked_at;     /* wall time at which the last of them has */
@@ -100,7 +100,7 @@ struct partner_link {
         int64_t tick; /* -1: nothing */
         int n;        /* puts of the present generation */
         double t;
-        struct message **put; /* [ranks of the giver] */
+        struct message **put; /* [ranks of the source] */
     } in[2];                  /* by tick & 1 */
     double mapped;            /* s spent here */
     int64_t served;

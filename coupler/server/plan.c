@@ -1,7 +1,7 @@
 /* plan.c - what the programs say about themselves, compared before anything runs. All problems are
  * found at once and printed by all programs. First the meeting (same case, same folder, same
  * restart point, no name twice), then the plan: each field that is taken becomes a link from its
- * one giver.
+ * one source.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
@@ -69,8 +69,8 @@ static void check_programs(const struct coupler *c, char *text)
                     c->solver[i].name);
     if (c->job.programs[0])
         return;
-    char kin[PARAM_KIN_MAX][64];
-    const int n = params_kin(c->params, "sph", kin);
+    char kin[PARAM_PROGRAMS_MAX][64];
+    const int n = params_programs(c->params, "sph", kin);
     for (int k = 0; k < n; k++)
         if (!present(c, kin[k]))
             problem(text,
@@ -174,7 +174,7 @@ void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
 {
     struct wire *const w = &c->wire;
     s->t = take_real(w, m);
-    s->dt_wish = take_real(w, m);
+    s->dt_longest = take_real(w, m);
     s->nsets = (int)take_int(w, m);
     require(s->nsets >= 0 && s->nsets <= LIMIT_SETS);
     for (int i = 0; i < s->nsets; i++) {
@@ -204,8 +204,8 @@ void plan_take_ready(struct coupler *c, struct solver *s, struct message *m)
     s->ready = true;
 }
 
-/* Giver and taker must agree in unit, components, dimensions and periods, and the way of mapping
- * must suit what the giver has, points or a grid. */
+/* Source and target must agree in unit, components, dimensions and periods, and the way of mapping
+ * must suit what the source has, points or a grid. */
 static void check_link(const struct partner_link *l, const struct solver *g, const struct solver *t,
                        char *text)
 {
@@ -266,26 +266,26 @@ static enum map_dealing dealing(int how)
                                  : MAP_DEAL_SHEPARD;
 }
 
-/* l->number counts the takers of one field, by which the giver tells them apart. */
+/* l->number counts the targets of one field, by which the source tells them apart. */
 static void make_link(struct coupler *c, int g, int gf, int t, int tf, char *text)
 {
     struct solver_field *give = &c->solver[g].field[gf], *take = &c->solver[t].field[tf];
-    if (c->nlinks == LIMIT_LINKS || give->ntakers == LIMIT_TAKERS) {
+    if (c->nlinks == LIMIT_LINKS || give->ntargets == LIMIT_TARGETS) {
         problem(text, "field %s: more than %d takers of one field, or %d in the job", give->name,
-                LIMIT_TAKERS, LIMIT_LINKS);
+                LIMIT_TARGETS, LIMIT_LINKS);
         return;
     }
     struct partner_link *l = &c->link[c->nlinks];
     const struct solver_set *from = &c->solver[g].set[give->set],
                             *to = &c->solver[t].set[take->set];
-    *l = (struct partner_link){.giver = g,
+    *l = (struct partner_link){.source = g,
                                .gfield = gf,
-                               .taker = t,
+                               .target = t,
                                .tfield = tf,
                                .from_grid = from->is_grid,
                                .ncomp = give->ncomp,
                                .dim = from->dim,
-                               .number = give->ntakers,
+                               .number = give->ntargets,
                                .map = consistent(take->how),
                                .deal = dealing(take->how),
                                .grid = from->grid,
@@ -294,11 +294,11 @@ static void make_link(struct coupler *c, int g, int gf, int t, int tf, char *tex
     l->in[0].tick = l->in[1].tick = -1;
     find_period(c, from, to, l->period);
     check_link(l, &c->solver[g], &c->solver[t], text);
-    give->taker[give->ntakers++] = take->link = c->nlinks++;
+    give->target[give->ntargets++] = take->link = c->nlinks++;
 }
 
 /* Who gives this field besides solver `except'; counts them. */
-static int find_giver(const struct coupler *c, const char *name, int *solver, int *field)
+static int find_source(const struct coupler *c, const char *name, int *solver, int *field)
 {
     int n = 0;
     for (int i = 0; i < c->nsolvers; i++)
@@ -312,7 +312,7 @@ static int find_giver(const struct coupler *c, const char *name, int *solver, in
     return n;
 }
 
-/* Links in the order of takers and their fields, the same on all ranks. A field that is given and
+/* Links in the order of targets and their fields, the same on all ranks. A field that is given and
  * not taken is a problem, too, unless it was declared optional: most often a name is misspelt. */
 void plan_make_links(struct coupler *c, char *text)
 {
@@ -322,7 +322,7 @@ void plan_make_links(struct coupler *c, char *text)
             int g = 0, gf = 0;
             if (f->direction != CPL_GET)
                 continue;
-            const int n = find_giver(c, f->name, &g, &gf);
+            const int n = find_source(c, f->name, &g, &gf);
             if (n == 0)
                 problem(text, "field %s: %s takes it, but nobody gives it", f->name,
                         c->solver[t].name);
@@ -336,7 +336,7 @@ void plan_make_links(struct coupler *c, char *text)
         }
     for (int g = 0; g < c->nsolvers; g++)
         for (int j = 0; j < c->solver[g].nfields; j++)
-            if (c->solver[g].field[j].direction == CPL_PUT && c->solver[g].field[j].ntakers == 0)
+            if (c->solver[g].field[j].direction == CPL_PUT && c->solver[g].field[j].ntargets == 0)
                 problem(text,
                         "field %s: %s gives it, but nobody takes it (CPL_OPTIONAL: nobody must)",
                         c->solver[g].field[j].name, c->solver[g].name);
@@ -353,10 +353,10 @@ void plan_answer_ready(struct coupler *c, const char *text)
             const int k = s->field[j].link;
             const struct partner_link *l = k >= 0 ? &c->link[k] : NULL;
             const struct cpl_grid none = {0};
-            pack_text(&p, l ? c->solver[l->giver].name : "");
+            pack_text(&p, l ? c->solver[l->source].name : "");
             pack_int(&p, l && l->from_grid);
             pack_bytes(&p, l ? &l->grid : &none, sizeof none);
-            pack_int(&p, s->field[j].ntakers);
+            pack_int(&p, s->field[j].ntargets);
         }
         wire_send_all(&c->wire, s->peer, &p);
     }
@@ -376,10 +376,10 @@ void plan_describe(const struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
         const struct partner_link *l = &c->link[i];
-        const struct solver_field *f = &c->solver[l->giver].field[l->gfield];
-        const int how = c->solver[l->taker].field[l->tfield].how;
-        log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->giver].name,
-                c->solver[l->taker].name, f->ncomp, f->unit, way_of(l, how));
+        const struct solver_field *f = &c->solver[l->source].field[l->gfield];
+        const int how = c->solver[l->target].field[l->tfield].how;
+        log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->source].name,
+                c->solver[l->target].name, f->ncomp, f->unit, way_of(l, how));
     }
     const double span = c->t_end - c->t_start, every = c->scene.output.every;
     const double off = coupling_steps_off(c->nwindows, span, every);

@@ -1,5 +1,5 @@
 /* rendezvous.c - fields on their way. Each coupler rank gets an equal share of the targets, tells
- * the giver's ranks around which places it needs values, and answers when all of them have put
+ * the source's ranks around which places it needs values, and answers when all of them have put
  * theirs. Needs are announced only when they change; a resting set costs one put and one answer a
  * window. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
@@ -17,39 +17,39 @@ static _Noreturn void not_planned(const struct solver *s, const struct message *
          m->head.field);
 }
 
-static struct partner_link *link_of_taker(struct coupler *c, const struct solver *s,
-                                          const struct message *m)
+static struct partner_link *link_of_target(struct coupler *c, const struct solver *s,
+                                           const struct message *m)
 {
     if (m->head.field < 0 || m->head.field >= s->nfields || s->field[m->head.field].link < 0)
         not_planned(s, m);
     return &c->link[s->field[m->head.field].link];
 }
 
-static struct partner_link *link_of_giver(struct coupler *c, const struct solver *s,
-                                          const struct message *m)
+static struct partner_link *link_of_source(struct coupler *c, const struct solver *s,
+                                           const struct message *m)
 {
-    if (m->head.field < 0 || m->head.field >= s->nfields || m->head.taker < 0 ||
-        m->head.taker >= s->field[m->head.field].ntakers)
+    if (m->head.field < 0 || m->head.field >= s->nfields || m->head.target < 0 ||
+        m->head.target >= s->field[m->head.field].ntargets)
         not_planned(s, m);
-    return &c->link[s->field[m->head.field].taker[m->head.taker]];
+    return &c->link[s->field[m->head.field].target[m->head.target]];
 }
 
 void rendezvous_open(struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
         struct partner_link *l = &c->link[i];
-        const int takers = c->solver[l->taker].size, givers = c->solver[l->giver].size;
-        l->asker = NEW(struct asker, takers);
-        l->in[0].put = NEW(struct message *, givers);
-        l->in[1].put = NEW(struct message *, givers);
-        for (int r = 0; r < takers; r++)
+        const int targets = c->solver[l->target].size, sources = c->solver[l->source].size;
+        l->asker = NEW(struct asker, targets);
+        l->in[0].put = NEW(struct message *, sources);
+        l->in[1].put = NEW(struct message *, sources);
+        for (int r = 0; r < targets; r++)
             l->naskers += !l->from_grid || r % c->size == c->rank;
     }
 }
 
 static void drop(const struct coupler *c, struct partner_link *l, struct arrival *a)
 {
-    for (int r = 0; r < c->solver[l->giver].size; r++)
+    for (int r = 0; r < c->solver[l->source].size; r++)
         message_free(&a->put[r]);
     a->n = 0;
     a->tick = -1;
@@ -71,7 +71,7 @@ void rendezvous_close(struct coupler *c)
         struct partner_link *l = &c->link[i];
         if (!l->asker)
             continue; /* the plan was refused */
-        for (int r = 0; r < c->solver[l->taker].size; r++)
+        for (int r = 0; r < c->solver[l->target].size; r++)
             forget_targets(&l->asker[r]);
         for (int k = 0; k < 2; k++) {
             drop(c, l, &l->in[k]);
@@ -87,7 +87,7 @@ void rendezvous_close(struct coupler *c)
 static long count_targets(const struct coupler *c, const struct partner_link *l)
 {
     long n = 0;
-    for (int r = 0; r < c->solver[l->taker].size; r++)
+    for (int r = 0; r < c->solver[l->target].size; r++)
         n += l->asker[r].ntarget;
     return n;
 }
@@ -105,7 +105,7 @@ static double *all_targets(const struct coupler *c, const struct partner_link *l
 {
     double *x = NEW(double, n * l->dim);
     long at = 0;
-    for (int r = 0; r < c->solver[l->taker].size; r++) {
+    for (int r = 0; r < c->solver[l->target].size; r++) {
         const struct asker *a = &l->asker[r];
         if (a->ntarget > 0)
             memcpy(x + at * l->dim, a->x, (size_t)(a->ntarget * l->dim) * sizeof *x);
@@ -138,8 +138,8 @@ static void box_of(const struct partner_link *l, const struct asker *a, int lo[3
 static struct region boxes_wanted(const struct coupler *c, const struct partner_link *l, int slack)
 {
     struct region r = {.dim = l->dim};
-    r.box = wire_alloc((size_t)c->solver[l->taker].size * sizeof *r.box);
-    for (int i = 0; i < c->solver[l->taker].size; i++) {
+    r.box = wire_alloc((size_t)c->solver[l->target].size * sizeof *r.box);
+    for (int i = 0; i < c->solver[l->target].size; i++) {
         struct region_box b = {.asker = i};
         if (!l->asker[i].asked)
             continue;
@@ -163,12 +163,12 @@ static struct region wanted(const struct coupler *c, const struct partner_link *
     return l->from_grid ? boxes_wanted(c, l, slack) : points_wanted(c, l, slack);
 }
 
-/* Tells the giver what is wanted, if that is more than it knows. Sets that move get some slack, so
+/* Tells the source what is wanted, if that is more than it knows. Sets that move get some slack, so
  * that it lasts. A new generation: what was put for the old need is dropped, since it may lack what
- * is wanted now, and givers put it again (client_need). */
+ * is wanted now, and sources put it again (client_need). */
 static void announce(struct coupler *c, struct partner_link *l)
 {
-    const struct solver *g = &c->solver[l->giver];
+    const struct solver *g = &c->solver[l->source];
     struct region exact = wanted(c, l, 0);
     struct pack p;
     if (region_holds(&l->region, &exact)) {
@@ -186,7 +186,7 @@ static void announce(struct coupler *c, struct partner_link *l)
     drop(c, l, &l->in[1]);
     pack_begin(&p, WIRE_NEED, l->gfield, l->asked_tick);
     pack_head(&p)->generation = l->generation;
-    pack_head(&p)->taker = l->number;
+    pack_head(&p)->target = l->number;
     region_pack(&p, &l->region);
     wire_send_all(&c->wire, g->peer, &p);
 }
@@ -198,7 +198,7 @@ static const void *column(struct coupler *c, struct message *m, size_t width)
     return take_view(&c->wire, m, (size_t)m->head.count * width);
 }
 
-/* All that the giver's ranks have put, and its periodic images where somebody looks. Rows in the
+/* All that the source's ranks have put, and its periodic images where somebody looks. Rows in the
  * order of ranks; the mapping sorts them by gid. */
 static struct map_cloud assemble(struct coupler *c, const struct partner_link *l,
                                  const struct arrival *a, long width)
@@ -206,7 +206,7 @@ static struct map_cloud assemble(struct coupler *c, const struct partner_link *l
     struct map_cloud s = {0};
     const size_t nd = (size_t)l->dim, nc = (size_t)width;
     long room = 0;
-    for (int r = 0; r < c->solver[l->giver].size; r++) {
+    for (int r = 0; r < c->solver[l->source].size; r++) {
         struct message *m = a->put[r];
         double image[27][3], place[3] = {0};
         m->at = 0;
@@ -241,7 +241,7 @@ static struct map_cloud target_cloud(const struct coupler *c, const struct partn
     long at = 0;
     t.gid = NEW(int64_t, n);
     t.volume = NEW(double, n);
-    for (int r = 0; r < c->solver[l->taker].size; r++) {
+    for (int r = 0; r < c->solver[l->target].size; r++) {
         const struct asker *a = &l->asker[r];
         if (a->ntarget > 0) {
             memcpy(t.gid + at, a->gid, (size_t)a->ntarget * sizeof *t.gid);
@@ -271,10 +271,10 @@ static void map_values(struct coupler *c, const struct partner_link *l, const st
     map_cloud_free(&cloud);
 }
 
-/* All ranks of a giver must speak alike. */
+/* All ranks of a source must speak alike. */
 static int terms_of(const struct coupler *c, const struct partner_link *l, const struct arrival *a)
 {
-    const struct solver *g = &c->solver[l->giver];
+    const struct solver *g = &c->solver[l->source];
     for (int r = 1; r < g->size; r++)
         if (a->put[r]->head.terms != a->put[0]->head.terms)
             fail("field %s: rank 0 of %s puts %d terms in time, rank %d %d",
@@ -284,7 +284,7 @@ static int terms_of(const struct coupler *c, const struct partner_link *l, const
 }
 
 /* Without any target the answer is empty and needs nothing put. This rank's targets first .. last -
- * 1 lie one after the other over the ranks of the taker; each of these gets its piece, also an
+ * 1 lie one after the other over the ranks of the target; each of these gets its piece, also an
  * empty one, for which it waits. */
 static void answer_points(struct coupler *c, struct partner_link *l, const struct arrival *a)
 {
@@ -296,7 +296,7 @@ static void answer_points(struct coupler *c, struct partner_link *l, const struc
     unsigned char *mask = NEW(unsigned char, last - first);
     if (last > first)
         map_values(c, l, a, width, first, last, v, mask);
-    for (int r = 0; r < c->solver[l->taker].size; at += l->asker[r].ntarget, r++) {
+    for (int r = 0; r < c->solver[l->target].size; at += l->asker[r].ntarget, r++) {
         const long i = at > first ? at : first, end = at + l->asker[r].ntarget;
         const long m = end < last ? end - i : last - i;
         struct pack p;
@@ -308,14 +308,14 @@ static void answer_points(struct coupler *c, struct partner_link *l, const struc
             pack_bytes(&p, v + (i - first) * width, (size_t)(m * width) * sizeof *v);
             pack_bytes(&p, mask + (i - first), (size_t)m);
         }
-        wire_send(&c->wire, c->solver[l->taker].peer, r, &p);
+        wire_send(&c->wire, c->solver[l->target].peer, r, &p);
     }
     mem_free(v);
     mem_free(mask);
 }
 
-/* A piece of a giver's block into the patch of its asker; returns the number of cells. The piece is
- * cut to the patch: with slack more was sent than asked. */
+/* A piece of a source's block into the patch of its asker; returns the number of cells. The piece
+ * is cut to the patch: with slack more was sent than asked. */
 static int64_t paste(double *to, const int lo[3], const int hi[3], const double *from,
                      const int64_t piece[7], size_t width)
 {
@@ -342,8 +342,8 @@ static int64_t paste(double *to, const int lo[3], const int hi[3], const double 
     return n;
 }
 
-/* As many cells must come as the patch has: a gap between the giver's blocks, or two blocks that
- * overlap, is an error of the giver. */
+/* As many cells must come as the patch has: a gap between the source's blocks, or two blocks that
+ * overlap, is an error of the source. */
 static void answer_patch(struct coupler *c, struct partner_link *l, const struct arrival *a,
                          int asker)
 {
@@ -360,7 +360,7 @@ static void answer_patch(struct coupler *c, struct partner_link *l, const struct
         pack_int(&p, hi[d]);
     }
     double *to = pack_room(&p, (size_t)cells * width * sizeof *to);
-    for (int r = 0; r < c->solver[l->giver].size && cells > 0; r++) {
+    for (int r = 0; r < c->solver[l->source].size && cells > 0; r++) {
         struct message *m = a->put[r];
         m->at = 0;
         for (int64_t i = 0; i < m->head.count; i++) {
@@ -374,9 +374,9 @@ static void answer_patch(struct coupler *c, struct partner_link *l, const struct
     }
     if (filled != cells)
         fail("field %s: the blocks of %s hold %lld of the %lld cells that rank %d of %s asks for",
-             c->solver[l->giver].field[l->gfield].name, c->solver[l->giver].name, (long long)filled,
-             (long long)cells, asker, c->solver[l->taker].name);
-    wire_send(&c->wire, c->solver[l->taker].peer, asker, &p);
+             c->solver[l->source].field[l->gfield].name, c->solver[l->source].name,
+             (long long)filled, (long long)cells, asker, c->solver[l->target].name);
+    wire_send(&c->wire, c->solver[l->target].peer, asker, &p);
 }
 
 /* Nobody looks anywhere: no values are on their way. */
@@ -388,7 +388,7 @@ static bool nothing_wanted(const struct coupler *c, const struct partner_link *l
         own_share(c, l, &first, &last);
         return first == last;
     }
-    for (int r = 0; r < c->solver[l->taker].size; r++) {
+    for (int r = 0; r < c->solver[l->target].size; r++) {
         if (!l->asker[r].asked)
             continue;
         box_of(l, &l->asker[r], lo, hi);
@@ -398,7 +398,7 @@ static bool nothing_wanted(const struct coupler *c, const struct partner_link *l
     return true;
 }
 
-/* Answers once all ranks of the taker have asked and all of the giver have put; called after each
+/* Answers once all ranks of the target have asked and all of the source have put; called after each
  * get and each put, for either may be last. */
 static void try_answer(struct coupler *c, struct partner_link *l)
 {
@@ -406,16 +406,16 @@ static void try_answer(struct coupler *c, struct partner_link *l)
     if (l->asked_tick < 0 || l->nasked < l->naskers)
         return;
     const bool nothing = nothing_wanted(c, l);
-    if (!nothing && (a->tick != l->asked_tick || a->n < c->solver[l->giver].size))
+    if (!nothing && (a->tick != l->asked_tick || a->n < c->solver[l->source].size))
         return;
     const double start = wall_time();
-    c->solver[l->taker].waited_for[l->giver] += start - l->asked_at;
-    for (int r = 0; r < c->solver[l->taker].size && l->from_grid; r++)
+    c->solver[l->target].waited_for[l->source] += start - l->asked_at;
+    for (int r = 0; r < c->solver[l->target].size && l->from_grid; r++)
         if (l->asker[r].asked)
             answer_patch(c, l, a, r);
     if (!l->from_grid)
         answer_points(c, l, a);
-    for (int r = 0; r < c->solver[l->taker].size; r++)
+    for (int r = 0; r < c->solver[l->target].size; r++)
         l->asker[r].asked = false;
     l->nasked = 0;
     l->asked_tick = -1;
@@ -440,10 +440,10 @@ static void take_targets(struct coupler *c, const struct partner_link *l, struct
 }
 
 /* Targets come along only if they have moved. With the last rank's question the region is compared
- * with what the giver knows. */
+ * with what the source knows. */
 void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
 {
-    struct partner_link *l = link_of_taker(c, s, m);
+    struct partner_link *l = link_of_target(c, s, m);
     struct asker *a = &l->asker[m->rank];
     if (a->asked || (l->asked_tick >= 0 && l->asked_tick != m->head.tick))
         fail("%s rank %d asks for %s at %lld while others wait for it at %lld", s->name, m->rank,
@@ -472,7 +472,7 @@ void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
 /* Keeps the message itself as the value of that rank: nothing is copied until it is mapped. */
 void rendezvous_put(struct coupler *c, struct solver *s, struct message **m)
 {
-    struct partner_link *l = link_of_giver(c, s, *m);
+    struct partner_link *l = link_of_source(c, s, *m);
     const int64_t tick = (*m)->head.tick;
     struct arrival *a = &l->in[tick & 1];
     if ((*m)->head.generation != l->generation)

@@ -249,7 +249,7 @@ static double put_cost(const struct coupler *c, struct summary *s, double couple
     put_waits(c, s);
     summary_real(s, "coupler_share", coupler_cpu / cpu);
     for (int i = 0; i < c->nlinks; i++)
-        put_number(s, "mapping_s", c->solver[c->link[i].giver].field[c->link[i].gfield].name, "",
+        put_number(s, "mapping_s", c->solver[c->link[i].source].field[c->link[i].gfield].name, "",
                    c->link[i].mapped);
     return cpu;
 }

@@ -1,4 +1,4 @@
-/* waiting.c - who waits for what: givers that have gone past what a taker waits for, takers that
+/* waiting.c - who waits for what: sources that have gone past what a target waits for, targets that
  * wait for each other, values of a time that nobody has put. SPDX-License-Identifier: BSD-3-Clause
  */
 #include "coupler.h"
@@ -21,8 +21,8 @@ static const struct partner_link *missing(const struct coupler *c, int solver)
 {
     for (int i = 0; i < c->nlinks; i++) {
         const struct partner_link *l = &c->link[i];
-        if (l->taker == solver && l->asker[0].asked &&
-            c->solver[l->giver].field[l->gfield].last_tick < l->asked_tick)
+        if (l->target == solver && l->asker[0].asked &&
+            c->solver[l->source].field[l->gfield].last_tick < l->asked_tick)
             return l;
     }
     return NULL;
@@ -33,15 +33,15 @@ static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
 {
     const struct partner_link *l = missing(c, solver);
     int steps = 0;
-    while (l && l->giver != solver && steps++ < c->nsolvers)
-        l = missing(c, l->giver);
-    if (!l || l->giver != solver)
+    while (l && l->source != solver && steps++ < c->nsolvers)
+        l = missing(c, l->source);
+    if (!l || l->source != solver)
         return false;
-    for (l = missing(c, solver);; l = missing(c, l->giver)) {
+    for (l = missing(c, solver);; l = missing(c, l->source)) {
         problem(text, "%s waits in coupling step %lld for %s of %s, which has not been given",
-                c->solver[l->taker].name, (long long)c->window,
-                c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);
-        if (l->giver == solver)
+                c->solver[l->target].name, (long long)c->window,
+                c->solver[l->target].field[l->tfield].name, c->solver[l->source].name);
+        if (l->source == solver)
             return true;
     }
 }
@@ -50,10 +50,10 @@ bool rendezvous_starved(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nsolvers; i++) {
         const struct partner_link *l = missing(c, i);
-        if (l && c->solver[l->giver].advanced == c->window) {
+        if (l && c->solver[l->source].advanced == c->window) {
             problem(text, "%s waits for %s, but %s has ended coupling step %lld without giving it",
-                    c->solver[i].name, c->solver[i].field[l->tfield].name, c->solver[l->giver].name,
-                    (long long)c->window);
+                    c->solver[i].name, c->solver[i].field[l->tfield].name,
+                    c->solver[l->source].name, (long long)c->window);
             return true;
         }
         if (waits_in_a_circle(c, i, text))
@@ -68,7 +68,7 @@ bool rendezvous_skipped(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nlinks; i++) {
         const struct partner_link *l = &c->link[i];
-        const struct solver *g = &c->solver[l->giver];
+        const struct solver *g = &c->solver[l->source];
         if (l->asked_tick < 0 || l->nasked < l->naskers)
             continue;
         const struct arrival *a = &l->in[l->asked_tick & 1], *b = &l->in[(l->asked_tick + 1) & 1];
@@ -79,7 +79,7 @@ bool rendezvous_skipped(const struct coupler *c, char *text)
             problem(text,
                     "%s needs %s of %s as it was at the start of coupling step %lld, but %s has "
                     "put none there: before the first one, values are put after cpl_ready",
-                    c->solver[l->taker].name, g->field[l->gfield].name, g->name,
+                    c->solver[l->target].name, g->field[l->gfield].name, g->name,
                     (long long)l->asked_tick, g->name);
             return true;
         }
@@ -92,7 +92,7 @@ void rendezvous_waiting(const struct coupler *c, char *text)
     for (int i = 0; i < c->nlinks; i++) {
         const struct partner_link *l = &c->link[i];
         if (l->nasked > 0)
-            problem(text, "  %s waits for %s of %s", c->solver[l->taker].name,
-                    c->solver[l->taker].field[l->tfield].name, c->solver[l->giver].name);
+            problem(text, "  %s waits for %s of %s", c->solver[l->target].name,
+                    c->solver[l->target].field[l->tfield].name, c->solver[l->source].name);
     }
 }

@@ -48,7 +48,7 @@ void window_divide(struct coupler *c, char *text)
     c->t_start = c->job.start;
     c->t_end = c->scene.time.end;
     for (int i = 0; i < c->nsolvers; i++)
-        dt = fmin(dt, c->solver[i].dt_wish);
+        dt = fmin(dt, c->solver[i].dt_longest);
     c->nwindows = 1;
     divide(c, dt, text);
     /* a restart file is written at the end of its window or counts the windows done: time tells

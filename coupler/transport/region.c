@@ -1,5 +1,5 @@
 /* region.c - which points and cells are wanted: see region.h. The test of a point costs a look at
- * one byte for each of its images, so that a giver's rank may test all of its points at every put.
+ * one byte for each of its images, so that a source's rank may test all of its points at every put.
  * Both ends use the same function (region_images), so that what is sent is what is used.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "region.h"

@@ -14,7 +14,13 @@
 enum { WIRE_VERSION = 4, WIRE_PEERS = 40 };
 
 /* The most that a program, or a job, can have; more is refused. */
-enum { LIMIT_SETS = 32, LIMIT_FIELDS = 64, LIMIT_TAKERS = 32, LIMIT_LINKS = 256, LIMIT_ZONES = 64 };
+enum {
+    LIMIT_SETS = 32,
+    LIMIT_FIELDS = 64,
+    LIMIT_TARGETS = 32,
+    LIMIT_LINKS = 256,
+    LIMIT_ZONES = 64
+};
 enum { TOLD_KEYS = 192, TOLD_KEY = 96, SAVED_NAME = 256 }; /* bytes with the closing zero */
 
 /* Kinds of messages, from solver to coupler, or from coupler to solver (>), in the order of a
@@ -43,7 +49,7 @@ struct wire_head {
     uint16_t version, kind;
     int32_t field;      /* the solver's own number of the field */
     int32_t generation; /* of the region that a put answers, of the places that values belong to */
-    int32_t taker;      /* needs and puts: which of the field's takers, from 0 */
+    int32_t target;     /* needs and puts: which of the field's targets, from 0 */
     int32_t terms;      /* puts and values: coefficients in time of each component, from 1 */
     int64_t tick;       /* coupling steps before the time of the values, or of the step */
     int64_t count;      /* items */

@@ -29,7 +29,7 @@
 #include "water_budget.h"
 
 /* One program of particles. */
-struct giver {
+struct source {
     char name[64]; /* "sph", "sph_left" */
     int forced, imposed, seen;
     int place, way;     /* of a box that moves: one point; how far it is from its start */
@@ -45,25 +45,25 @@ struct giver {
 
 struct link {
     struct cpl *c;
-    int n;       /* givers */
+    int n;       /* sources */
     double seen; /* m: seen_size at the start */
     double wish; /* s: window in which no box passes a cell of blocks */
-    struct giver of[PARTNERS_MAX];
+    struct source of[PARTNERS_MAX];
     int grid, velocity, pressure;
     bool knows_mean; /* mean_velocity_is_known */
     bool has_moved;  /* some box, once */
     char lost[256];  /* why its place is none for FV; "": it is one */
     struct water_budget of_water;
-    int phi;                      /* where the surface crosses into a giver's part */
-    double *share, *share_of_one; /* of a kernel that the givers' water fills, at the places */
+    int phi;                      /* where the surface crosses into a source's part */
+    double *share, *share_of_one; /* of a kernel that the sources' water fills, at the places */
     struct patch patch;
     struct course *course;
     struct forced_points points;
-    double *got, *one;    /* scratch: velocities, pressures of one giver at the points */
+    double *got, *one;    /* scratch: velocities, pressures of one source at the points */
     double *mean, *level; /* the same of the cells */
     unsigned char *whose, *has;
     double *p;             /* Pa: the partner's at the end of the window, where mask is 1 */
-    unsigned char *mask;   /* some giver has particles there */
+    unsigned char *mask;   /* some source has particles there */
     struct watch unmapped; /* share of the cells that fluxes look at which the partner left out */
     double missing;        /* now */
     double where[3];       /* m: one of them */
@@ -114,7 +114,7 @@ static double support(const struct fv *s, double h) { return h * sqrt(s->dim == 
 
 /* A name of a set or a field: "fv.forced" and "sph_left" give "fv.forced_left", "sph.velocity"
  * "sph_left.velocity". */
-static const char *named(const struct giver *g, const char *own, const char *name)
+static const char *named(const struct source *g, const char *own, const char *name)
 {
     static char text[2][CPL_NAME + 64];
     static int turn;
@@ -126,13 +126,13 @@ static const char *named(const struct giver *g, const char *own, const char *nam
     return to;
 }
 
-static void find_zone(const struct link *k, const struct giver *g, const char *zone, double lo[3],
+static void find_zone(const struct link *k, const struct source *g, const char *zone, double lo[3],
                       double hi[3])
 {
     check(k, cpl_find_zone(k->c, named(g, NULL, zone), lo, hi));
 }
 
-static void declare_giver(struct fv *s, struct link *k, struct giver *g, int how)
+static void declare_source(struct fv *s, struct link *k, struct source *g, int how)
 {
     check(k, cpl_points(k->c, named(g, "fv.forced", ""), s->dim, support(s, k->seen), &g->forced));
     check(k, cpl_field(k->c, g->forced, named(g, NULL, "velocity"), "m/s", s->dim, CPL_GET, how,
@@ -148,7 +148,7 @@ static void declare_giver(struct fv *s, struct link *k, struct giver *g, int how
 
 static void declare_water(struct fv *s, struct link *k, int q)
 {
-    struct giver *g = k->of + q;
+    struct source *g = k->of + q;
     check(k,
           cpl_points(k->c, named(g, "fv.surface", ""), s->dim, s->surface->forced->R, &g->places));
     check(k,
@@ -177,7 +177,7 @@ static void declare(struct fv *s, struct link *k)
     check(k, cpl_field(k->c, k->grid, "fv.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
     check(k, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
     for (int q = 0; q < k->n; q++)
-        declare_giver(s, k, k->of + q, how);
+        declare_source(s, k, k->of + q, how);
     if (!s->surface)
         return;
     check(k, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
@@ -192,8 +192,8 @@ static void refuse(const struct link *k, const char *reason)
     cpl_fail(k->c, RUN_INPUT, reason);
 }
 
-/* What a giver says of itself before the meeting. */
-static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
+/* What a source says of itself before the meeting. */
+static void meet_source(struct fv *s, const struct link *k, struct source *g)
 {
     double number[3];
     find_zone(k, g, "given", g->given[0], g->given[1]);
@@ -218,24 +218,24 @@ static void meet_giver(struct fv *s, const struct link *k, struct giver *g)
 void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])
 {
     struct link *k = s->link = NEW(struct link, 1);
-    char names[PARAM_KIN_MAX][64];
+    char names[PARAM_PROGRAMS_MAX][64];
     k->c = s->run->partner_ctx;
-    k->n = params_kin(s->run->params, "sph", names);
+    k->n = params_programs(s->run->params, "sph", names);
     if (k->n == 0) { /* another solver in its place */
         strcpy(names[0], "sph");
         k->n = 1;
     }
     s->partners.n = k->n;
     for (int q = 0; q < k->n; q++) {
-        struct giver *g = k->of + q;
+        struct source *g = k->of + q;
         memcpy(g->name, names[q], sizeof g->name);
-        meet_giver(s, k, g);
+        meet_source(s, k, g);
         memcpy(s->partners.box[q], g->free, sizeof g->free);
         memcpy(box[q], g->given, sizeof g->given);
     }
 }
 
-/* What the givers give, where their boxes stand. */
+/* What the sources give, where their boxes stand. */
 static void given_boxes(const struct link *k, double box[PARTNERS_MAX][2][3])
 {
     for (int q = 0; q < k->n; q++)
@@ -481,7 +481,7 @@ static void follow_levels(struct fv *s)
 }
 
 /* A flow of constant density knows its pressure up to a constant: the partner has it. */
-static void find_datum(struct fv *s)
+static void find_reference_pressure(struct fv *s)
 {
     const struct parted *p = s->forcing->parted;
     double sum[2][PARTS_MAX], all[2] = {0.0, 0.0};
@@ -597,7 +597,7 @@ void coupling_judge(struct fv *s, struct diagnosis *d)
 
 double coupling_water_missing(const struct fv *s) { return s->link->of_water.missing; }
 
-double coupling_wish(void *state)
+double coupling_longest_window(void *state)
 {
     const struct fv *s = state;
     return s->link->wish;
@@ -684,7 +684,7 @@ static void follow(struct fv *s)
         name_cells(s);
 }
 
-/* What the givers have at the end of the window: of each the cells that its particles reach. */
+/* What the sources have at the end of the window: of each the cells that its particles reach. */
 static void take(struct fv *s)
 {
     struct link *k = s->link;
@@ -695,7 +695,7 @@ static void take(struct fv *s)
     for (int a = 0; a < dim; a++)
         memcpy(f->v_next[a], f->v[a], (size_t)n * sizeof(double));
     for (int q = 0; q < k->n; q++) {
-        const struct giver *g = k->of + q;
+        const struct source *g = k->of + q;
         check(k, cpl_get(k->c, g->imposed, k->points.n, k->got, k->whose));
         check(k, cpl_get(k->c, g->seen, k->points.n, k->one, NULL));
         forced_points_mean(&k->points, dim, k->got, k->whose, k->mean, k->has);
@@ -716,7 +716,7 @@ static void take(struct fv *s)
         }
 }
 
-/* The givers' surfaces and water; their boxes lie apart, so what they fill adds up. */
+/* The sources' surfaces and water; their boxes lie apart, so what they fill adds up. */
 static void take_surface(struct fv *s)
 {
     struct link *k = s->link;
@@ -761,7 +761,7 @@ void fv_coupling_window_end(void *state, double t1)
     struct fv *s = state;
     const struct link *k = s->link;
     if (s->forcing && !s->surface)
-        find_datum(s);
+        find_reference_pressure(s);
     if (k->knows_mean)
         mean_velocity_relax(s);
     course_take(s, k->course);

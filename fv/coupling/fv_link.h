@@ -21,7 +21,7 @@ double coupling_unmapped(const struct fv *s);
 double coupling_water_missing(const struct fv *s);
 void coupling_summary(const struct fv *s, struct summary *to);
 /* s: the longest coupling step that suits FV. */
-double coupling_wish(void *s);
+double coupling_longest_window(void *s);
 void coupling_first(void *s);
 void fv_coupling_window_begin(void *s, double t0, double t1);
 void fv_coupling_window_end(void *s, double t1);

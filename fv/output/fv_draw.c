@@ -114,8 +114,8 @@ static void draw_blocks(const struct run *r, const struct fv_params *prm, struct
 static void draw_particles(const struct run *r, struct picture *p)
 {
     struct run alone = *r;
-    char names[PARAM_KIN_MAX][64];
-    const int n = r->coupled ? params_kin(r->params, "sph", names) : 0;
+    char names[PARAM_PROGRAMS_MAX][64];
+    const int n = r->coupled ? params_programs(r->params, "sph", names) : 0;
     alone.comm = MPI_COMM_SELF;
     for (int k = 0; k < n; k++) {
         double box[2][3];

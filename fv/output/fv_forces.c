@@ -59,7 +59,7 @@ int fv_force_columns(const struct run *r, const struct fv_params *prm, const cha
     return n;
 }
 
-/* Also keeps the sum over the bodies of blocks for summarise_swing. Returns the number of
+/* Also keeps the sum over the bodies of blocks for summarise_oscillation. Returns the number of
  * values. */
 int fv_forces(struct fv *s, double *values)
 {
@@ -89,7 +89,7 @@ int fv_forces(struct fv *s, double *values)
 /* Mean and half range of the forces on the bodies of blocks over the second half of the run, by the
  * trapezoidal rule; frequency of the one along y by upward crossings of its mean. Fewer than eight
  * rows give nothing. */
-static void summarise_swing(const struct fv *s)
+static void summarise_oscillation(const struct fv *s)
 {
     struct summary *to = s->run->summary;
     const struct fv_output *o = s->output;
@@ -155,5 +155,5 @@ void fv_summarise_forces(struct fv *s)
     for (int k = 0; k < flow_bodies(&s->prm); k++)
         if (has_own_forces(s->run, &s->prm, k))
             summarise_force(s, body_name(&s->prm, k), of[k]);
-    summarise_swing(s);
+    summarise_oscillation(s);
 }

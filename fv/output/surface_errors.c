@@ -158,14 +158,14 @@ static double enstrophy(const struct fv *s)
 }
 
 /* Period and damping of the modal amplitude against the exact ones. */
-static void summarise_swing(struct fv *s)
+static void summarise_oscillation(struct fv *s)
 {
     struct summary *to = s->run->summary;
     double period, rate;
     if (s->run->coupled || s->exact.field != FIELD_STANDING_WAVE ||
         !exact_oscillation(&s->exact, &period, &rate))
         return;
-    const double T = fit_period(&s->surface->swing), r = fit_rate(&s->surface->swing);
+    const double T = fit_period(&s->surface->oscillation), r = fit_rate(&s->surface->oscillation);
     if (isfinite(T)) {
         summary_real(to, "period", T);
         summary_real(to, "error.period", fabs(T / period - 1.0));
@@ -186,7 +186,7 @@ void surface_summarise(struct fv *s)
     const struct surface *f = s->surface;
     struct summary *to = s->run->summary;
     const double volume = surface_volume(s);
-    summarise_swing(s);
+    summarise_oscillation(s);
     summary_real(to, "largest_velocity", fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
     summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
     summary_real(to, "volume_returned", f->returned / surface_volume_scale(s));

@@ -210,7 +210,7 @@ void levelset_free(struct surface **fp)
     struct surface *f = *fp;
     if (!f)
         return;
-    fit_free(&f->swing);
+    fit_free(&f->oscillation);
     mem_free(f->closed);
     mem_free(f->phi);
     mem_free(f->phi_new);

@@ -90,14 +90,14 @@ struct surface {
     bool keeps;                  /* slopes of phi behind inclined walls stay as they are */
     bool leans[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
     bool any_leans;              /* those of some block */
-    double across;      /* m: least spacing of cells across gravity, of 45 degrees and less */
-    double theta_least; /* -: least distance of the surface from a wet centre, of h */
-    double rise;        /* s^2: implicit steps: see surface_pressure.c */
-    double g;           /* m/s^2: size of gravity */
-    struct fit swing;   /* of a standing wave: its momentum, sampled (surface_mode.c) */
-    int64_t setups;     /* pressure matrices made so far */
-    int64_t reinits;    /* reinitialisations so far */
-    int64_t repeats;    /* steps that were repeated so far */
+    double across;          /* m: least spacing of cells across gravity, of 45 degrees and less */
+    double theta_least;     /* -: least distance of the surface from a wet centre, of h */
+    double rise;            /* s^2: implicit steps: see surface_pressure.c */
+    double g;               /* m/s^2: size of gravity */
+    struct fit oscillation; /* of a standing wave: its momentum, sampled (surface_mode.c) */
+    int64_t setups;         /* pressure matrices made so far */
+    int64_t reinits;        /* reinitialisations so far */
+    int64_t repeats;        /* steps that were repeated so far */
 };
 
 /* The surface of the scene's water at the start; freed by levelset_free. */

@@ -78,8 +78,8 @@ static double largest(const struct fv *s, const struct surface_forced *f)
 /* m: spacing of the partner's particles, of several the largest. */
 static double coarsest_particles(const struct fv *s)
 {
-    char names[PARAM_KIN_MAX][64], key[80];
-    const int n = params_kin(s->run->params, "sph", names);
+    char names[PARAM_PROGRAMS_MAX][64], key[80];
+    const int n = params_programs(s->run->params, "sph", names);
     double dx[3], most = 0.0;
     for (int k = 0; k < n; k++) {
         snprintf(key, sizeof key, ":%.63s.dx", names[k]);

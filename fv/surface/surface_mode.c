@@ -89,5 +89,5 @@ void surface_sample(struct fv *s)
         return;
     double sum = s->m ? mode_on_blocks(s) : mode_on_even_cells(s);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    fit_add(&s->surface->swing, s->t, sum);
+    fit_add(&s->surface->oscillation, s->t, sum);
 }

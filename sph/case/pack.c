@@ -190,6 +190,6 @@ void pack_start(struct sph *s, int steps)
     s->lists.ready = false;
 }
 
-/* Children of packed mothers stand evenly but beside walls, where what is a tenth of the spacing
+/* Children of packed parents stand evenly but beside walls, where what is a tenth of the spacing
  * for one level is a fifth for the next. */
 void pack_finer(struct sph *level) { pack_start(level, (level->prm.packing + 3) / 4); }

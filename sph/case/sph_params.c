@@ -8,8 +8,8 @@
 #include "../../common/base/digits.h"
 #include "../../common/base/mem.h"
 #include "../bodies/body_check.h"
-#include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/box_tracking.h"
 #include "../open_boundaries/zones.h"
 #include "../refinement/apr_params.h"
 #include "../refinement/mixed.h"
@@ -556,7 +556,7 @@ static void check_motion(const struct run *r, struct faults *f)
                      "no body is named `%s'; \"breaker\" is the crest of the water",
                      prm->box_follows);
     if (crest &&
-        (box_chase_speed(r) == 0.0 || !r->crossed || !(r->scene.initial.level < LEVEL_TOP)))
+        (box_tracking_speed(r) == 0.0 || !r->crossed || !(r->scene.initial.level < LEVEL_TOP)))
         params_fault(r->params, f, key,
                      "a crest is followed where the surface crosses the sides of the box: give "
                      "gravity, a free surface in both programs, and initial.level, above which "

@@ -7,7 +7,7 @@
 static const char *no_channel(const struct scene *c, const struct sph_params *used)
 {
     int axis = -1;
-    bool rubs = false;
+    bool has_friction = false;
     if (c->domain.dim != 2)
         return "3D was not measured";
     if (c->nbodies > 0)
@@ -19,9 +19,9 @@ static const char *no_channel(const struct scene *c, const struct sph_params *us
         if (c->walls[k].side == SIDE_NONE || (axis >= 0 && of != axis))
             return "walls meet in corners";
         axis = of;
-        rubs = rubs || c->walls[k].kind == WALL_NO_SLIP;
+        has_friction = has_friction || c->walls[k].kind == WALL_NO_SLIP;
     }
-    if (!rubs || !(c->fluid.nu > 0.0))
+    if (!has_friction || !(c->fluid.nu > 0.0))
         return "nothing viscous damps it at the walls";
     return axis >= 0 && c->fluid.gravity[axis] != 0.0 ? "the fluid weighs on its walls" : NULL;
 }

@@ -218,8 +218,8 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
  * compares its box with all others; each program does. */
 static void check_several(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
-    char names[PARAM_KIN_MAX][64];
-    const int n = params_kin(r->params, "sph", names);
+    char names[PARAM_PROGRAMS_MAX][64];
+    const int n = params_programs(r->params, "sph", names);
     const struct scene_domain *d = &r->scene.domain;
     if (n < 2)
         return;
@@ -297,9 +297,9 @@ bool coupling_has_outlet(const struct run *r, int end)
  * without an outlet takes the level of its pressure from sph, on uniform cells alone. */
 static const char *no_balance(const struct run *r, int a)
 {
-    char names[PARAM_KIN_MAX][64];
+    char names[PARAM_PROGRAMS_MAX][64];
     const bool below = coupling_has_outlet(r, 2 * a), above = coupling_has_outlet(r, 2 * a + 1);
-    if (params_kin(r->params, "sph", names) > 1)
+    if (params_programs(r->params, "sph", names) > 1)
         return "what lies between several boxes would have no sides of its own: ";
     if (below && above)
         return "with outlets beyond both of its ends nothing would say how much flows through it: "

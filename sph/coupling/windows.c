@@ -15,8 +15,8 @@
 #include "../../common/run/crossing.h"
 #include "../../common/scene/scene_fluid.h"
 #include "../../common/scene/scene_mesh.h"
-#include "../open_boundaries/box_chase.h"
 #include "../open_boundaries/box_motion.h"
+#include "../open_boundaries/box_tracking.h"
 #include "../open_boundaries/zones.h"
 #include "../particles/params_derived.h"
 

@@ -91,7 +91,7 @@ static void add_fluxes(struct sph *s, double dt)
         o->change[f] += dt * o->flux[f];
         o->inflow += dt * (o->flux[f] + s->rho0 * area * s->zones->drain);
     }
-    o->owed -= dt * openings_faces(o) * s->rho0 * area * s->zones->drain;
+    o->deficit -= dt * openings_faces(o) * s->rho0 * area * s->zones->drain;
 }
 
 /* Particles near the open sides in a hash of cells of side dx, to keep births apart: chains by
@@ -195,7 +195,7 @@ static void pass_on(struct openings *o, int f, double mass)
     o->change[to] += mass;
 }
 
-/* What a newborn may be moved on, in dx: with a half, faces at an edge gave birth on it, and
+/* What a new particle may be moved on, in dx: with a half, faces at an edge gave birth on it, and
  * rounding lost the particle. */
 static const double most_over = 0.49;
 
@@ -225,13 +225,13 @@ static void give_birth(struct sph *s)
     struct zones *z = s->zones;
     const int looked = z->n, dim = o->dim;
     struct birth_strip near = strip_create(s);
-    s->p.nghost = 0; /* newborn take their place */
+    s->p.nghost = 0; /* new particles take their place */
     for (int k = 0; k < looked; k++) {
         const int f = z->who[k];
         const double rho = eos_rho(z->p[k], s->rho0, s->c0, s->gamma), whole = rho * s->dxD;
         double held = o->mass[f] + o->change[f], *u = z->u + dim * k;
         if (held < o->law->threshold * whole || o->share[f] == 0.0 ||
-            (o->flux[f] <= 0.0 && held < openings_most_debt * whole))
+            (o->flux[f] <= 0.0 && held < openings_max_deficit * whole))
             continue;
         if (o->room[f] < 0.5) { /* its middle lies behind a wall */
             pass_on(o, f, held);
@@ -249,8 +249,8 @@ static void give_birth(struct sph *s)
             wet_faces_lower(s, 0.25 * s->dx, 1, x);
         if (crowded(&near, o, x)) {
             o->refused++;
-            if (held > openings_most_debt * whole)
-                pass_on(o, f, held - openings_most_debt * whole);
+            if (held > openings_max_deficit * whole)
+                pass_on(o, f, held - openings_max_deficit * whole);
             continue;
         }
         born(s, f, side, x, u, rho);
@@ -275,17 +275,17 @@ static void sum_changes(struct sph *s)
 /* What faces of a full box owe beyond that is booked at the wrong ones: beside the corner of two
  * sides particles leave by the one and are awaited at the other, and all that are awaited are too
  * many inside (92 of 2700 within a time unit, vortices carried by (0.6, 0.25) U). */
-static void pass_debts(struct sph *s)
+static void pass_deficits(struct sph *s)
 {
     struct openings *o = s->zones->openings;
-    const double least = -openings_most_debt * s->rho0 * s->dxD;
+    const double least = -openings_max_deficit * s->rho0 * s->dxD;
     for (int f = 0; f < openings_faces(o); f++) {
-        const double owed = least - o->mass[f];
-        if (owed <= 0.0)
+        const double deficit = least - o->mass[f];
+        if (deficit <= 0.0)
             continue;
         const int to = openings_beside(o, f, 1.0);
-        o->mass[f] += owed;
-        o->mass[to] -= owed;
+        o->mass[f] += deficit;
+        o->mass[to] -= deficit;
     }
 }
 
@@ -301,6 +301,6 @@ void births_step(struct sph *s, double dt)
     give_birth(s);
     sum_changes(s);
     if (!s->surface)
-        pass_debts(s);
+        pass_deficits(s);
     openings_settle(s);
 }

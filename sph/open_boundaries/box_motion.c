@@ -14,7 +14,7 @@
 #include "../particles/params_derived.h"
 #include "../rigid/body.h"
 #include "../walls/walls.h"
-#include "box_chase.h"
+#include "box_tracking.h"
 #include "openings.h"
 #include "zones.h"
 
@@ -104,7 +104,7 @@ double box_motion_speed(const struct run *r, const struct sph_params *prm)
     if (!box_motion_wanted(prm))
         return 0.0;
     if (chases(prm))
-        return box_chase_speed(r);
+        return box_tracking_speed(r);
     if (!prm->box_follows[0]) { /* the same bits whenever the run ends */
         box_motion_foretold(r, prm, 1.0, now);
         return sqrt(now[0] * now[0] + now[1] * now[1] + now[2] * now[2]);
@@ -166,7 +166,7 @@ void box_motion_step(struct sph *s, double dt, struct diagnosis *d)
         return;
     if (chases(&s->prm)) {
         memcpy(now, z->way, sizeof now);
-        box_chase_step(s, dt, z->along, now);
+        box_tracking_step(s, dt, z->along, now);
     } else if (s->prm.box_follows[0])
         way_of_body(s->walls->bodies + body_of(s->run, &s->prm), now);
     else

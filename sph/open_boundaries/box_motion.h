@@ -1,5 +1,5 @@
 /* box_motion.h - the position of sph.box as a function of time: where it is at the start plus a
- * displacement, `way', given by a velocity, by a body that it follows, or by box_chase.h.
+ * displacement, `way', given by a velocity, by a body that it follows, or by box_tracking.h.
  * zones->speed is the velocity over the last step, relative to which the faces see the flow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BOX_MOTION_H

@@ -160,7 +160,7 @@ double openings_held(const struct sph *s)
     double sum = 0.0;
     for (int f = 0; f < openings_faces(o); f++)
         sum += o->mass[f];
-    return sum - o->owed;
+    return sum - o->deficit;
 }
 
 void openings_let_out(struct openings *o, double mass)
@@ -233,30 +233,30 @@ void openings_share(struct openings *o, int side, const double *x, double m)
 
 /* A void that reaches an open side goes out as water: the outside knows no voids, and lets as much
  * in elsewhere. Below it faces are booked particles that do not come. They would wait for them, one
- * row of void after the other; what they owe beyond openings_most_debt goes instead to one account,
- * and leaves the region by a slow flow through all open sides. */
-static void collect_debts(struct sph *s)
+ * row of void after the other; what they owe beyond openings_max_deficit goes instead to one
+ * account, and leaves the region by a slow flow through all open sides. */
+static void collect_deficits(struct sph *s)
 {
     struct openings *o = s->zones->openings;
-    const double least = -openings_most_debt * s->rho0 * s->dxD, area = s->dxD / s->dx;
+    const double least = -openings_max_deficit * s->rho0 * s->dxD, area = s->dxD / s->dx;
     /* an outlet's faces may stand in air; an outside with a surface has room for voids */
     if (!s->surface || s->prm.outer == OUTER_SIDES || s->zones->surface || s->run->crossed)
         return; /* at a restart the partner's is not known yet */
     for (int f = 0; f < openings_faces(o); f++)
         if (o->mass[f] < least) {
-            o->owed += least - o->mass[f];
+            o->deficit += least - o->mass[f];
             o->mass[f] = least;
         }
     s->zones->drain =
-        o->owed / (s->rho0 * area * openings_faces(o)) * s->c0 / (drain_time * s->R); /* m/s */
+        o->deficit / (s->rho0 * area * openings_faces(o)) * s->c0 / (drain_time * s->R); /* m/s */
 }
 
 void openings_settle(struct sph *s)
 {
     struct openings *o = s->zones->openings;
-    collect_debts(s);
+    collect_deficits(s);
     for (int side = 0; side < 2 * o->dim; side++)
         for (int f = o->first[side]; f < o->first[side + 1]; f++)
             o->shift[f] = openings_inward(side) * s->dx *
-                          fmin(fmax(o->mass[f] / (s->rho0 * s->dxD), -1.0), openings_most_debt);
+                          fmin(fmax(o->mass[f] / (s->rho0 * s->dxD), -1.0), openings_max_deficit);
 }

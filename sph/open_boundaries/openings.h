@@ -11,14 +11,14 @@
 
 /* In particles: what a face that cannot create a particle holds beyond this goes to its neighbours;
  * a deficit beyond this is an air cavity that crossed the open side. */
-static const double openings_most_debt = 1.5;
+static const double openings_max_deficit = 1.5;
 
 /* Sign of the inward direction along the side's axis. */
 static inline double openings_inward(int side) { return side % 2 ? -1.0 : 1.0; }
 
 /* Where the points that give birth lie between two rows of the lattice, in dx, what mass they then
- * hold, in particles, how deep the newborn stands, in dx, and whether a particle that leaves gives
- * its mass to the points on either side of it. */
+ * hold, in particles, how deep the new particle stands, in dx, and whether a particle that leaves
+ * gives its mass to the points on either side of it. */
 struct birth_law {
     double along, threshold, depth;
     bool shares;
@@ -38,7 +38,7 @@ struct openings {
     double *change; /* kg: of this step, this rank, then summed */
     double *flux;   /* kg/s: inward, of the faces this rank owns, 0 elsewhere */
     /* kg, all ranks: deficits of air cavities, to be removed by the zones' `drain'. */
-    double owed;
+    double deficit;
     double *room; /* -: fraction of each face that is not cut off by walls */
     /* -: fraction of each face that is neither cut off nor above the water outside. */
     double *share;

@@ -107,7 +107,7 @@ void wet_faces_rain(struct sph *s, const double *y)
 double wet_faces_voids(const struct sph *s)
 {
     const struct openings *o = s->zones->openings;
-    const double least = openings_most_debt * s->rho0 * s->dxD;
+    const double least = openings_max_deficit * s->rho0 * s->dxD;
     double sum = 0.0;
     for (int f = 0; f < openings_faces(o); f++)
         sum += fmax(-o->mass[f] - least, 0.0);

@@ -19,7 +19,7 @@ int wet_faces_for(struct sph *s, int side, const double *x);
  * film along a wall. */
 void wet_faces_rain(struct sph *s, const double *y);
 /* Mass of air cavities that crossed the open sides, kg: deficits of faces beyond
- * openings_most_debt. */
+ * openings_max_deficit. */
 double wet_faces_voids(const struct sph *s);
 /* Moves the n points x[n][3] at s->t so that they are at least `depth', m, below the surface. */
 void wet_faces_lower(struct sph *s, double depth, int n, double *x);

@@ -359,12 +359,12 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
     h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
     const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
-    const double level[1] = {s->zones->level}, owed[1] = {o->owed};
+    const double level[1] = {s->zones->level}, deficit[1] = {o->deficit};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
     h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
     h5_write_real(f, "zones_through", "kg", 6, 1, o->through, false);
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
-    h5_write_real(f, "zones_owed", "kg", 1, 1, owed, false);
+    h5_write_real(f, "zones_owed", "kg", 1, 1, deficit, false);
     h5_write_int(f, "zones_counted", 3, counted);
     h5_write_real(f, "zones_way", "m", 3, 1, s->zones->way, false);
     if (s->prm.box_follows[0])
@@ -407,7 +407,7 @@ bool zones_load(struct sph *s, struct h5 *f)
         !h5_read_parts(f, "zones_booked", 4, booked) ||
         !h5_read_parts(f, "zones_through", 6, o->through) ||
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
-        !h5_read_same(f, "zones_owed", 1, &o->owed) || !h5_read_same(f, "zones_way", 3, way) ||
+        !h5_read_same(f, "zones_owed", 1, &o->deficit) || !h5_read_same(f, "zones_way", 3, way) ||
         (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->chase)) ||
         !load_counts(s, f, counted) || (s->zones->update && !sides_load(s, f)) ||
         (s->zones->gap && !level_gap_load(s, f)) || !wet_faces_load(s, f))

@@ -33,7 +33,7 @@ struct zones {
     double way[3],
         speed[3]; /* m, m/s: displacement of the box since the start, velocity over the last step */
     double fastest;  /* m/s: largest speed that the box will have */
-    double chase[3]; /* m/s: box_chase.h, speed that it remembers */
+    double chase[3]; /* m/s: box_tracking.h, speed that it remembers */
     zones_eval *eval;
     struct sph_eos {
         double rho0, c0, gamma;

@@ -35,7 +35,7 @@ static const double few = 0.4, many = 1.2;
 static const double most_off = 1e-3; /* of the mass: beyond this they give way no further */
 static const double hole = 0.6;      /* spacings from the next one: room for one more */
 enum {
-    EVERY = 2,           /* steps: mothers are looked at */
+    EVERY = 2,           /* steps: parents are looked at */
     CHILDREN_EVERY = 16, /* and children */
     ROUNDS = 4,          /* of wishes, of those that nobody near has outbid */
     PLACES = 5           /* along each axis: where a hole is looked for, births' among them */
@@ -50,7 +50,7 @@ struct found {
 
 /* One pass over two levels; gap: of the parents, then of their ghosts; hole: positions near
  * parents. */
-struct census {
+struct population {
     struct sph *s, *fine;
     const struct regions *regions;
     double *gap, *ghost_gap, *depth, (*hole)[3];
@@ -103,7 +103,7 @@ static void look_around(struct sph *at, const double *x, double reach, struct fo
 }
 
 /* The gap at x in children; positive: some are missing. */
-static double gap_at(struct census *c, const double *x)
+static double gap_at(struct population *c, const double *x)
 {
     struct sph *s = c->s, *fine = c->fine;
     double gap = 0.0;
@@ -117,9 +117,9 @@ static double gap_at(struct census *c, const double *x)
     return gap;
 }
 
-/* Gaps of the mothers that flow, but those on the very edge. depth is the distance from the
+/* Gaps of the parents that flow, but those on the very edge. depth is the distance from the
  * region's edge, m. Ghosts of other ranks get the gaps of their owners. Collective. */
-static void find_gaps(struct census *c)
+static void find_gaps(struct population *c)
 {
     struct sph *s = c->s;
     c->gap = NEW(double, s->p.n);
@@ -139,10 +139,10 @@ static void find_gaps(struct census *c)
     domain_share(s, c->gap, 1, c->ghost_gap);
 }
 
-/* Mean gap around mother i; one: what one child at her place changes of it. A kernel-weighted mean
+/* Mean gap around parent i; one: what one child at its place changes of it. A kernel-weighted mean
  * over the parents whose gap is known; `one' is the same mean of the change that a child at parent
  * i makes to all these gaps. */
-static double mean_gap(const struct census *c, int i, double *one)
+static double mean_gap(const struct population *c, int i, double *one)
 {
     const struct sph *s = c->s;
     const struct neighbours *l = s->list;
@@ -194,18 +194,18 @@ static double find_hole(const struct sph *at, const struct found *near, const do
 
 /* Adds to level `at' a guard to be created at x at the end of the step, with the fields of particle
  * i of `from' and its share of the volume. */
-static void conceive(struct sph *at, const double *x, const struct sph *from, int i)
+static void create_child(struct sph *at, const double *x, const struct sph *from, int i)
 {
     struct guards *g = at->guards;
     const int dim = at->dim;
     const double *q = prim_line(&from->p, i);
-    if (g->nnewborn == g->newborn_capacity) {
-        const int more = 2 * g->newborn_capacity + 16;
-        GROW(g->newborn, g->newborn_capacity, more);
-        g->newborn_capacity = more;
+    if (g->ncreated == g->created_capacity) {
+        const int more = 2 * g->created_capacity + 16;
+        GROW(g->created, g->created_capacity, more);
+        g->created_capacity = more;
     }
-    struct newborn *to = g->newborn + g->nnewborn++;
-    *to = (struct newborn){.t = from->t,
+    struct created *to = g->created + g->ncreated++;
+    *to = (struct created){.t = from->t,
                            .rho = q[at_rho(dim)],
                            .volume = ldexp(q[at_volume(dim)], -dim * (at->level - from->level))};
     memcpy(to->x, x, (size_t)dim * sizeof *x);
@@ -215,7 +215,7 @@ static void conceive(struct sph *at, const double *x, const struct sph *from, in
 
 /* Whether there is a hole near parent i that flows, with no wall between; sets c->hole[i]. In 3D
  * the widest holes of a lattice are wider, by sqrt(3/2) = 1.22. */
-static bool has_hole(struct census *c, int i)
+static bool has_hole(struct population *c, int i)
 {
     struct sph *s = c->s, *fine = c->fine;
     const double *x = prim_line(&s->p, i);
@@ -262,8 +262,8 @@ static bool leads(const struct sph *s, int i, const double *wish, const double *
 /* Does what is asked for, of one level, where it is asked for most; then where nobody near has been
  * granted anything, and so on. Collective. act(c, i) carries the wish out; wish[i] = GRANTED bars
  * the neighbours. */
-static void grant(struct census *c, struct sph *s, double *wish,
-                  void (*act)(struct census *c, int i))
+static void grant(struct population *c, struct sph *s, double *wish,
+                  void (*act)(struct population *c, int i))
 {
     double *ghosts = NEW(double, s->p.nghost);
     bool *leading = NEW(bool, s->p.n);
@@ -282,11 +282,11 @@ static void grant(struct census *c, struct sph *s, double *wish,
 }
 
 /* Creates the child in the hole found for parent i. */
-static void give_child(struct census *c, int i) { conceive(c->fine, c->hole[i], c->s, i); }
+static void give_child(struct population *c, int i) { create_child(c->fine, c->hole[i], c->s, i); }
 
 /* Parents that flow, but those as deep as R - dx, where guards of the finer level end: each wishes
  * for a child as far as its mean gap goes beyond the bound. Collective. */
-static void look_at_flowing(struct census *c)
+static void look_at_flowing(struct population *c)
 {
     struct sph *s = c->s;
     double *wish = NEW(double, s->p.n);
@@ -312,11 +312,11 @@ static bool is_outside(const struct sph *s, int i)
 }
 
 /* It is removed at the end of the step (life.c). */
-static void mark_surplus(struct census *c, int i) { c->fine->p.role[i] |= ROLE_SURPLUS; }
+static void mark_surplus(struct population *c, int i) { c->fine->p.role[i] |= ROLE_SURPLUS; }
 
 /* Guards of the finer level outside of where it flows wish to be removed as far as their surplus
  * goes beyond the bound. Collective. */
-static void look_at_children(struct census *c)
+static void look_at_children(struct population *c)
 {
     struct sph *fine = c->fine;
     double *wish = NEW(double, fine->p.n);
@@ -334,7 +334,7 @@ static void look_at_children(struct census *c)
  * a fraction of most_off. */
 static void mark_level(struct sph *s, const struct refinement *r)
 {
-    struct census c = {.s = s, .fine = s->finer, .regions = r->regions};
+    struct population c = {.s = s, .fine = s->finer, .regions = r->regions};
     c.off = fmax(-1.0, fmin(r->debt / most_off, 1.0));
     look_at_flowing(&c);
     if (s->run->step % CHILDREN_EVERY == 0)

@@ -11,7 +11,7 @@
 #include "../sph.h"
 
 /* Every few steps after guards_list, for s and all finer levels: lists which guards are to be
- * created (guards.newborn) and marks those to be removed (ROLE_SURPLUS) at the end of the step.
+ * created (guards.created) and marks those to be removed (ROLE_SURPLUS) at the end of the step.
  * Collective. */
 void counts_mark(struct sph *s);
 

@@ -57,7 +57,7 @@ void guards_free(struct guards **g)
     mem_free((*g)->j);
     mem_free((*g)->ghost);
     mem_free((*g)->prior);
-    mem_free((*g)->newborn);
+    mem_free((*g)->created);
     mem_free(*g);
     *g = NULL;
 }

@@ -9,7 +9,7 @@
 #include "../sph.h"
 
 /* A guard that is to be created at the end of the step. */
-struct newborn {
+struct created {
     double t;                       /* s: when it would be at x */
     double x[3], u[3], volume, rho; /* m, m/s, m^dim, kg/m^3 */
     double slope[16];
@@ -36,8 +36,8 @@ struct guards {
      * them. */
     double *prior;
     bool fresh; /* deep guards have not yet been given the fields of this step */
-    int nnewborn, newborn_capacity;
-    struct newborn *newborn; /* [nnewborn] of this level, at the end of the step; counts.h */
+    int ncreated, created_capacity;
+    struct created *created; /* [ncreated] of this level, at the end of the step; counts.h */
     bool mean;               /* fields by Shepard's mean [5.23-5.24] alone, for comparison */
     bool own_rates;          /* with local steps: a guard's fields continue by its own rates */
 };

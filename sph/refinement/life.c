@@ -22,7 +22,7 @@
 
 static const double hysteresis = 0.5;                   /* coarser dx */
 static const double paid_back = 0.03, most_paid = 2e-4; /* a step: of the debt; of the mass */
-static const double steepest = 0.05; /* change of rho from mother to child, its share */
+static const double steepest = 0.05; /* change of rho from parent to child, its share */
 
 /* Distances of the particles of a level to the edges of its own region and of the next finer one;
  * NULL: there is none. Each is asked for once a step. */
@@ -282,11 +282,11 @@ static void give_roles(const struct regions *g, struct sph *s, const struct dept
 }
 
 /* Creates the guards that counts.c has listed, moved on from the time when they were. */
-static void add_newborn(struct sph *s)
+static void add_created(struct sph *s)
 {
     struct guards *g = s->guards;
-    for (int k = 0; k < g->nnewborn; k++) {
-        const struct newborn *is = g->newborn + k;
+    for (int k = 0; k < g->ncreated; k++) {
+        const struct created *is = g->created + k;
         s->p.nghost = 0;
         particles_reserve(&s->p, s->p.n + 1);
         const int i = particles_add(&s->p, s->next_id, ZONE_FREE);
@@ -298,7 +298,7 @@ static void add_newborn(struct sph *s)
         memcpy(slope_line(&s->p, i), is->slope, (size_t)s->p.nslope * sizeof(double));
         s->p.role[i] = ROLE_GUARD;
     }
-    g->nnewborn = 0;
+    g->ncreated = 0;
 }
 
 /* All changes of one level at the end of its step. Returns its share of the mass of the fluid, kg,
@@ -306,7 +306,7 @@ static void add_newborn(struct sph *s)
 static double adapt_level(const struct regions *g, struct sph *s, bool held)
 {
     if (!held)
-        add_newborn(s);
+        add_created(s);
     struct depths is = depths_of(g, s, held);
     if (s->finer)
         enter(s, is.next);

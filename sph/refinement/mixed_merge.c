@@ -13,7 +13,7 @@
 #include "../pairs/kernel.h"
 #include "refinement.h"
 
-static const double alpha = 0.6;      /* R of a child over that of its mother [5.2] */
+static const double alpha = 0.6;      /* R of a child over that of its parent [5.2] */
 static const double hysteresis = 0.5; /* coarser dx */
 static const double fewest = 0.75;    /* of R_dx: below it supports hold too few particles, which
                                          [5.11] alone comes to after some cycles */

@@ -81,7 +81,7 @@ static void rub_row(struct sph *s, const struct ghost_block *g, int i)
 
 void ghost_friction(struct sph *s, const struct ghost_block *g)
 {
-    if (!g->rubs || s->nu == 0.0)
+    if (!g->has_friction || s->nu == 0.0)
         return;
     for (int i = 0; i < s->p.n; i++)
         rub_row(s, g, i);

@@ -10,8 +10,8 @@
 struct ghost_block {
     int n, first; /* first: counted from the first ghost */
     int capacity;
-    double *rub; /* [n][dim] m/s: u of the no-slip form minus u of the slip form; owned */
-    bool rubs;   /* any of it is not zero */
+    double *rub;       /* [n][dim] m/s: u of the no-slip form minus u of the slip form; owned */
+    bool has_friction; /* any of it is not zero */
 };
 
 /* Density at the distance d, m, along n from a point with density rho, by (1/rho) dp/dn = K, m/s^2

@@ -52,7 +52,7 @@ static void *fixed_create(struct sph *s)
     struct fixed *m = NEW(struct fixed, 1);
     fixed_layers_lay(s, &m->layers);
     for (int k = 0; k < s->walls->nsegments; k++)
-        m->ghosts.rubs = m->ghosts.rubs || s->walls->segments[k].no_slip;
+        m->ghosts.has_friction = m->ghosts.has_friction || s->walls->segments[k].no_slip;
     m->room = NEW(double, m->layers.n + 1);
     m->first = NEW(int, m->layers.n + 1);
     m->gradient = mem_new((size_t)m->layers.n + 1, sizeof *m->gradient);

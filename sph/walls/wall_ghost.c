@@ -23,7 +23,7 @@ static void *mirror_create(struct sph *s)
 {
     struct mirror *m = NEW(struct mirror, 1);
     for (int k = 0; k < s->walls->nplanes; k++)
-        m->ghosts.rubs = m->ghosts.rubs || s->walls->planes[k].no_slip;
+        m->ghosts.has_friction = m->ghosts.has_friction || s->walls->planes[k].no_slip;
     return m;
 }
 
@@ -111,7 +111,7 @@ static void lines(struct sph *s)
         memcpy(u, from + dim, (size_t)dim * sizeof *u);
         x[p->axis] = 2.0 * p->at - x[p->axis];
         u[p->axis] = -u[p->axis];
-        if (m->ghosts.rubs) {
+        if (m->ghosts.has_friction) {
             const int n = sides_of(m, k, first, w->planes, side, &root);
             no_slip(side, n, prim_line(&s->p, root) + dim, rub, dim);
             for (int a = 0; a < dim; a++)

@@ -1,5 +1,5 @@
 /* test_map.c - sums on particles: what they keep, what they do not depend on; and the region around
- * the targets that givers are asked for. SPDX-License-Identifier: BSD-3-Clause */
+ * the targets that sources are asked for. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include <math.h>

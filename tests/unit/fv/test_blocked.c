@@ -97,7 +97,7 @@ static void still_water_stays(void **state)
         }
 }
 
-static double swing(bool between, bool deep, enum wall_kind kind)
+static double oscillation(bool between, bool deep, enum wall_kind kind)
 {
     struct fv_case c;
     const bool solid = deep;
@@ -134,7 +134,8 @@ static void boxes_are_walls(void **state)
     (void)state;
     for (int deep = 0; deep < 2; deep++)
         for (int kind = WALL_SLIP; kind <= WALL_NO_SLIP; kind++) {
-            const double sides = swing(false, deep, kind), other = swing(true, deep, kind);
+            const double sides = oscillation(false, deep, kind),
+                         other = oscillation(true, deep, kind);
             print_message("column, %dD, %s: energy %.8g, between boxes %.8g\n", deep ? 3 : 2,
                           kind == WALL_SLIP ? "slip" : "no slip", sides, other);
             assert_close(other, sides, 5e-3 * sides); /* 2 (h/H)^2 */

@@ -524,8 +524,8 @@ static void wave_swings_as_theory_says(void **state)
                   NULL, WALL_NO_SLIP);
         assert_true(exact_oscillation(&s->exact, &period, &rate));
         assert_true(fv_case_run(&c, 10000, 1.9 * period));
-        const double T = fit_period(&s->surface->swing) / period - 1.0,
-                     r = fit_rate(&s->surface->swing) / rate - 1.0,
+        const double T = fit_period(&s->surface->oscillation) / period - 1.0,
+                     r = fit_rate(&s->surface->oscillation) / rate - 1.0,
                      v = surface_volume(s) / s->surface->volume0 - 1.0;
         print_message("wave: period %.3g, damping %.3g, volume %.3g\n", T, r, v);
         fv_free(&c.s);
@@ -618,8 +618,8 @@ static void crossed_waves_swing_as_theory_says(void **state)
     struct fv *s = fv_case_start(&c, NULL);
     assert_true(exact_oscillation(&s->exact, &period, &rate));
     assert_true(fv_case_run(&c, 10000, 1.9 * period));
-    const double T = fit_period(&s->surface->swing) / period - 1.0,
-                 r = fit_rate(&s->surface->swing) / rate - 1.0;
+    const double T = fit_period(&s->surface->oscillation) / period - 1.0,
+                 r = fit_rate(&s->surface->oscillation) / rate - 1.0;
     print_message("crossed waves: period %.3g, damping %.3g\n", T, r);
     fv_free(&c.s);
     assert_close(T, 0.0, 0.002);

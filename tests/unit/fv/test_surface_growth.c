@@ -21,7 +21,7 @@ static struct fv *start(struct fv_case *c, const char *const *overrides,
 }
 
 /* Largest kinetic energy from now to time t. */
-static double swing(struct fv_case *c, double t)
+static double oscillation(struct fv_case *c, double t)
 {
     double most = 0.0;
     while (c->s->t < t) {
@@ -48,9 +48,9 @@ static double grows(int n, double theta, const char *integrator)
                                 "domain.periodic=(true,false)", "fluid.gravity=(0,-9.81)",
                                 "fluid.nu=0", integrator, cells, size, length, level, NULL},
           NULL);
-    const double first = swing(&c, 1.0);
-    swing(&c, 3.0);
-    const double last = swing(&c, 4.0);
+    const double first = oscillation(&c, 1.0);
+    oscillation(&c, 3.0);
+    const double last = oscillation(&c, 4.0);
     print_message("%d cells, theta %.2f, %s: %.3g\n", n, theta, integrator, last / first);
     fv_free(&c.s);
     return last / first;

@@ -33,8 +33,8 @@ static void still_water_stays(void **state)
 }
 
 /* Errors of period and damping over most of two periods; the volume is kept. */
-static void swing(const char *cells, const char *graded, const char *integrator, const char *cfl,
-                  const char *nu, double *T, double *r)
+static void oscillation(const char *cells, const char *graded, const char *integrator,
+                        const char *cfl, const char *nu, double *T, double *r)
 {
     struct fv_case c;
     double period, rate;
@@ -43,8 +43,8 @@ static void swing(const char *cells, const char *graded, const char *integrator,
                          NULL, WALL_NO_SLIP);
     assert_true(exact_oscillation(&s->exact, &period, &rate));
     assert_true(fv_case_run(&c, 10000, 1.9 * period));
-    *T = fit_period(&s->surface->swing) / period - 1.0;
-    *r = fit_rate(&s->surface->swing) / rate - 1.0;
+    *T = fit_period(&s->surface->oscillation) / period - 1.0;
+    *r = fit_rate(&s->surface->oscillation) / rate - 1.0;
     double h = s->b.h[1];
     print_message("wave, %s %s %s: c dt/h %.2g, nu dt/h^2 %.2g, %d steps: period %.3g, damping "
                   "%.3g\n",
@@ -58,20 +58,24 @@ static void waves_swing_as_theory_says(void **state)
 {
     double T, r;
     (void)state;
-    swing("fv.cells=(32,40)", "fv.graded=(0,0)", BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", &T, &r);
+    oscillation("fv.cells=(32,40)", "fv.graded=(0,0)", BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", &T, &r);
     assert_close(T, 0.0, 0.002);
     assert_close(r, 0.0, 0.03);
-    swing("fv.cells=(16,24)", "fv.graded=(1.1,8)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
+    oscillation("fv.cells=(16,24)", "fv.graded=(1.1,8)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T,
+                &r);
     assert_close(T, 0.0, 0.005);
     if (SANITIZED)
         return;
-    swing("fv.cells=(32,40)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.16", "fluid.nu=2e-3", &T, &r);
+    oscillation("fv.cells=(32,40)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.16", "fluid.nu=2e-3", &T,
+                &r);
     assert_close(T, 0.0, 0.002);
     assert_close(r, 0.0, 0.03);
-    swing("fv.cells=(16,64)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.5", "fluid.nu=0.05", &T, &r);
+    oscillation("fv.cells=(16,64)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.5", "fluid.nu=0.05", &T,
+                &r);
     assert_close(T, 0.0, 0.03);
     assert_close(r, 0.0, 0.1); /* eleven steps a period */
-    swing("fv.cells=(8,256)", "fv.graded=(0,0)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
+    oscillation("fv.cells=(8,256)", "fv.graded=(0,0)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T,
+                &r);
     assert_close(T, 0.0, 0.03); /* eight cells a length */
 }
 

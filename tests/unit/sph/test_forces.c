@@ -206,7 +206,7 @@ static void free_bodies_conserve(void **state)
     }
 }
 
-static double swing(double t) { return 0.01 * (1.0 - cos(4.0 * M_PI * t)); }
+static double oscillation(double t) { return 0.01 * (1.0 - cos(4.0 * M_PI * t)); }
 
 /* Writes the motion file of a disc that swings with a period of 0.5 s. */
 static void write_motion(const struct sph_case *c, const char *dir)
@@ -216,7 +216,7 @@ static void write_motion(const struct sph_case *c, const char *dir)
     FILE *f = fopen(path, "w");
     assert_non_null(f);
     for (double t = 0.0; t < 1.0; t += 1e-3)
-        fprintf(f, "%.6f %.12f 0 0\n", t, swing(t));
+        fprintf(f, "%.6f %.12f 0 0\n", t, oscillation(t));
     fclose(f);
 }
 

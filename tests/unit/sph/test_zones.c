@@ -5,7 +5,7 @@
 #include "../../../common/scene/exact.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/coupling/overlap.h"
-#include "../../../sph/open_boundaries/box_chase.h"
+#include "../../../sph/open_boundaries/box_tracking.h"
 #include "../../../sph/open_boundaries/openings.h"
 #include "../../../sph/open_boundaries/zone_steps.h"
 #include "../../../sph/surface/surface.h"
@@ -355,7 +355,7 @@ static void what_voids_left_is_drained(void **state)
                  1e-12);                       /* over 1 m */
     assert_true(sph_case_run(&c, 402, 100.0)); /* of 0.375 R/c0 */
     assert_close(zones_mass(s) + openings_held(s), mass - 20.0 * whole, 1e-9);
-    assert_true(fabs(o->owed) < 0.06 * 18.5 * whole); /* three times as long: exp(-3) */
+    assert_true(fabs(o->deficit) < 0.06 * 18.5 * whole); /* three times as long: exp(-3) */
     const double left = (mass - zones_mass(s)) / whole;
     assert_true(left > 5.0 && left < 35.0); /* the rest is on the way: half a row of 25 */
     sph_free(&c.s);
@@ -448,15 +448,15 @@ static void voids_wait_where_a_surface_crosses(void **state)
     struct sph *s = start(&c, 2, 1.0, 0.0);
     struct openings *o = s->zones->openings;
     struct free_surface none = {0};
-    const double owed = -10.0 * s->rho0 * s->dxD;
+    const double deficit = -10.0 * s->rho0 * s->dxD;
     s->surface = &none;
     c.run.crossed = true;
-    o->mass[0] = owed;
+    o->mass[0] = deficit;
     openings_settle(s);
-    assert_close(o->mass[0], owed, 1e-12);
+    assert_close(o->mass[0], deficit, 1e-12);
     c.run.crossed = false;
     openings_settle(s);
-    assert_true(o->mass[0] > 0.5 * owed && s->zones->drain > 0.0);
+    assert_true(o->mass[0] > 0.5 * deficit && s->zones->drain > 0.0);
     s->surface = NULL;
     sph_free(&c.s);
 }
@@ -525,23 +525,23 @@ static void a_box_goes_with_a_crest(void **state)
     c.run.scene.domain.periodic[0] = false;
     s->prm.box[0][0] = 0.15;
     s->prm.box[1][0] = 0.55;
-    assert_close(box_chase_speed(&c.run), 1.0, 1e-12);
+    assert_close(box_tracking_speed(&c.run), 1.0, 1e-12);
     for (; t < 1.0; t += 0.01) {
         stand(s, way[0]);
         raise_crest(s, 0.35 + 0.2 * t);
-        box_chase_step(s, 0.01, along, way);
+        box_tracking_step(s, 0.01, along, way);
     }
     assert_true(fabs(way[0] - 0.2 * t) < 0.2 * s->dx);
     for (double last = t; t < last + 3.0; t += 0.01) {
         stand(s, way[0]);
         raise_crest(s, 0.35 + 0.2 * t);
-        box_chase_step(s, 0.01, along, way);
+        box_tracking_step(s, 0.01, along, way);
     }
     assert_true(s->prm.box[1][0] + way[0] <= 1.0 - s->R);
     const double there = way[0];
     raise_crest(s, 10.0);
     for (int k = 0; k < 300; k++)
-        box_chase_step(s, 0.01, along, way);
+        box_tracking_step(s, 0.01, along, way);
     assert_true(fabs(way[0] - there) < 0.5 * s->dx);
     sph_free(&c.s);
 }

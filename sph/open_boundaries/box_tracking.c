@@ -1,13 +1,12 @@
-/* box_chase.c - see box_chase.h. What is followed is a mean over the water above the still level,
- * weighted by volume, by the square of its height there and by how near the box's middle it is: of
- * a symmetric crest it is the crest, of one that breaks it moves forward with the front, and spray
- * does not count. The highest or steepest place would jump from one particle to another, and from
- * crest to crest.
- * The box answers as a mass on a spring with critical damping that also knows its speed of before,
- * so that behind a crest of constant speed it does not lag: e = crest - middle,
- *   dv/dt = e/tau^2, dx/dt = v + 2 e/tau, both no faster than box_chase_speed. Without a crest v
- * dies. SPDX-License-Identifier: BSD-3-Clause */
-#include "box_chase.h"
+/* box_tracking.c - see box_tracking.h. What is followed is a mean over the water above the still
+ * level, weighted by volume, by the square of its height there and by how near the box's middle it
+ * is: of a symmetric crest it is the crest, of one that breaks it moves forward with the front, and
+ * spray does not count. The highest or steepest place would jump from one particle to another, and
+ * from crest to crest. The box answers as a mass on a spring with critical damping that also knows
+ * its speed of before, so that behind a crest of constant speed it does not lag: e = crest -
+ * middle, dv/dt = e/tau^2, dx/dt = v + 2 e/tau, both no faster than box_tracking_speed. Without a
+ * crest v dies. SPDX-License-Identifier: BSD-3-Clause */
+#include "box_tracking.h"
 
 #include <math.h>
 
@@ -27,7 +26,7 @@ static double upwards(const struct run *r, double up[3])
 }
 
 /* Of long waves on water as deep as the domain is high: more than any crest in it. */
-double box_chase_speed(const struct run *r)
+double box_tracking_speed(const struct run *r)
 {
     const struct scene_domain *d = &r->scene.domain;
     double up[3], high = 0.0;
@@ -100,9 +99,9 @@ static bool hold_back(const struct sph *s, int a, double *way)
     return held;
 }
 
-void box_chase_step(struct sph *s, double dt, const bool along[3], double way[3])
+void box_tracking_step(struct sph *s, double dt, const bool along[3], double way[3])
 {
-    const double most = box_chase_speed(s->run);
+    const double most = box_tracking_speed(s->run);
     double at[3], *v = s->zones->chase;
     if (!(dt > 0.0))
         return;
