@@ -1,6 +1,5 @@
 /* table.c - CSV files of numbers: see table.h. A row is read in place; the array of all numbers
- * doubles whenever the number of rows is a power of two. Lines are at most LINE_SIZE - 1 bytes
- * long, some 800 numbers of 20 characters.
+ * doubles whenever the number of rows is a power of two.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 
@@ -10,8 +9,6 @@
 #include <string.h>
 
 #include "../base/mem.h"
-
-enum { LINE_SIZE = 1 << 14 };
 
 static int count_fields(const char *line)
 {
@@ -68,8 +65,9 @@ struct table *table_read(const char *path)
     if (!f)
         return NULL;
     struct table *t = NEW(struct table, 1);
-    char *line = NEW(char, LINE_SIZE);
-    while (fgets(line, LINE_SIZE, f)) {
+    char *line = NULL;
+    size_t room = 0;
+    while (getline(&line, &room, f) > 0) {
         if (line[0] == '#' || line[strspn(line, " \r\n")] == '\0')
             continue;
         if (!t->name)
@@ -78,7 +76,7 @@ struct table *table_read(const char *path)
             read_row(t, line);
     }
     fclose(f);
-    mem_free(line);
+    free(line); /* getline's own */
     if (t->nrows == 0)
         table_free(&t);
     return t;

@@ -241,7 +241,10 @@ static bool read_path(const char *d, struct outline *is, char *why, size_t size)
             command = *d++;
         if (toupper((unsigned char)command) == 'Z') {
             is->closed = true;
-            return true; /* what follows would be another outline */
+            d += strspn(d, " \t\r\n,Zz");
+            if (*d)
+                snprintf(why, size, "its path goes on behind Z (%c): one outline is wanted", *d);
+            return !*d;
         }
         const bool moves = toupper((unsigned char)command) == 'M';
         const int n = group_of(command);

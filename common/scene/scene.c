@@ -116,7 +116,7 @@ static const struct param wall_rows[] = {
           USED(WITH(mesh, "it is of a mesh"))),
     CHOICE(P, kind, "slip|no_slip|inflow|outflow|absorbing|wave|beach", "slip", "kind of boundary; wave: an upright slip wall with a zone before it that makes the waves of the group waves, and lets pass what comes back; beach: with one that absorbs them",
           USED(NEED_OR_ONLY(FRICTION, kind, ~ONE(WALL_NO_SLIP), "without viscosity (fluid.nu) a wall exerts no friction: give slip"),
-               NEED_OR_ONLY(OPENINGS, kind, CLOSED, "the flow around the particles (sph.outer) is known otherwise"))),
+               NEED_OR_ONLY(OPENINGS, kind, CLOSED | ONE(WALL_FALLS), "the flow around the particles (sph.outer) is known otherwise"))),
     PARAM(P, friction, "-",   "0.0", 0, 1, "of a slip wall (sph): coefficient c_f of quadratic bed friction, whose shear stress is rho c_f |u| u of the velocity along the wall next to it",
           USED(NEED(SPH, "fv has no bed friction, sph has: its slip walls slip, its no_slip walls have that of fluid.nu"),
                ONLY(kind, CLOSED, "an opening has none; a slip wall has"),

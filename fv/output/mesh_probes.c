@@ -64,6 +64,7 @@ static double level_at(struct fv *s, const double *x)
     const int up = still_upright(&s->run->scene);
     const bool down = s->run->scene.fluid.gravity[up] > 0.0;
     const double top = down ? -d->min[up] : d->max[up], end = down ? -d->max[up] : d->min[up];
+    const double most = 1.5 * (top - end) / ALONG;
     double phi[ALONG + 1];
     if (!is_known(s, x, up))
         return NAN;
@@ -71,7 +72,9 @@ static double level_at(struct fv *s, const double *x)
     for (int n = 0; n <= ALONG; n++) {
         if (!(phi[n] < 0.0))
             continue;
-        const double back = n > 0 && phi[n - 1] > 0.0 ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
+        /* 0 before it is the surface itself, or no cell: then phi need not be near 0 here */
+        const bool falls = n > 0 && (phi[n - 1] > 0.0 || (phi[n - 1] == 0.0 && -phi[n] < most));
+        const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
         return top + (end - top) * (n - back) / ALONG;
     }
     return end;

@@ -55,7 +55,11 @@ static void check(const struct sph_link *k, int code)
 static const char *named(const struct run *r, const char *what)
 {
     static char text[CPL_NAME];
-    snprintf(text, sizeof text, "%s.%s", r->name, what);
+    if (snprintf(text, sizeof text, "%s.%s", r->name, what) >= (int)sizeof text)
+        fail_with(RUN_INPUT,
+                  "%s: the name of this group is too long for a coupled job: take at "
+                  "most 48 letters",
+                  r->name);
     return text;
 }
 

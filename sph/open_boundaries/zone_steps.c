@@ -28,7 +28,7 @@ static void eval_exact(void *ctx, double t, int n, const double *x, double *u, d
 {
     const struct exact *e = ctx;
     const int dim = e->dim;
-    const double h = 1e-5;
+    const double h = 1e-5 * (e->L > 0.0 ? e->L : 1.0);
     for (int i = 0; i < n; i++) {
         double v[3], g[3][3], q[3] = {0.0, 0.0, 0.0}, lo, hi;
         exact_point(e, x + 3 * i, t, v, p + i, NULL);

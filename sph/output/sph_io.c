@@ -401,7 +401,6 @@ void sph_checkpoint(void *state, struct h5 *f)
         save_signal(s, f);
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
-    h5_attribute_text(f, "limited_by", s->step.limited_by);
     write_region(s, f);
     wall_files_save(s, f);
     sph_watch_save(s, f);

@@ -168,7 +168,7 @@ static void add_wave_zones(struct sph *s)
         for (int a = 0; a < dim; a++) {
             taken[a] = m * rate * (q[dim + a] - u_w[a]);
             momentum[a] -= taken[a];
-            power -= taken[a] * q[dim + a];
+            power -= particles_is_guard(&s->p, i) ? 0.0 : taken[a] * q[dim + a];
         }
         if (s->walls && !particles_is_guard(&s->p, i))
             forces_add(s, -1, q, taken);

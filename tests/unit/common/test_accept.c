@@ -81,6 +81,28 @@ static void a_table_has_names_without_units(void **state)
     assert_null(table_read(path));
 }
 
+/* A line of 5000 numbers is one row. */
+static void a_row_may_be_long(void **state)
+{
+    enum { COLUMNS = 5000 };
+    (void)state;
+    char path[] = "/tmp/estran-table-XXXXXX";
+    const int fd = mkstemp(path);
+    FILE *f = fdopen(fd, "w");
+    for (int k = 0; k < COLUMNS; k++)
+        fprintf(f, "c%d%c", k, k < COLUMNS - 1 ? ',' : '\n');
+    for (int k = 0; k < COLUMNS; k++)
+        fprintf(f, "%d.5%c", k, k < COLUMNS - 1 ? ',' : '\n');
+    fclose(f);
+    struct table *t = table_read(path);
+    assert_non_null(t);
+    assert_int_equal(t->nrows, 1);
+    assert_int_equal(t->ncolumns, COLUMNS);
+    assert_close(t->v[COLUMNS - 1], COLUMNS - 0.5, 0.0);
+    table_free(&t);
+    unlink(path);
+}
+
 int main(int argc, char **argv)
 {
     MPI_Init(&argc, &argv);
@@ -88,7 +110,8 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(a_higher_series_is_off_by_its_factor),
                                        cmocka_unit_test(a_late_series_arrives_late),
                                        cmocka_unit_test(what_cannot_be_compared_is_no_number),
-                                       cmocka_unit_test(a_table_has_names_without_units)};
+                                       cmocka_unit_test(a_table_has_names_without_units),
+                                       cmocka_unit_test(a_row_may_be_long)};
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
     return failed;

@@ -141,6 +141,10 @@ static void one_path_of_several(void **state)
     assert_false(read_path("M 0 0 L 1", &is));
     assert_non_null(strstr(why, "a number is missing"));
     assert_false(read_path("M 0 0 L 1 0 M 2 2 L 3 3", &is));
+    assert_false(read_path("M 0 0 H 1 V 1 Z M 2 2 H 3 V 3 Z", &is));
+    assert_non_null(strstr(why, "behind Z"));
+    assert_true(read_path("M 0 0 H 1 V 1 Z z ", &is));
+    mem_free(is.x);
     assert_false(read_text("t.svg", "",
                            "<svg height='8'><path transform='scale(2)' d='M 0 0 L 1 1'/></svg>",
                            400, &is));
