@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "../../common/scene/scene_fluid.h"
+#include "../open_boundaries/wave_stream.h"
 #include "../parallel/domain.h"
 #include "../refinement/refinement.h"
 #include "../walls/walls.h"
@@ -192,13 +193,16 @@ static bool is_off(const struct sph *s, const struct scene_shape *h)
     return off || (h->form == SHAPE_BELOW && is_level_off(s, h->level));
 }
 
+/* Water between open sides behind wave zones stays on the lattice: see NOTES, waves on a current.
+ */
 bool surface_rows_wanted(const struct sph *s)
 {
     const struct scene *c = &s->run->scene;
     bool off = c->nshapes == 0 && c->initial.field == FIELD_DROP;
     for (int k = 0; k < c->nshapes; k++)
         off = off || is_off(s, c->shapes + k);
-    return off && s->surface && s->prm.noise == 0.0 && !scene_has_wave(c);
+    return off && s->surface && s->prm.noise == 0.0 && !scene_has_wave(c) &&
+           !wave_stream_wanted(s->run, &s->prm);
 }
 
 double surface_rows_shift(const struct sph *s, const struct exact *e, const double *x, int axis,
