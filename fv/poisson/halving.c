@@ -326,7 +326,7 @@ static void relax_first(const struct halved *l, const double *restrict b, double
 /* Cell of n along an axis, of those that give to cell J of the next level: k = 0 and 3 a quarter,
  * the two between, its own, three quarters. < 0: there is none. The first and the last have no
  * other cell to give to: all they have goes to their own. */
-static int giver(int n, int J, int k)
+static int source_of(int n, int J, int k)
 {
     const int m = 2 * J - 1 + k;
     if (m < 0)
@@ -341,7 +341,7 @@ static double taken(const struct halved *l, const double *r, int J)
 {
     double sum = 0.0;
     for (int k = 0; k < 4; k++) {
-        const int m = giver(l->all[0], J, k) - l->lo[0];
+        const int m = source_of(l->all[0], J, k) - l->lo[0];
         sum += m >= 0 && m < l->n[0] ? weight[k] * r[m] : 0.0;
     }
     return sum;
@@ -370,7 +370,7 @@ static void restrict_across(const struct halved *l, const double *r, int j, int 
                   end = first + len < lo + l->n[0] ? first + len : lo + l->n[0];
     for (int g = 0; g < 4; g++) {
         int line[3] = {0, j - l->lo[1], k - l->lo[2]};
-        line[axis] = giver(l->all[axis], axis == 1 ? j : k, g) - l->lo[axis];
+        line[axis] = source_of(l->all[axis], axis == 1 ? j : k, g) - l->lo[axis];
         if (line[1] < 0 || line[1] >= l->n[1] || line[2] < 0 || line[2] >= l->n[2])
             continue;
         const double *restrict q = r + at(l, 0, line[1], line[2]) - lo;
@@ -409,34 +409,34 @@ static int beside(int n, int m)
     return other >= 0 && other < n ? other : J;
 }
 
-/* x of a level: adds what the next one has, or, where nothing is yet, sets it. */
-static void take(const struct halved *l, int64_t c, double v, double *x)
+/* x of a level: adds what the next one has, or, where nothing is yet (keep 0, else 1), sets it. */
+static inline double with_next(double keep, double x, double per, double next)
 {
-    x[c] = (l->relaxes ? x[c] : 0.0) + (l->per[c] > 0.0 ? v : 0.0);
+    return keep * x + (per > 0.0 ? next : 0.0);
 }
 
 static void prolong_line(const struct halved *l, int64_t c, int64_t len, int first,
                          const double *restrict e, double *restrict x)
 {
     const int n = (l->all[0] + 1) / 2;
-    const double *restrict per = l->per;
+    const double *restrict per = l->per + c, keep = l->relaxes ? 1.0 : 0.0;
+    x += c;
     for (int64_t i = 0; i < len;) {
         const int m = first + (int)i, J = m / 2;
         int64_t pairs = (len - i) / 2;
         if (pairs > n - 1 - J)
             pairs = n - 1 - J;
         if (m % 2 || J == 0 || pairs <= 0) {
-            take(l, c + i, 0.75 * e[J] + 0.25 * e[beside(n, m)], x);
+            x[i] = with_next(keep, x[i], per[i], 0.75 * e[J] + 0.25 * e[beside(n, m)]);
             i++;
             continue;
         }
-        const double *restrict q = e + J, *restrict p = per + c + i;
-        double *restrict to = x + c + i;
-        const double keep = l->relaxes ? 1.0 : 0.0;
+        const double *restrict q = e + J, *restrict p = per + i;
+        double *restrict to = x + i;
         for (int64_t t = 0; t < pairs; t++) {
             const double low = 0.75 * q[t] + 0.25 * q[t - 1], up = 0.75 * q[t] + 0.25 * q[t + 1];
-            to[2 * t] = keep * to[2 * t] + (p[2 * t] > 0.0 ? low : 0.0);
-            to[2 * t + 1] = keep * to[2 * t + 1] + (p[2 * t + 1] > 0.0 ? up : 0.0);
+            to[2 * t] = with_next(keep, to[2 * t], p[2 * t], low);
+            to[2 * t + 1] = with_next(keep, to[2 * t + 1], p[2 * t + 1], up);
         }
         i += 2 * pairs;
     }
@@ -446,10 +446,8 @@ static void prolong_across(const struct halved *l, int64_t c, int64_t len, const
                            const double *restrict f, double *restrict x)
 {
     const double *restrict per = l->per, keep = l->relaxes ? 1.0 : 0.0;
-    for (int64_t i = 0; i < len; i++) {
-        const double v = 0.75 * e[i] + 0.25 * f[i];
-        x[c + i] = keep * x[c + i] + (per[c + i] > 0.0 ? v : 0.0);
-    }
+    for (int64_t i = 0; i < len; i++)
+        x[c + i] = with_next(keep, x[c + i], per[c + i], 0.75 * e[i] + 0.25 * f[i]);
 }
 
 /* x gets what the next level has found. */

@@ -126,19 +126,6 @@ static void fill_box(const struct fv *s, struct pressure *p, int q, double *row)
         }
 }
 
-/* First and last wet cell of a line. */
-static void find_run(const struct fv *s, int64_t c, int run[2])
-{
-    const unsigned char *layer = s->surface->layer + c;
-    int first = 0, end = s->b.n[0];
-    while (first < end && layer[first])
-        first++;
-    while (end > first && layer[end - 1])
-        end--;
-    run[0] = first < end ? first : 0;
-    run[1] = end - first;
-}
-
 /* The rows of a line's wet cells, c the first of them. */
 static void halve_line(const struct fv *s, struct pressure *p, int64_t c, int j, int n)
 {
@@ -163,7 +150,7 @@ static void set_halving(const struct fv *s, struct pressure *p)
     for (int k = 0; k < b->n[2]; k++)
         for (int j = 0; j < b->n[1]; j++) {
             int *run = halving_run(p->halving, j, k);
-            find_run(s, block_at(b, 0, j, k), run);
+            wet_boxes_run(s->surface->layer + block_at(b, 0, j, k), b->n[0], run);
             halve_line(s, p, block_at(b, run[0], j, k), j, run[1]);
         }
     halving_set_matrix(p->halving);

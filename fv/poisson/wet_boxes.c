@@ -21,17 +21,25 @@ static int tile_of(const struct block *b, int a, int i)
 }
 static int tiles_of(const struct block *b, int a) { return tile_of(b, a, b->n[a] - 1) + 1; }
 
-/* First tile and the one behind the last that holds water in a row from c on. */
-static void look(const struct block *b, const unsigned char *layer, int run[2])
+void wet_boxes_run(const unsigned char *layer, int n, int run[2])
 {
-    int first = 0, end = b->n[0];
+    int first = 0, end = n;
     while (first < end && layer[first])
         first++;
     while (end > first && layer[end - 1])
         end--;
-    if (first == end)
+    run[0] = first < end ? first : 0;
+    run[1] = end - first;
+}
+
+/* First tile and the one behind the last that holds water in a row from c on. */
+static void look(const struct block *b, const unsigned char *layer, int run[2])
+{
+    int wet[2];
+    wet_boxes_run(layer, b->n[0], wet);
+    if (wet[1] == 0)
         return;
-    const int low = tile_of(b, 0, first), up = tile_of(b, 0, end - 1) + 1;
+    const int low = tile_of(b, 0, wet[0]), up = tile_of(b, 0, wet[0] + wet[1] - 1) + 1;
     run[0] = low < run[0] ? low : run[0];
     run[1] = up > run[1] ? up : run[1];
 }
