@@ -100,6 +100,22 @@ static const struct param initial_rows[] = {
           USED(WHERE(any_mesh, "a mesh", "no mesh divides the domain: the shapes say where the fluid is"))),
 };
 #undef P
+/* Of a beach; of a level and a discharge, each with its file. */
+#define USED_BEACH \
+    USED(ONLY(kind, CLOSED, "an opening lets waves out by itself"), \
+         WHERE(makes_none, "not kind = wave", "its zone is waves.zone long, of their period"), \
+         ONLY(side, ~ONE(SIDE_NONE), "a beach stands before a side of the domain"), \
+         NEED(SURFACE, "there is no free surface, so no waves"))
+#define USED_LEVEL \
+    USED(ONLY(kind, ONE(WALL_INFLOW) | ONE(WALL_OUTFLOW), "it is for an inflow or an outflow"), \
+         WITHOUT(carried, "a convective outflow (carried) keeps the level of the start"), \
+         WHERE(no_discharge, "no discharge", "a discharge is given, the level follows"), \
+         NEED(SURFACE, "no water has a free surface"), \
+         NEED(PROJECTED, "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2"))
+#define USED_DISCHARGE \
+    USED(ONLY(kind, ONE(WALL_INFLOW) | ONE(WALL_OUTFLOW), "it is for an inflow or an outflow"), \
+         WITHOUT(carried, "of a convective outflow (carried) it is part of the solution"), \
+         NEED(SURFACE, "without a free surface the area of an opening is known: give the velocity"))
 #define P struct scene_wall
 static const struct param wall_rows[] = {
     CHOICE(P, side, "none|x_min|x_max|y_min|y_max|z_min|z_max", "none", "side of the domain; none: points"),
@@ -122,15 +138,9 @@ static const struct param wall_rows[] = {
                ONLY(kind, CLOSED, "an opening has none; a slip wall has"),
                ONLY(kind, ONE(WALL_SLIP), "no_slip is friction by viscosity: bed friction is a slip wall's"))),
     PARAM(P, beach,    "m",   "0.0", 0, 1e9, "of an upright side: water is brought to rest over this length before it, and waves that run there are absorbed; one wave length, 1.5 for a sea; 0 with kind = beach: waves.zone",
-          USED(ONLY(kind, CLOSED, "an opening lets waves out by itself"),
-               WHERE(makes_none, "not kind = wave", "its zone is waves.zone long, of their period"),
-               ONLY(side, ~ONE(SIDE_NONE), "a beach stands before a side of the domain"),
-               NEED(SURFACE, "there is no free surface, so no waves"))),
+          USED_BEACH),
     PARAM(P, beach_period, "s", "0.0", 0, 1e9, "of a beach: period of these waves; its rate at the side is 4 pi over it; 0 with kind = beach: that of the group waves",
-          USED(ONLY(kind, CLOSED, "an opening lets waves out by itself"),
-               WHERE(makes_none, "not kind = wave", "its zone is waves.zone long, of their period"),
-               ONLY(side, ~ONE(SIDE_NONE), "a beach stands before a side of the domain"),
-               NEED(SURFACE, "there is no free surface, so no waves"))),
+          USED_BEACH),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the wall along itself, of the inflow, or of the far field beyond an absorbing side",
           USED(ONLY(kind, ~ONE(WALL_OUTFLOW), "at an outflow the velocity is part of the solution"),
                ONLY(kind, ~ONE(WALL_SLIP), "a slip wall exerts no friction; no_slip does"),
@@ -149,25 +159,13 @@ static const struct param wall_rows[] = {
                WHERE(no_flow, "no level and no discharge", "a level or a discharge is given"),
                NEED(FV, "sph has no convective outflow"))),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "at an opening under a free surface: height of its water, against gravity; an inflow has it in the opening, an outflow far outside; by default of an outflow alone, as at the start",
-          USED(ONLY(kind, ONE(WALL_INFLOW) | ONE(WALL_OUTFLOW), "it is for an inflow or an outflow"),
-               WITHOUT(carried, "a convective outflow (carried) keeps the level of the start"),
-               WHERE(no_discharge, "no discharge", "a discharge is given, the level follows"),
-               NEED(SURFACE, "no water has a free surface"),
-               NEED(PROJECTED, "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2"))),
+          USED_LEVEL),
     PARAM(P, discharge, "m^3/s", "0.0", 0, 1e12, "of an opening under a free surface, whatever the level: in through an inflow, out through an outflow, uniform over its water; in 2D m^2/s",
-          USED(ONLY(kind, ONE(WALL_INFLOW) | ONE(WALL_OUTFLOW), "it is for an inflow or an outflow"),
-               WITHOUT(carried, "of a convective outflow (carried) it is part of the solution"),
-               NEED(SURFACE, "without a free surface the area of an opening is known: give the velocity"))),
+          USED_DISCHARGE),
     PARAM(P, level_file, "-", "\"\"", 0, 0, "level over time (a tide): file beside the case, rows of t (s) and level (m), linear between them",
-          USED(ONLY(kind, ONE(WALL_INFLOW) | ONE(WALL_OUTFLOW), "it is for an inflow or an outflow"),
-               WITHOUT(carried, "a convective outflow (carried) keeps the level of the start"),
-               WHERE(no_discharge, "no discharge", "a discharge is given, the level follows"),
-               NEED(SURFACE, "no water has a free surface"),
-               NEED(PROJECTED, "newton has no openings of given level: give it as initial.level, which an outflow has, or rk3 or bdf2"))),
+          USED_LEVEL),
     PARAM(P, discharge_file, "-", "\"\"", 0, 0, "discharge over time (a hydrograph): file beside the case, rows of t (s) and discharge, linear between them",
-          USED(ONLY(kind, ONE(WALL_INFLOW) | ONE(WALL_OUTFLOW), "it is for an inflow or an outflow"),
-               WITHOUT(carried, "of a convective outflow (carried) it is part of the solution"),
-               NEED(SURFACE, "without a free surface the area of an opening is known: give the velocity"))),
+          USED_DISCHARGE),
 };
 #undef P
 #define P struct scene_shape
@@ -204,15 +202,16 @@ static const struct param probe_rows[] = {
           USED(ONLY(kind, ~ONE(PROBE_DISCHARGE) & ~ONE(PROBE_SHORE), "a discharge and a shore are read at rest"))),
 };
 #undef P
+#define OWN_WAVES ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it")
 #define P struct scene_waves
 static const struct param waves_rows[] = {
     CHOICE(P, kind, "regular|sea|focused|file", "regular", "of steady form; with JONSWAP's spectrum and random phases; a group of that spectrum whose crests meet; those of waves.file"),
     PARAM(P, height,    "m", "0.0", 0, 1e6, "from trough to crest; sea: significant height; focused: twice the linear crest",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"))),
+          USED(OWN_WAVES)),
     PARAM(P, length,    "m", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or period",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"))),
+          USED(OWN_WAVES)),
     PARAM(P, period,    "s", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or length",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"))),
+          USED(OWN_WAVES)),
     PARAM(P, depth,     "m", "0.0", 0, 1e6, "of the still water where the waves are made; 0: from the shapes' level to the floor of the domain"),
     PARAM(P, direction, "-", "0.0", -360, 360, "degrees about the vertical in which they run; 0: along the first horizontal axis, +x; 90: along the second; 180: -x"),
     PARAM(P, at,        "-", "(0.0, 0.0)", -1e9, 1e9, "(m, s): place along the direction and time of a crest of a regular wave, of the focus of a group, of the beginning of a file",
@@ -222,18 +221,18 @@ static const struct param waves_rows[] = {
     PARAM(P, closed,    "-", "true", 0, 0, "they carry no water of their own, as between closed walls: the mean velocity below the troughs is less than the current by that; false: it is the current"),
     PARAM(P, zone,      "m", "0.0", 0, 1e9, "length of the zone before each side of kind wave or beach; 0: one wave length, 1.5 where the water is deep (kh > 2), for a sea 1.5 times its peak's"),
     PARAM(P, peak,      "-", "3.3", 1, 10, "JONSWAP's gamma: how sharp the peak of the spectrum is",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"),
+          USED(OWN_WAVES,
                ONLY(kind, ~ONE(WAVE_REGULAR), "regular waves have no spectrum"))),
     PARAM(P, repeat,    "s", "0.0", 0, 1e9, "after which a sea repeats itself; 0: 25, 50, 100, .. periods, what the run and 10 periods need: give it if the run may go on to a later end",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"),
+          USED(OWN_WAVES,
                ONLY(kind, ~ONE(WAVE_REGULAR), "regular waves repeat themselves every period"))),
     PARAM(P, spread,    "-", "0.0", 0, 200, "3D: of a sea's directions b about the mean, as cos^2s(b/2), one of each component, at most 75 degrees: 5 to 10 for wind seas, 25 to 75 for swell; 0: all of one direction",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"),
+          USED(OWN_WAVES,
                ONLY(kind, ONE(WAVE_SEA), "only a sea has several directions"),
                NEED(SPACE, "in 2D waves have one direction"),
                WHERE(any_maker, "a side of kind wave", "a paddle makes long crests: only sides of kind wave do not"))),
     PARAM(P, order,     "-", "2", 1, 2, "of a sea or a group that zones make: 2 with the waves that each pair of components binds (higher crests, flatter troughs, long waves under groups); 1: a sum of linear waves",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"),
+          USED(OWN_WAVES,
                ONLY(kind, ~ONE(WAVE_REGULAR), "regular waves are of steady form, exact"),
                WHERE(any_maker, "a side of kind wave", "a paddle makes the linear waves; a side of kind wave makes bound ones"),
                ONLY(evolve, ONE(EVOLVE_NO), "waves that evolve (waves.evolve) bind others of all orders by themselves"),
@@ -241,11 +240,11 @@ static const struct param waves_rows[] = {
     PARAM(P, file,      "-", "\"\"", 0, 0, "of kind file: waves of another program in the format Spectral Wave Data (.swd, shapes 1 and 2), beside the case; they have their height, length and depth",
           USED(ONLY(kind, ONE(WAVE_FILE), "only waves of kind file are read from one"))),
     CHOICE(P, evolve, "no|full|hos", "no", "a sea or a group that zones make evolves nonlinearly from eight periods before the run, over a periodic line (spread: plane) in potential flow; full: for all waves that do not break; hos: by orders in steepness, several times cheaper, up to a steepness of 0.3",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"),
+          USED(OWN_WAVES,
                ONLY(kind, ~ONE(WAVE_REGULAR), "regular waves keep their form"),
                WHERE(any_maker, "a side of kind wave", "a paddle makes the linear waves; what a side of kind wave makes evolves"))),
     PARAM(P, seed,      "-", "1", 0, 2000000000, "of the random phases of a sea",
-          USED(ONLY(kind, ~ONE(WAVE_FILE), "waves.file tells it"),
+          USED(OWN_WAVES,
                ONLY(kind, ONE(WAVE_SEA), "only the phases of a sea are random"))),
 };
 #undef P
