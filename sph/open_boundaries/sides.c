@@ -377,6 +377,15 @@ static void water_outside(void *ctx, double t, int n, const double *x, double *p
     side_levels_surface(d->s, d->levels, n, x, phi, gphi);
 }
 
+static void free_sides(struct zones *z)
+{
+    struct sides *d = z->ctx;
+    mem_free(d->table);
+    mem_free(d->planes);
+    side_levels_free(&d->levels);
+    mem_free(d);
+}
+
 void sides_create(struct sph *s, struct zones *z)
 {
     struct sides *d = NEW(struct sides, 1);
@@ -406,6 +415,7 @@ void sides_create(struct sph *s, struct zones *z)
     d->table = NEW(double, (size_t)BIN * d->bins);
     d->planes = NEW(struct side_plane, d->bins);
     z->ctx = d;
+    z->free_ctx = free_sides;
     z->eval = eval_sides;
     z->surface = d->levels ? water_outside : NULL;
     z->update = look_inside;
@@ -415,15 +425,6 @@ double sides_level(const struct sph *s, int side)
 {
     const struct sides *d = s->zones->ctx;
     return d->levels && d->of[side].is ? side_levels_level(d->levels, side) : NAN;
-}
-
-void sides_free(struct zones *z)
-{
-    struct sides *d = z->ctx;
-    mem_free(d->table);
-    mem_free(d->planes);
-    side_levels_free(&d->levels);
-    mem_free(d);
 }
 
 void sides_save(const struct sph *s, struct h5 *f)

@@ -9,9 +9,8 @@
 
 #include "zones.h"
 
-/* Installs this outer solution in z; sides_free frees it. */
+/* Installs this outer solution in z, which frees it. */
 void sides_create(struct sph *s, struct zones *z);
-void sides_free(struct zones *z);
 /* Level of the water outside a side under a free surface, m against gravity; NAN: there is none. */
 double sides_level(const struct sph *s, int side);
 void sides_save(const struct sph *s, struct h5 *f);

@@ -130,6 +130,13 @@ static void stream_surface(void *ctx, double t, int n, const double *x, double *
     }
 }
 
+static void free_stream(struct zones *z)
+{
+    struct wave_stream *w = z->ctx;
+    waves_free(&w->waves);
+    mem_free(w);
+}
+
 void wave_stream_create(struct sph *s, struct zones *z)
 {
     const struct scene *c = &s->run->scene;
@@ -148,16 +155,10 @@ void wave_stream_create(struct sph *s, struct zones *z)
         w->calm[side] = is && is->zone == ZONE_BEACH;
     }
     z->ctx = w;
+    z->free_ctx = free_stream;
     z->eval = wave_stream_eval;
     z->surface = stream_surface;
     z->gap = level_gap_create(s);
-}
-
-void wave_stream_free(struct zones *z)
-{
-    struct wave_stream *w = z->ctx;
-    waves_free(&w->waves);
-    mem_free(w);
 }
 
 double wave_stream_level(const struct sph *s, int side)

@@ -11,9 +11,8 @@
 /* Whether the case has such waves. */
 bool wave_stream_wanted(const struct run *r, const struct sph_params *prm);
 zones_eval wave_stream_eval; /* gradients by central differences */
-/* Installs this outer solution in z; wave_stream_free frees it. */
+/* Installs this outer solution in z, which frees it. */
 void wave_stream_create(struct sph *s, struct zones *z);
-void wave_stream_free(struct zones *z);
 /* Level of the water outside a side, m against gravity. */
 double wave_stream_level(const struct sph *s, int side);
 

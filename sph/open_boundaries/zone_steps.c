@@ -53,11 +53,14 @@ static void eval_exact(void *ctx, double t, int n, const double *x, double *u, d
     }
 }
 
+static void free_exact(struct zones *z) { mem_free(z->ctx); }
+
 static void use_exact(struct sph *s, struct zones *z)
 {
     struct exact *e = NEW(struct exact, 1);
     *e = exact_create(&s->run->scene);
     z->ctx = e;
+    z->free_ctx = free_exact;
     z->eval = eval_exact;
     if (!wave_outside_wanted(s->run, &s->prm))
         return;
@@ -103,12 +106,8 @@ void zones_free(struct zones **z)
     if (!*z)
         return;
     openings_free(&(*z)->openings);
-    if ((*z)->eval == eval_exact || (*z)->eval == wave_outside_eval)
-        mem_free((*z)->ctx);
-    else if ((*z)->update)
-        sides_free(*z);
-    else if ((*z)->eval == wave_stream_eval)
-        wave_stream_free(*z);
+    if ((*z)->free_ctx)
+        (*z)->free_ctx(*z);
     mem_free((*z)->who);
     mem_free((*z)->x);
     mem_free((*z)->u);

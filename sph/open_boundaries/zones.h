@@ -42,7 +42,8 @@ struct zones {
         *surface; /* of the outer solution, if it has a free surface; NULL: full of water */
     struct level_gap *gap;         /* level_gap.h; NULL without that surface */
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
-    void *ctx;                     /* borrowed */
+    void *ctx;                     /* of eval and surface */
+    void (*free_ctx)(struct zones *z); /* NULL: it is somebody else's */
     struct openings *openings;
     bool own_u[6], own_p[6]; /* by side: this half of the flow outside is taken from inside, so that
                                 blending leaves it alone */
