@@ -46,29 +46,18 @@ static struct wall_ends ends_of(const struct scene *c, const struct sph_params *
     return to;
 }
 
-static bool is_shut(const struct scene *c, const struct wall_ends *ends, double near,
-                    const double *x)
+int body_backs_first_open(const struct scene *c, const struct sph_params *used, int n,
+                          const double (*x)[2])
 {
     const double *lo = c->domain.min, *hi = c->domain.max;
-    return x[0] > lo[0] && x[1] > lo[1] && x[0] < hi[0] && x[1] < hi[1] &&
-           wall_cover_shuts(ends->n, (const double(*)[2][2])ends->x, lo, hi, near, x);
-}
-
-bool body_backs_shut_in(const struct scene *c, const struct sph_params *used, int k)
-{
-    const struct param_points *of = &c->bodies[k].points;
     struct wall_ends ends = ends_of(c, used);
-    bool shut = of->n > 0 && ends.n > 0;
-    for (int i = 0; i < of->n && shut; i++)
-        shut = is_shut(c, &ends, 0.1 * used->dx, of->x[i]);
+    int inside = 0;
+    while (inside < n && x[inside][0] > lo[0] && x[inside][1] > lo[1] && x[inside][0] < hi[0] &&
+           x[inside][1] < hi[1])
+        inside++;
+    const int open = ends.n == 0 ? 0
+                                 : wall_cover_first_open(ends.n, (const double(*)[2][2])ends.x, lo,
+                                                         hi, 0.1 * used->dx, inside, x);
     mem_free(ends.x);
-    return shut;
-}
-
-bool body_backs_hold(const struct scene *c, const struct sph_params *used, const double *x)
-{
-    struct wall_ends ends = ends_of(c, used);
-    const bool shut = ends.n > 0 && is_shut(c, &ends, 0.1 * used->dx, x);
-    mem_free(ends.x);
-    return shut;
+    return open;
 }

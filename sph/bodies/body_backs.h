@@ -5,9 +5,9 @@
 
 #include "../sph.h"
 
-/* Whether all corners of body k lie in rooms of the domain in which a wall shows its back. */
-bool body_backs_shut_in(const struct scene *c, const struct sph_params *used, int k);
-/* The same of a place inside the domain. */
-bool body_backs_hold(const struct scene *c, const struct sph_params *used, const double *x);
+/* Of n points x, m, the first that does not lie in a room of the domain in which a wall shows its
+ * back; n: all do. */
+int body_backs_first_open(const struct scene *c, const struct sph_params *used, int n,
+                          const double (*x)[2]);
 
 #endif

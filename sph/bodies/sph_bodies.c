@@ -216,7 +216,10 @@ static void check_backs(const struct run *r, const struct sph_params *used, cons
             const struct bound *next = nearest_wall(r, all, n, false, all[k].line.x[i], &shows);
             behind = next && !is_side(next) && shows;
         }
-        if (!behind && (all[k].line.n == 0 || !body_backs_shut_in(&r->scene, used, k)))
+        const struct param_points *of = &r->scene.bodies[k].points;
+        if (!behind &&
+            (all[k].line.n == 0 || of->n == 0 ||
+             body_backs_first_open(&r->scene, used, of->n, (const double(*)[2])of->x) < of->n))
             continue;
         const struct bound *at_back = nearest_wall(r, all, n, true, all[k].line.x[0], &shows);
         if (!at_back)

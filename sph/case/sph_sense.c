@@ -214,6 +214,8 @@ static bool cuts_channel(const struct scene *c, const struct sph_params *used, i
     for (int k = 0; k < c->nwalls; k++)
         if (c->walls[k].closed)
             return false;
+    double wet[PLACES][2];
+    int n = 0;
     for (int i = 0; i < PLACES; i++) {
         double least = INFINITY;
         x[a] = side % 2 ? hi[a] - 0.5 * used->dx : lo[a] + 0.5 * used->dx;
@@ -223,12 +225,15 @@ static bool cuts_channel(const struct scene *c, const struct sph_params *used, i
             const struct line l = line_of(&c->walls[k].points, false);
             least = l.n > 1 ? fmin(least, line_distance(&l, x)) : least;
         }
-        if (least > 1.5 * used->dx && scene_is_room(c, x) && !body_backs_hold(c, used, x)) {
-            x[a] = side % 2 ? hi[a] : lo[a];
-            return true;
-        }
+        if (least > 1.5 * used->dx && scene_is_room(c, x))
+            memcpy(wet[n++], x, sizeof wet[0]);
     }
-    return false;
+    const int open = n > 0 ? body_backs_first_open(c, used, n, (const double(*)[2])wet) : 0;
+    if (open == n)
+        return false;
+    memcpy(x, wet[open], sizeof wet[0]);
+    x[a] = side % 2 ? hi[a] : lo[a];
+    return true;
 }
 
 /* Fluid that fills the domain up to a side where nothing is. */

@@ -421,14 +421,18 @@ static int half_before(const struct cover_plane *p, const double *x)
     return half;
 }
 
-bool wall_cover_shuts(int n, const double (*ends)[2][2], const double *lo, const double *hi,
-                      double near, const double *x)
+int wall_cover_first_open(int n, const double (*ends)[2][2], const double *lo, const double *hi,
+                          double near, int npoints, const double (*x)[2])
 {
     struct cover_plane p = make_plane(n, ends, lo, hi, near);
+    int i = 0;
     cut_lines(&p);
     part_plane(&p);
-    const int half = half_before(&p, x);
-    const bool shut = half >= 0 && p.shut[p.face[half]];
+    for (; i < npoints; i++) {
+        const int half = half_before(&p, x[i]);
+        if (half < 0 || !p.shut[p.face[half]])
+            break;
+    }
     free_plane(&p);
-    return shut;
+    return i;
 }

@@ -22,9 +22,9 @@ struct wall_parts {
  * as joined. `part' of the result is owned by the caller (mem_free). */
 struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo, const double *hi,
                              double near);
-/* Whether the point x, inside the domain, lies in a room in which a wall shows its back: in what is
- * solid there. The rest as above. */
-bool wall_cover_shuts(int n, const double (*ends)[2][2], const double *lo, const double *hi,
-                      double near, const double *x);
+/* Of npoints x, all inside the domain, the first that does not lie in a room in which a wall shows
+ * its back, in what is solid there; npoints: all do. The rest as above. */
+int wall_cover_first_open(int n, const double (*ends)[2][2], const double *lo, const double *hi,
+                          double near, int npoints, const double (*x)[2]);
 
 #endif

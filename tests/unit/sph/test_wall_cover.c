@@ -170,7 +170,7 @@ static void rooms_behind_beaches_are_shut(void **state)
         const double over = x[1] - top * (x[0] - foot) / (2.0 - foot);
         if (fabs(over) > 0.01)
             assert_int_equal(
-                wall_cover_shuts(t.n, (const double(*)[2][2])t.ends, t.lo, t.hi, near, x),
+                wall_cover_first_open(t.n, (const double(*)[2][2])t.ends, t.lo, t.hi, near, 1, &x),
                 over < 0.0);
     }
 }
