@@ -12,19 +12,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../common/base/log.h"
-#include "../common/base/mem.h"
-#include "../common/base/timer.h"
-#include "../common/run/accept.h"
-#include "transport/alive.h"
-#include "transport/failure.h"
+#include "../common/base/base.h"
+#include "../common/run/run.h"
+#include "transport/transport.h"
 
 /* how often a waiting process looks after its partners; after how long without an end of a coupling
  * step the user is told, twice as long each time */
 static const double look_every = 0.05, stall_first = 60.0; /* s */
 static const char help[] = "couples the solvers of a job: fields, coupling steps, restart points";
 
-static _Noreturn void broken(const char *what) { fail("%s", what); }
+static _Noreturn void broken(const char *what) { abort_run("%s", what); }
 static void leave_note(const char *reason) { (void)failure_note(reason); }
 
 /* --- waiting --- */
@@ -122,7 +119,7 @@ static bool meet(struct coupler *c, const struct faults *f)
     for (int n = 0; n < c->nsolvers; n++) {
         m = await(c, -1);
         if (m->head.kind != WIRE_MEET || m->peer >= c->nsolvers || c->solver[m->peer].met)
-            fail("message %d during the handshake", m->head.kind);
+            abort_run("message %d during the handshake", m->head.kind);
         plan_take_meet(c, &c->solver[m->peer], m);
         message_free(&m);
     }
@@ -157,7 +154,7 @@ static bool plan(struct coupler *c)
         struct message *m = await(c, c->rank == 0 ? -1 : c->own_peer);
         const int who = c->rank == 0 ? m->peer : m->head.field;
         if (m->head.kind != WIRE_READY || who >= c->nsolvers || c->solver[who].ready)
-            fail("message %d while the plan is made", m->head.kind);
+            abort_run("message %d while the plan is made", m->head.kind);
         if (c->rank == 0)
             forward(c, m);
         c->solver[who].restart_window = m->head.tick;
@@ -182,7 +179,7 @@ static bool plan(struct coupler *c)
 static void take_bye(struct coupler *c, struct solver *s, struct message *m)
 {
     if (c->rank == 0 && c->action != CPL_STOP)
-        fail("%s left in coupling step %lld, before the end", s->name, (long long)c->window);
+        abort_run("%s left in coupling step %lld, before the end", s->name, (long long)c->window);
     const int code = (int)take_int(&c->wire, m);
     const double waited = take_real(&c->wire, m);
     s->code = code > s->code ? code : s->code;
@@ -202,7 +199,7 @@ static void answer(struct coupler *c, struct message **m)
     struct solver *s = &c->solver[(*m)->peer];
     char text[TEXT] = "";
     if ((*m)->peer >= c->nsolvers)
-        fail("message %d from the coupler to itself", (*m)->head.kind);
+        abort_run("message %d from the coupler to itself", (*m)->head.kind);
     switch ((*m)->head.kind) {
     case WIRE_GET:
         rendezvous_get(c, s, *m);
@@ -220,7 +217,7 @@ static void answer(struct coupler *c, struct message **m)
         take_bye(c, s, *m);
         break;
     default:
-        fail("%s rank %d sent message %d out of order", s->name, (*m)->rank, (*m)->head.kind);
+        abort_run("%s rank %d sent message %d out of order", s->name, (*m)->rank, (*m)->head.kind);
     }
     if ((c->rank == 0 && rendezvous_starved(c, text)) || rendezvous_skipped(c, text)) {
         log_quiet("%s", text);

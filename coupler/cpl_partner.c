@@ -5,10 +5,10 @@
 
 #include <stdio.h>
 
-#include "../common/base/log.h"
+#include "../common/base/base.h"
 #include "client/cpl_client.h"
 #include "cpl.h"
-#include "transport/failure.h"
+#include "transport/transport.h"
 
 static void must(struct cpl *c, int code)
 {

@@ -8,9 +8,8 @@
 #include <stdint.h>
 
 #include "../common/run/run.h"
-#include "../common/scene/exact.h"
-#include "grid/grid.h"
-#include "grid/mesh_blocks.h"
+#include "../common/scene/scene.h"
+#include "grid/fv_grid.h"
 
 enum { PARTNERS_MAX = PARAM_PROGRAMS_MAX };
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };

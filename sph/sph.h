@@ -10,9 +10,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "../common/base/fit.h"
+#include "../common/base/base.h"
 #include "../common/run/run.h"
-#include "../common/scene/scene_reference.h"
+#include "../common/scene/scene.h"
 #include "particles/particles.h"
 #include "sph_parameters.h"
 #include "watch/sph_watch.h"

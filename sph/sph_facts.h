@@ -3,7 +3,7 @@
 #ifndef SPH_FACTS_H
 #define SPH_FACTS_H
 
-#include "../common/scene/scene_facts.h"
+#include "../common/scene/scene.h"
 
 enum sph_fact {
     FACT_RIEMANN = FACTS_OF_PROGRAM,

@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-#include "../common/scene/scene_speed.h"
+#include "../common/scene/scene.h"
 
 /* Riemann-ALE: Vila [2.86-2.89]. Riemann, no mass flux: Leduc [2.96-2.99]. Delta-SPH: Antuono
  * [2.60-2.63]. Standard: [2.47-2.50] with the artificial viscosity [2.58-2.59]. */

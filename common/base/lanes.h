@@ -6,23 +6,23 @@
 
 #include <stdint.h>
 
-enum { LANES = 8 };
+enum { SUM_LANES = 8 };
 
 /* fmin and fmax are calls, for the sake of what is no number. */
 static inline double lesser(double a, double b) { return a < b ? a : b; }
 static inline double greater(double a, double b) { return a > b ? a : b; }
 
-static inline double lanes_sum(const double p[LANES])
+static inline double lanes_sum(const double p[SUM_LANES])
 {
     return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
 }
 
-/* Of short lists whose lengths are multiples of LANES, as in lanes_bounds. */
+/* Of short lists whose lengths are multiples of SUM_LANES, as in lanes_bounds. */
 static inline double lanes_dot(const double *restrict a, const double *restrict b, int n)
 {
-    double part[LANES] = {0.0};
-    for (int k = 0; k < n; k += LANES)
-        for (int m = 0; m < LANES; m++)
+    double part[SUM_LANES] = {0.0};
+    for (int k = 0; k < n; k += SUM_LANES)
+        for (int m = 0; m < SUM_LANES; m++)
             part[m] += a[k + m] * b[k + m];
     return lanes_sum(part);
 }
@@ -30,10 +30,10 @@ static inline double lanes_dot(const double *restrict a, const double *restrict 
 /* The same of any length. */
 static inline double lanes_dot_any(const double *restrict a, const double *restrict b, int64_t n)
 {
-    double part[LANES] = {0.0};
+    double part[SUM_LANES] = {0.0};
     int64_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (int m = 0; m < LANES; m++)
+    for (; i + SUM_LANES <= n; i += SUM_LANES)
+        for (int m = 0; m < SUM_LANES; m++)
             part[m] += a[i + m] * b[i + m];
     for (; i < n; i++)
         part[0] += a[i] * b[i];
@@ -43,17 +43,17 @@ static inline double lanes_dot_any(const double *restrict a, const double *restr
 /* Least and largest of a; n > 0. */
 static inline void lanes_bounds(const double *restrict a, int n, double *low, double *high)
 {
-    double l[LANES], h[LANES];
-    for (int m = 0; m < LANES; m++)
+    double l[SUM_LANES], h[SUM_LANES];
+    for (int m = 0; m < SUM_LANES; m++)
         l[m] = h[m] = a[m];
-    for (int k = LANES; k < n; k += LANES)
-        for (int m = 0; m < LANES; m++) {
+    for (int k = SUM_LANES; k < n; k += SUM_LANES)
+        for (int m = 0; m < SUM_LANES; m++) {
             l[m] = a[k + m] < l[m] ? a[k + m] : l[m];
             h[m] = a[k + m] > h[m] ? a[k + m] : h[m];
         }
     *low = l[0];
     *high = h[0];
-    for (int m = 1; m < LANES; m++) {
+    for (int m = 1; m < SUM_LANES; m++) {
         *low = l[m] < *low ? l[m] : *low;
         *high = h[m] > *high ? h[m] : *high;
     }

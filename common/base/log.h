@@ -1,5 +1,5 @@
 /* log.h - what a program prints: to the terminal and to its log file, always in whole lines. Rank 0
- * of the program prints; the calls are legal on all ranks and silent on the others. fail(),
+ * of the program prints; the calls are legal on all ranks and silent on the others. abort_run(),
  * fail_with() and log_here() print from any rank. None of the calls communicates.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_LOG_H
@@ -38,13 +38,13 @@ void log_here(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 /* An error of the code or of a library, not of the user: prints program, rank, reason (at most 2047
  * bytes), file and line, calls fail_hook and ends all programs of the world with exit code 1 by
  * MPI_Abort (a lone process simply exits). Does not return. */
-#define fail(...) fail_at(__FILE__, __LINE__, __VA_ARGS__)
-/* Ends the run through fail() if cond does not hold; stands in release builds, too. */
-#define require(cond) ((cond) ? (void)0 : fail("required: %s", #cond))
+#define abort_run(...) fail_at(__FILE__, __LINE__, __VA_ARGS__)
+/* Ends the run through abort_run() if cond does not hold; stands in release builds, too. */
+#define require(cond) ((cond) ? (void)0 : abort_run("required: %s", #cond))
 _Noreturn void fail_at(const char *file, int line, const char *fmt, ...)
     __attribute__((format(printf, 3, 4)));
-/* As fail(), with the caller's exit code (exit.h) and without file and line: for reasons that lie
- * outside of the code, such as a full disk. The reason is one sentence. */
+/* As abort_run(), with the caller's exit code (exit.h) and without file and line: for reasons that
+ * lie outside of the code, such as a full disk. The reason is one sentence. */
 _Noreturn void fail_with(int code, const char *fmt, ...) __attribute__((format(printf, 2, 3)));
 /* Called with the reason before the run is aborted: it writes the failure report of a coupled job
  * and must not fail itself. NULL: nothing is called. */

@@ -6,7 +6,7 @@
 
 #include <mpi.h>
 
-/* More names than this end the run through fail(). */
+/* More names than this end the run through abort_run(). */
 enum { TIMER_MAX = 48 };
 /* All timers of a program; zeroed memory is a valid start. */
 struct timers {

@@ -13,9 +13,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include "../base/exit.h"
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { CHUNK = 1 << 20, WORDS = 2, SPARE = 1 << 16 /* bytes: what the library adds */ };
 static const uint64_t MARK = 0x314c414553545345u; /* "ESTSEAL1" */

@@ -12,8 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "disk.h"
 
 struct h5 {
@@ -33,7 +32,7 @@ struct h5 {
                 errno = EIO; /* the library keeps the system's to itself */                        \
                 disk_failed(f->part);                                                              \
             }                                                                                      \
-            fail("HDF5: %s failed on %s", #call, f->path);                                         \
+            abort_run("HDF5: %s failed on %s", #call, f->path);                                    \
         }                                                                                          \
     } while (0)
 

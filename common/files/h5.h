@@ -2,9 +2,8 @@
  * h5_path and h5_ranks are collective over the communicator of h5_create or h5_open, whose ranks
  * each hold a contiguous range of a dataset's records (its first index), in order of rank. A
  * failure inside the library ends the run: of a write as a fault of the disk (disk_failed), of a
- * read through fail(). Readers return false or NULL, on all ranks alike, where name or shape do not
- * fit.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * read through abort_run(). Readers return false or NULL, on all ranks alike, where name or shape
+ * do not fit. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_H5_H
 #define COMMON_H5_H
 

@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "disk.h"
 
 struct series {
@@ -47,7 +46,7 @@ static void require_names(int n, const char *const *columns)
     for (int k = 0; k < n; k++)
         for (int i = 0; i < k; i++)
             if (strcmp(columns[i], columns[k]) == 0)
-                fail("series.csv has two columns `%s'", columns[k]);
+                abort_run("series.csv has two columns `%s'", columns[k]);
 }
 
 /* With `keep', but no file of an earlier run, a new one begins. */

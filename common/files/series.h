@@ -10,9 +10,9 @@
 /* an open series.csv: made by series_create, freed by series_free */
 struct series;
 /* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; two of the
- * same name end the run through fail(). keep: append to an existing file, without its rows later
- * than t_restart, s, and without a last row that is cut short. path NULL: nothing is written. A
- * file that cannot be written ends the run (disk_failed). */
+ * same name end the run through abort_run(). keep: append to an existing file, without its rows
+ * later than t_restart, s, and without a last row that is cut short. path NULL: nothing is written.
+ * A file that cannot be written ends the run (disk_failed). */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart);
 /* Writes one row, values[ncolumns] with 12 digits, flushed at once. */

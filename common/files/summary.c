@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "disk.h"
 
 /* A key with its value: a number, or anything else as finished JSON text. */

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 static int count_fields(const char *line)
 {

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "disk.h"
 
 static const char head[] =

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "../base/vec3.h"
+#include "../base/base.h"
 
 /* to = Q v; `to' may be v. */
 static inline void turn3(double Q[3][3], const double *v, double *to)

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { PARTS = 64 }; /* chords of a curve, before corners are left out */
 

@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 
 enum { LEAF = 4, DEPTH = 96 };
 

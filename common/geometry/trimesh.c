@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 
 void trimesh_free(struct trimesh *m)
 {

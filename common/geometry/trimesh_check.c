@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 
 /* --- crossings --- */
 

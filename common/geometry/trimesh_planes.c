@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 
 /* Against the first of its plane, so that a fine round surface is none. */
 static bool is_level(const struct trimesh *m, int triangle, const double *n)

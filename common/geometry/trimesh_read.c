@@ -14,7 +14,7 @@
 #include <assimp/scene.h>
 #endif
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 /* Known endings: what else assimp reads has moving parts, units and hierarchies. */
 static bool is_known(const char *path)

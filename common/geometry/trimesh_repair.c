@@ -7,8 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 #include "trimesh.h"
 
 /* --- weld --- */

@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 #include "trimesh.h"
 
 static void reserve(struct trimesh *m, int vertices, int triangles)

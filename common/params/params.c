@@ -1,6 +1,6 @@
 /* params.c - reads a case through the parameter table: rank 0 parses, all ranks get the bytes.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "params.h"
+#include "parameter_table.h"
 
 #include <ctype.h>
 #include <libconfig.h>
@@ -10,8 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "params_hints.h"
 #include "params_let.h"
 #include "params_override.h"

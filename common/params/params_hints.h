@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#include "params.h"
+#include "parameter_table.h"
 
 /* Bytes of a row's member, by its type. */
 size_t param_size(const struct param *r);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "params_hints.h"
 #include "params_value.h"
 

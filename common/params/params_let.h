@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "params.h"
+#include "parameter_table.h"
 #include "params_override.h"
 
 struct let; /* the variables of a case: made by let_read, freed by let_free */

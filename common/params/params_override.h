@@ -6,7 +6,7 @@
 
 #include <libconfig.h>
 
-#include "params.h"
+#include "parameter_table.h"
 
 /* One -p of the command line, taken apart. */
 struct override {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/log.h"
+#include "../base/base.h"
 
 /* What a walk over the rows of a group, or of a list in one, carries along. */
 struct walk {
@@ -23,7 +23,7 @@ static const struct param *row_of(const struct param *rows, int nrows, const cha
         if (strcmp(rows[k].key, key) == 0)
             return rows + k;
     if (key)
-        fail("a condition names the key %s, which its group has not", key);
+        abort_run("a condition names the key %s, which its group has not", key);
     return NULL;
 }
 

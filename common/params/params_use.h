@@ -4,7 +4,7 @@
 #ifndef COMMON_PARAMS_USE_H
 #define COMMON_PARAMS_USE_H
 
-#include "params.h"
+#include "parameter_table.h"
 
 /* A condition of a row, which all of its conditions must meet. It holds if any of its three parts
  * does: a fact of the run, another key of the same group, a test. Conditions are written with the

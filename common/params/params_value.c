@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/log.h"
+#include "../base/base.h"
 #include "params_hints.h"
 #include "params_let.h"
 
@@ -317,11 +317,11 @@ void param_default(const struct param_group *g, const struct param *r, void *tar
     const bool text = r->type == PARAM_CHOICE || r->type == PARAM_TEXT;
     snprintf(line, sizeof line, text ? "value = \"%s\";" : "value = %s;", r->dflt);
     if (config_read_string(&c, line) != CONFIG_TRUE)
-        fail("default of %s.%s is not a value: %s", g->name, r->key, r->dflt);
+        abort_run("default of %s.%s is not a value: %s", g->name, r->key, r->dflt);
     struct param any = *r; /* a default may lie outside the range: "not given" */
     any.min = -INFINITY;
     any.max = INFINITY;
     if (!param_read(&any, config_lookup(&c, "value"), target, why, sizeof why))
-        fail("default of %s.%s: %s", g->name, r->key, why);
+        abort_run("default of %s.%s: %s", g->name, r->key, why);
     config_destroy(&c);
 }

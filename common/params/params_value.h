@@ -6,7 +6,7 @@
 #include <libconfig.h>
 #include <stdbool.h>
 
-#include "params.h"
+#include "parameter_table.h"
 
 /* Sets *v to a number of any kind, or to the value of a text that is an expression (params_let.h);
  * false: the setting is neither. */
@@ -17,7 +17,7 @@ bool param_read(const struct param *r, const config_setting_t *s, void *target, 
                 size_t size);
 /* Sets the member to the row's default, without a check of the range, and all elements of a list to
  * theirs; a row without default leaves the member alone. A default that cannot be read is an error
- * of the code, fail(). */
+ * of the code, abort_run(). */
 void param_default(const struct param_group *g, const struct param *r, void *target);
 /* The same for element k (from 0) of a list of groups: `#' at the end of a text becomes the number
  * k + 1, or nothing in the first element. */

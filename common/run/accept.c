@@ -10,11 +10,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../files/series.h"
-#include "../files/table.h"
-#include "../params/params_hints.h"
+#include "../base/base.h"
+#include "../files/files.h"
+#include "../params/params.h"
 
 static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};
 

@@ -10,11 +10,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../base/version.h"
-#include "../params/params_hints.h"
-#include "run.h"
+#include "../base/base.h"
+#include "../params/params.h"
+#include "program.h"
 
 static const struct option options[] = {{"help", optional_argument, NULL, 'h'},
                                         {"version", no_argument, NULL, 'V'},

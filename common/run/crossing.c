@@ -9,8 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../scene/scene_fluid.h"
-#include "../scene/scene_probe.h"
+#include "../scene/scene.h"
 
 bool crossing_box(const struct run *r, const char *group, double box[2][3])
 {

@@ -4,7 +4,7 @@
 #ifndef COMMON_CROSSING_H
 #define COMMON_CROSSING_H
 
-#include "run.h"
+#include "program.h"
 
 /* Sets box = lower and upper corner, m, of a group of particles ("sph"): its key box, or else free.
  * false: it has neither, box is untouched. Collective over r->comm. */

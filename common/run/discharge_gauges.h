@@ -4,9 +4,9 @@
 #ifndef COMMON_DISCHARGE_GAUGES_H
 #define COMMON_DISCHARGE_GAUGES_H
 
-#include "../files/series.h"
+#include "../files/files.h"
 #include "../scene/scene.h"
-#include "run.h"
+#include "program.h"
 
 /* Integrates the columns of the series at `path' in time, linear between rows, and reports to log
  * and summary: discharge.NAME.volume (net), .forward, .back (m^dim, both positive) and .largest

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../base/log.h"
+#include "../base/base.h"
 
 /* bench.txt in the folder of this program; NULL: there is none. */
 static FILE *open_figures(void)

@@ -4,7 +4,7 @@
  * loop, alone or by coupling steps, and the end with summary and criteria. Functions act on all
  * ranks alike; a branch that not all would take is made common first.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "run.h"
+#include "program.h"
 
 #include <hdf5.h>
 #include <math.h>
@@ -12,22 +12,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../base/version.h"
-#include "../files/disk.h"
-#include "../files/h5.h"
-#include "../files/xdmf.h"
-#include "../scene/picture.h"
-#include "../scene/scene_currents.h"
-#include "../scene/scene_fluid.h"
-#include "../scene/scene_mesh.h"
-#include "../scene/scene_openings.h"
-#include "../scene/scene_outlines.h"
-#include "../scene/scene_wave_file.h"
-#include "../scene/scene_waves.h"
-#include "../scene/wave_maker.h"
-#include "../scene/wave_picture.h"
+#include "../base/base.h"
+#include "../files/files.h"
+#include "../scene/scene.h"
 #include "accept.h"
 #include "crossing.h"
 #include "discharge_gauges.h"
@@ -470,7 +457,7 @@ static void report_progress(const struct life *l, struct summary *s)
 
 /* The coupler says from when to when each coupling step goes and whether an output or a restart
  * file follows; the program takes as many steps of its own as it needs, and gives its report. After
- * a divergence the summary is written first: fail() of the partner does not return. */
+ * a divergence the summary is written first: abort_run() of the partner does not return. */
 static int loop_coupled(struct life *l)
 {
     struct run *r = &l->r;
@@ -487,7 +474,7 @@ static int loop_coupled(struct life *l)
                 diverged(l);
                 summarise(l);
                 write_summary(l);
-                (c->fail)(r->partner_ctx, RUN_DIVERGED, l->d.reason);
+                c->fail(r->partner_ctx, RUN_DIVERGED, l->d.reason);
             }
         if (l->p->window_end)
             l->p->window_end(l->s, t1);
@@ -605,7 +592,7 @@ static int run_state(struct life *l, struct h5 *restart)
 {
     struct run *r = &l->r;
     if (restart && !files_read_clock(&l->files, restart))
-        fail("the restart file has no time");
+        abort_run("the restart file has no time");
     r->restart = restart != NULL;
     l->s = l->p->create(r, restart);
     l->files.state = l->s;
@@ -614,8 +601,8 @@ static int run_state(struct life *l, struct h5 *restart)
     h5_close(&restart);
     if (!l->s) {
         if (r->coupled)
-            (r->partner->fail)(r->partner_ctx, RUN_INPUT,
-                               r->restart ? "the restart file does not fit" : "nothing to compute");
+            r->partner->fail(r->partner_ctx, RUN_INPUT,
+                             r->restart ? "the restart file does not fit" : "nothing to compute");
         return RUN_INPUT;
     }
     if (!r->coupled)

@@ -15,12 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../base/version.h"
-#include "../files/disk.h"
-#include "../files/h5.h"
-#include "../files/xdmf.h"
+#include "../base/base.h"
+#include "../files/files.h"
 
 void files_path(const struct run *r, const char *what, char *path, size_t size)
 {

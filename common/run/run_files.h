@@ -4,7 +4,7 @@
 #ifndef COMMON_RUN_FILES_H
 #define COMMON_RUN_FILES_H
 
-#include "run.h"
+#include "program.h"
 
 /* What is needed to write the files of a run. Pointers are borrowed from run.c. */
 struct run_files {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "run.h"
+#include "program.h"
 #include "run_files.h"
 
 static const char begin[] = "# paraview --script=view.py\n"

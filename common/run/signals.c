@@ -15,8 +15,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "../base/log.h"
-#include "run.h"
+#include "../base/base.h"
+#include "program.h"
 
 enum { START = 120 }; /* s */
 
@@ -217,9 +217,9 @@ static void install_stop(int signal)
     sigaction(signal, &a, NULL);
 }
 
-/* For the time of the run; fail() leaves a note as well. Handlers of faults are taken back at their
- * first call (SA_RESETHAND), so that raise() then ends the process as the fault would have, with
- * its core file. SA_RESTART: writes that a signal interrupts go on. */
+/* For the time of the run; abort_run() leaves a note as well. Handlers of faults are taken back at
+ * their first call (SA_RESETHAND), so that raise() then ends the process as the fault would have,
+ * with its core file. SA_RESTART: writes that a signal interrupts go on. */
 void signals_install(const char *program, int rank)
 {
     snprintf(state.who, sizeof state.who, "%s rank %d", program, rank);

@@ -4,8 +4,8 @@
 #ifndef COMMON_SOLIDS_H
 #define COMMON_SOLIDS_H
 
-#include "../scene/scene_mesh.h"
-#include "run.h"
+#include "../scene/scene.h"
+#include "program.h"
 
 /* Whether body or wall k (owner says which) lies wholly in the box of another program of this kind
  * at the start. Sides of the domain belong to every program. Collective over r->comm. */

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/log.h"
-#include "../files/series.h"
-#include "run.h"
+#include "../base/base.h"
+#include "../files/files.h"
+#include "program.h"
 
 bool watch_judge(struct watch *w, double value, double t, int64_t step, struct diagnosis *d)
 {

@@ -9,15 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../base/vec3.h"
-#include "../files/table.h"
-#include "../scene/scene_fluid.h"
-#include "../scene/scene_waves.h"
-#include "../waves/reflection.h"
-#include "../waves/sea.h"
-#include "../waves/wave_statistics.h"
+#include "../base/base.h"
+#include "../files/files.h"
+#include "../scene/scene.h"
+#include "../waves/waves.h"
 
 /* The probes of a group by name; -1: a name is none; their number. The list is cut at blanks and
  * commas. */

@@ -4,7 +4,7 @@
 #ifndef COMMON_WAVE_GAUGES_H
 #define COMMON_WAVE_GAUGES_H
 
-#include "../files/series.h"
+#include "../files/files.h"
 #include "../scene/scene.h"
 
 /* Adds a fault for names that are no level gauges, groups of fewer than two, gauges that move with

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../geometry/body_math.h"
+#include "../geometry/geometry.h"
 
 static double file_step(const struct body_term *b, int columns);
 
@@ -244,8 +244,6 @@ double body_drive_speed(const struct body_drive *v, double reach, double end)
 #define PERIOD_STEPS 40.0 /* the phase of a step is 9 degrees */
 #define COURSE_STEPS 20.0 /* of a polynomial that ends, of a ramp */
 #define LARGEST_TURN 0.1  /* rad a step */
-
-static double lesser(double a, double b) { return a < b ? a : b; }
 
 /* Files tell no period: 1/omega is taken as the largest rate over the largest second rate of a
  * column, but no step is shorter than their rows are apart. */

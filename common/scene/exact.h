@@ -13,11 +13,9 @@
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 
-#include "../files/series.h"
-#include "../waves/steady.h"
-#include "../waves/stokes.h"
-#include "../waves/wave.h"
-#include "scene.h"
+#include "../files/files.h"
+#include "../waves/waves.h"
+#include "scene_groups.h"
 
 struct exact {
     int dim;

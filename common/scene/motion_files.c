@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "../params/params.h"
 
 enum { COLUMNS_MAX = 8 };

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../files/disk.h"
+#include "../base/base.h"
+#include "../files/files.h"
 #include "picture_section.h"
 #include "scene_probe.h"
 #include "scene_waves.h"

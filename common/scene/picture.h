@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 #include "../params/params.h"
-#include "scene.h"
+#include "scene_groups.h"
 
 /* an open picture: made by picture_create, written and freed by picture_close */
 struct picture;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "../base/vec3.h"
+#include "../base/base.h"
 
 double picture_water_middle(const struct scene *s, int axis)
 {

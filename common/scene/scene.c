@@ -1,6 +1,6 @@
 /* scene.c - the table of the groups that every program reads. SPDX-License-Identifier: BSD-3-Clause
  */
-#include "scene.h"
+#include "scene_groups.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #ifndef COMMON_SCENE_CHECK_H
 #define COMMON_SCENE_CHECK_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Faults of a motion that is not a body's, list.[k].motion in the case: it makes no waves. */
 void scene_check_motion(const struct scene_motions *all, const char *list, int k,

@@ -4,9 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"
 #include "wave_maker.h"

@@ -9,7 +9,7 @@
 
 #include "../waves/waves.h"
 #include "motion_files.h"
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Whether water goes through the sides behind zones. */
 bool scene_currents_flow(const struct scene *s);

@@ -4,8 +4,8 @@
 #ifndef COMMON_SCENE_FACTS_H
 #define COMMON_SCENE_FACTS_H
 
-#include "../params/params_use.h"
-#include "scene.h"
+#include "../params/params.h"
+#include "scene_groups.h"
 
 enum scene_fact {
     FACT_SPH,        /* particles, maybe of a partner */

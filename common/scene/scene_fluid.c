@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/log.h"
+#include "../base/base.h"
 #include "scene_geometry.h"
 #include "scene_mesh.h"
 

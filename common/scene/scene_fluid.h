@@ -5,7 +5,7 @@
 #define COMMON_SCENE_FLUID_H
 
 #include "exact.h"
-#include "scene.h"
+#include "scene_groups.h"
 
 /* The part of gravity that a hydrostatic pressure balances, m/s^2: without that along periodic
  * axes, which drives a flow instead. Returns its magnitude. */

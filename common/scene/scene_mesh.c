@@ -5,9 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../files/series.h"
+#include "../base/base.h"
+#include "../files/files.h"
 #include "exact.h"
 #include "scene_fluid.h"
 

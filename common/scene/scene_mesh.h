@@ -4,8 +4,8 @@
 #ifndef COMMON_SCENE_MESH_H
 #define COMMON_SCENE_MESH_H
 
-#include "../geometry/trimesh_check.h"
-#include "scene.h"
+#include "../geometry/geometry.h"
+#include "scene_groups.h"
 
 struct summary;
 

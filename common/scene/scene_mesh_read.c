@@ -5,9 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
-#include "../geometry/trimesh_read.h"
+#include "../base/base.h"
+#include "../geometry/geometry.h"
 #include "exact.h"
 #include "scene_fluid.h"
 #include "scene_mesh.h"

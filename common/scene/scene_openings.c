@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/log.h"
+#include "../base/base.h"
 #include "scene_fluid.h"
 #include "scene_speed.h"
 

@@ -8,7 +8,7 @@
 
 #include "exact.h"
 #include "motion_files.h"
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Reads the files of all walls, which `files' owns, and sets has_level and has_discharge of each
  * wall. */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/mem.h"
-#include "../geometry/outline.h"
+#include "../base/base.h"
+#include "../geometry/geometry.h"
 
 /* Corners as scene_surface places them. */
 static void place(const struct scene_surface *is, const struct outline *o, struct param_points *to)

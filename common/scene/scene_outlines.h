@@ -3,7 +3,7 @@
 #ifndef COMMON_SCENE_OUTLINES_H
 #define COMMON_SCENE_OUTLINES_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Reads the files, which stand beside the case in dir, scales, rotates and shifts their corners and
  * makes them the points of their owner. Faults go to f. Before scene_check; call on all ranks

@@ -4,7 +4,7 @@
 #ifndef COMMON_SCENE_PROBE_H
 #define COMMON_SCENE_PROBE_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Whether a gauge measures at one point: pressure or velocity. */
 bool probe_is_point(const struct scene_probe *g);

@@ -6,7 +6,7 @@
 #ifndef COMMON_SCENE_REFERENCE_H
 #define COMMON_SCENE_REFERENCE_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* The reference: p at the origin, Pa, and its gradient, Pa/m. */
 struct scene_reference {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/log.h"
+#include "../base/base.h"
 #include "scene_check.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"

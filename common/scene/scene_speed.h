@@ -4,7 +4,7 @@
 #ifndef COMMON_SCENE_SPEED_H
 #define COMMON_SCENE_SPEED_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* The estimate, and which part of the scene it comes from. */
 struct scene_speed {

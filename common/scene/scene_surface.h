@@ -4,7 +4,7 @@
 #ifndef COMMON_SCENE_SURFACE_H
 #define COMMON_SCENE_SURFACE_H
 
-#include "../params/params_use.h"
+#include "../params/params.h"
 
 /* The values of these keys. Files stand beside the case; scale, rotation and shift are applied in
  * this order, about the origin. */

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "../waves/wave_file.h"
+#include "../waves/waves.h"
 #include "scene_waves.h"
 #include "wave_maker.h"
 

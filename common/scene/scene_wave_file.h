@@ -3,7 +3,7 @@
 #ifndef COMMON_SCENE_WAVE_FILE_H
 #define COMMON_SCENE_WAVE_FILE_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* For waves of kind file: finds the file beside the case in dir, sets waves.path and the waves'
  * height and length. Faults go to f. Before scene_check; call on all ranks alike. */

@@ -4,13 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../base/vec3.h"
-#include "../waves/sea.h"
-#include "../waves/second_order.h"
-#include "../waves/wave_field.h"
-#include "../waves/zone_gain.h"
+#include "../base/base.h"
+#include "../waves/waves.h"
 #include "scene_currents.h"
 #include "scene_fluid.h"
 #include "wave_maker.h"

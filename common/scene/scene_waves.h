@@ -11,7 +11,7 @@
 #define COMMON_SCENE_WAVES_H
 
 #include "../waves/waves.h"
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Turns sides of kinds wave and beach into slip walls with a zone; before scene_check. */
 void scene_waves_mark(struct scene *s);

@@ -4,8 +4,7 @@
 #include <complex.h>
 #include <math.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
+#include "../base/base.h"
 #include "../waves/waves.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"

@@ -13,7 +13,7 @@
 #ifndef COMMON_WAVE_ABSORBER_H
 #define COMMON_WAVE_ABSORBER_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 struct waves;
 

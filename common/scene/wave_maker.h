@@ -12,7 +12,7 @@
 #define COMMON_WAVE_MAKER_H
 
 #include "motion_files.h"
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Whether some body makes waves. */
 bool scene_has_wave_maker(const struct scene *s);

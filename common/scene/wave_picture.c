@@ -4,11 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
-#include "../files/disk.h"
-#include "../waves/sea.h"
-#include "../waves/wave_field.h"
+#include "../base/base.h"
+#include "../files/files.h"
+#include "../waves/waves.h"
 #include "scene_waves.h"
 
 enum { WIDTH = 900, LEFT = 70, GAP = 60, UPPER = 220, LOWER = 260, POINTS = 800, TICKS = 5 };

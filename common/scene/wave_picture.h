@@ -4,7 +4,7 @@
 #ifndef COMMON_WAVE_PICTURE_H
 #define COMMON_WAVE_PICTURE_H
 
-#include "scene.h"
+#include "scene_groups.h"
 
 /* Writes the picture to `path'. The scene must have the group waves. Rank 0. */
 void wave_picture(const char *path, const struct scene *s);

@@ -3,9 +3,8 @@
 
 #include <math.h>
 
-#include "../base/mem.h"
-#include "../base/vec3.h"
-#include "../waves/wave_field_save.h"
+#include "../base/base.h"
+#include "../waves/waves.h"
 #include "scene_currents.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"

@@ -3,8 +3,8 @@
 #ifndef COMMON_WAVE_ZONES_H
 #define COMMON_WAVE_ZONES_H
 
-#include "../files/h5.h"
-#include "scene.h"
+#include "../files/files.h"
+#include "scene_groups.h"
 
 /* The zones of a resolved scene; NULL: there are none. Owned by the caller (wave_zones_free). Each
  * rank makes its own. pass: the sides behind have the waves' own velocity, so that zones need not

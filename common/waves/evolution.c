@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { FIELDS = 4 }; /* eta + i phi_s, their x- and y-derivatives, linear W */
 

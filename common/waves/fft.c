@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { FACTORS = 32, RADIX = 5 };
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { TERMS = HOS_ORDERS + 1 };
 

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "layer_solver.h"
 
 /* Down to 1/k, where waves have fallen to a third: below, the surface's shape is hardly felt and

@@ -9,9 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/lanes.h"
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "layer.h"
 
 enum { PLANE_KINDS = 2049 };
@@ -58,7 +56,7 @@ static void invert(const struct sigma_layer *l, const struct layer_solver *s, do
         }
     if (LAPACKE_dgetrf(LAPACK_ROW_MAJOR, n, n, A, n, pivots) ||
         LAPACKE_dgetri(LAPACK_ROW_MAJOR, n, A, n, pivots))
-        fail("the flat operator of a wave field cannot be inverted");
+        abort_run("the flat operator of a wave field cannot be inverted");
     for (int i = 0; i < n; i++) /* transposed: products run along results */
         for (int j = 0; j < n; j++)
             to[j * rows + i] = A[i * n + j];

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 static const double lowest = 0.5, highest = 3.0; /* of the peak's frequency */
 

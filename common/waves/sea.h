@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "waves.h"
+#include "imposed_waves.h"
 
 /* A random number from 0 to 1 by splitmix64 from *state, which goes on: the same sea on every
  * machine. */

@@ -10,9 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/exit.h"
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "sea_gains.h"
 #include "second_order.h"
 #include "wave_field.h"

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "zone_gain.h"
 
 enum { GAINS = 16, COSINES = 5 };

@@ -6,7 +6,7 @@
 
 #include <complex.h>
 
-#include "waves.h"
+#include "imposed_waves.h"
 
 /* Factor of the velocities at one angular frequency, rad/s, and wave number, 1/m, whose direction
  * has that cosine with the side's normal, that corrects for the zone; 1 without a zone. */

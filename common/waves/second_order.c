@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
-#include "waves.h"
+#include "../base/base.h"
+#include "imposed_waves.h"
 
 enum { FREQUENCIES = 40, LEVELS = 16 };
 

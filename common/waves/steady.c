@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum {
     UNKNOWNS = STEADY_MODES + 2,

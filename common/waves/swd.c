@@ -10,8 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { FORMAT = 100, TEXTS = 30 + 20, MODES_MAX = 1000000 };
 
@@ -174,7 +173,7 @@ void swd_read(struct swd *s, int step, double *h, double *c)
     const size_t values = 2 * ((size_t)s->of.n + 1);
     unsigned char *bytes = (unsigned char *)s->values;
     if (fseek(s->f, (long)at, SEEK_SET) != 0 || fread(bytes, 4, 4 * values, s->f) != 4 * values)
-        fail("%s: byte %lld: cannot be read any more", s->path, (long long)at);
+        abort_run("%s: byte %lld: cannot be read any more", s->path, (long long)at);
     for (size_t i = 0; i < values; i++) {
         h[i] = host_order(bytes + 4 * i);
         c[i] = host_order(bytes + 4 * (2 * values + i));

@@ -9,8 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/log.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "sea.h"
 #include "sea_gains.h"
 #include "wave_field_start.h"
@@ -169,7 +168,7 @@ struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
     char error[600];
     f->file = swd_open(of->file, error, sizeof error);
     if (!f->file)
-        fail("%s", error);
+        abort_run("%s", error);
     const struct swd_header is = swd_header_of(f->file);
     const double k = 2.0 * M_PI / length, line[2] = {2.0 * M_PI / is.dk, 1.0};
     const struct evolution_spec spec = {.g = of->g,

@@ -10,8 +10,8 @@
 #include <stdbool.h>
 
 #include "evolution.h"
+#include "imposed_waves.h"
 #include "swd.h"
-#include "waves.h"
 
 enum { WAVE_FIELD_KEPT = 8 };
 

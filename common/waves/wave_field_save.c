@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 /* Of the waves themselves: files of other ones do not fit. */
 static double mark_of(const struct wave_field *f)

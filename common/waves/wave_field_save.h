@@ -3,7 +3,7 @@
 #ifndef COMMON_WAVE_FIELD_SAVE_H
 #define COMMON_WAVE_FIELD_SAVE_H
 
-#include "../files/h5.h"
+#include "../files/files.h"
 #include "wave_field.h"
 
 /* Writes the state; `writes' is true on one rank, for all hold the same. */

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "sea.h"
 #include "second_order.h"
 

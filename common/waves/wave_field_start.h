@@ -5,7 +5,7 @@
 #define COMMON_WAVE_FIELD_START_H
 
 #include "evolution.h"
-#include "waves.h"
+#include "imposed_waves.h"
 
 /* The components of JONSWAP's spectrum among the grid's modes, from half to three times the peak's
  * frequency and of at most `highest', 1/m, by |k|; *n of them, owned by the caller (mem_free). Sea:

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 static const double least = 1e-6; /* of the largest amplitude: no component */
 

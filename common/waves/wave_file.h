@@ -3,8 +3,8 @@
 #ifndef COMMON_WAVE_FILE_H
 #define COMMON_WAVE_FILE_H
 
+#include "imposed_waves.h"
 #include "swd.h"
-#include "waves.h"
 
 /* The level at the first time as linear waves towards +x, by |k|; *n of them, owned by the caller
  * (mem_free). */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 /* k has n/2 set to 0, for the first derivative of that mode is no real field; size keeps it, for
  * |k|^2 is. */

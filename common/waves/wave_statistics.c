@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 static double mean_of(int n, const double *t, const double *v)
 {

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 struct wave_table wave_table_create(int n, int rows, double gap, double reach, bool slope)
 {

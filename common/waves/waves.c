@@ -2,14 +2,13 @@
  * travels with them (make_regular), the others a table of the present time (sea_frames.c). waves_at
  * sets the time, waves_eta and waves_velocity sample.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "waves.h"
+#include "imposed_waves.h"
 
 #include <complex.h>
 #include <math.h>
 #include <stdio.h>
 
-#include "../base/digits.h"
-#include "../base/mem.h"
+#include "../base/base.h"
 #include "sea.h"
 #include "sea_gains.h"
 #include "second_order.h"

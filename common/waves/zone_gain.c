@@ -6,7 +6,7 @@
 #include <lapacke.h>
 #include <math.h>
 
-#include "../base/mem.h"
+#include "../base/base.h"
 
 enum { NZ = 32, A_LENGTH = 64, RIGHT = 3 };
 

@@ -13,9 +13,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "../transport/alive.h"
-#include "../transport/failure.h"
-#include "../transport/handshake.h"
+#include "../transport/transport.h"
 
 static const double look_every = 0.05; /* s between looks at whether the others live */
 

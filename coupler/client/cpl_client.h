@@ -9,8 +9,7 @@
 #include <stdbool.h>
 
 #include "../cpl.h"
-#include "../transport/region.h"
-#include "../transport/wire.h"
+#include "../transport/transport.h"
 #include "cpl_patch.h"
 
 enum { CPL_TEXT = 4096 };

@@ -7,8 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 void map_cloud_free(struct map_cloud *c)
 {
@@ -99,7 +98,8 @@ static void make_cells(struct near *g, long ntarget, const double *x)
     const double R = g->R;
     double hi[3] = {0}, ncells = 1.0;
     if (c->n > INT_MAX / 2)
-        fail("%ld points around the targets of one rank of the coupler: give it more ranks", c->n);
+        abort_run("%ld points around the targets of one rank of the coupler: give it more ranks",
+                  c->n);
     for (int d = 0; d < dim; d++) {
         g->lo[d] = hi[d] = x[d];
         for (long i = 1; i < ntarget; i++) {

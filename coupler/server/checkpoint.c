@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../../common/base/log.h"
+#include "../../common/base/base.h"
 
 /* Two points stay on disk, as for a program that runs alone. */
 static void prune(struct coupler *c, const struct save *s)

@@ -13,9 +13,7 @@
 #include "../../common/run/run.h"
 #include "../cpl.h"
 #include "../mapping/map.h"
-#include "../transport/handshake.h"
-#include "../transport/region.h"
-#include "../transport/wire.h"
+#include "../transport/transport.h"
 #include "job.h"
 
 enum { TEXT = 4096 };

@@ -6,9 +6,9 @@
 
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "../../common/run/run.h"
-#include "../../common/scene/scene_outlines.h"
+#include "../../common/scene/scene.h"
 
 /* clang-format off */
 #define P struct job

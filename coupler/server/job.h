@@ -11,7 +11,7 @@
 
 #include "../../common/params/params.h"
 #include "../../common/scene/scene.h"
-#include "../transport/handshake.h"
+#include "../transport/transport.h"
 
 struct command_line;
 

@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/run/coupling_steps.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
 
 void problem(char *text, const char *fmt, ...)
 {

@@ -7,14 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/base/timer.h"
+#include "../../common/base/base.h"
 
 static _Noreturn void not_planned(const struct solver *s, const struct message *m)
 {
-    fail("%s rank %d names a field (number %d) that is not in the plan", s->name, m->rank,
-         m->head.field);
+    abort_run("%s rank %d names a field (number %d) that is not in the plan", s->name, m->rank,
+              m->head.field);
 }
 
 static struct partner_link *link_of_target(struct coupler *c, const struct solver *s,
@@ -277,9 +275,9 @@ static int terms_of(const struct coupler *c, const struct partner_link *l, const
     const struct solver *g = &c->solver[l->source];
     for (int r = 1; r < g->size; r++)
         if (a->put[r]->head.terms != a->put[0]->head.terms)
-            fail("field %s: rank 0 of %s puts %d terms in time, rank %d %d",
-                 g->field[l->gfield].name, g->name, a->put[0]->head.terms, r,
-                 a->put[r]->head.terms);
+            abort_run("field %s: rank 0 of %s puts %d terms in time, rank %d %d",
+                      g->field[l->gfield].name, g->name, a->put[0]->head.terms, r,
+                      a->put[r]->head.terms);
     return a->put[0]->head.terms;
 }
 
@@ -373,9 +371,10 @@ static void answer_patch(struct coupler *c, struct partner_link *l, const struct
         }
     }
     if (filled != cells)
-        fail("field %s: the blocks of %s hold %lld of the %lld cells that rank %d of %s asks for",
-             c->solver[l->source].field[l->gfield].name, c->solver[l->source].name,
-             (long long)filled, (long long)cells, asker, c->solver[l->target].name);
+        abort_run(
+            "field %s: the blocks of %s hold %lld of the %lld cells that rank %d of %s asks for",
+            c->solver[l->source].field[l->gfield].name, c->solver[l->source].name,
+            (long long)filled, (long long)cells, asker, c->solver[l->target].name);
     wire_send(&c->wire, c->solver[l->target].peer, asker, &p);
 }
 
@@ -446,8 +445,9 @@ void rendezvous_get(struct coupler *c, struct solver *s, struct message *m)
     struct partner_link *l = link_of_target(c, s, m);
     struct asker *a = &l->asker[m->rank];
     if (a->asked || (l->asked_tick >= 0 && l->asked_tick != m->head.tick))
-        fail("%s rank %d asks for %s at %lld while others wait for it at %lld", s->name, m->rank,
-             s->field[m->head.field].name, (long long)m->head.tick, (long long)l->asked_tick);
+        abort_run("%s rank %d asks for %s at %lld while others wait for it at %lld", s->name,
+                  m->rank, s->field[m->head.field].name, (long long)m->head.tick,
+                  (long long)l->asked_tick);
     l->asked_tick = m->head.tick;
     a->asked = true;
     if (m->rank == 0)

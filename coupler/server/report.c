@@ -8,10 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/timer.h"
-#include "../../common/base/version.h"
-#include "../../common/run/accept.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
 
 enum { LINE = 2048, NORMS = 16 };
 

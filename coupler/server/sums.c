@@ -7,9 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/fit.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/exact.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 
 enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, WATER, SUMS }; /* WATER: where both have a surface */
 

@@ -3,13 +3,13 @@
  */
 #include "coupler.h"
 
-#include "../../common/base/log.h"
+#include "../../common/base/base.h"
 
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
 {
     const int64_t n = take_int(&c->wire, m);
     if (n != s->nfields)
-        fail("%s names %lld fields, the plan has %d", s->name, (long long)n, s->nfields);
+        abort_run("%s names %lld fields, the plan has %d", s->name, (long long)n, s->nfields);
     for (int i = 0; i < s->nfields; i++)
         s->field[i].last_tick = take_int(&c->wire, m);
 }

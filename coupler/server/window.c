@@ -6,9 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/timer.h"
-#include "../../common/run/coupling_steps.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
 
 static const double same_time = 1e-9; /* relative */
 
@@ -124,8 +123,8 @@ void window_announce(struct coupler *c)
 void window_advance(struct coupler *c, struct solver *s, struct message *m)
 {
     if (m->head.tick != c->window || s->advanced == c->window)
-        fail("%s ends coupling step %lld, but coupling step %lld is under way", s->name,
-             (long long)m->head.tick, (long long)c->window);
+        abort_run("%s ends coupling step %lld, but coupling step %lld is under way", s->name,
+                  (long long)m->head.tick, (long long)c->window);
     s->advanced = m->head.tick;
     if (take_int(&c->wire, m) && !c->stopping) {
         log_say("%s asks for an orderly end", s->name);

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/mesh.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 #include "blocked.h"
 #include "carried.h"
 #include "ghosts.h"

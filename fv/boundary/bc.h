@@ -6,7 +6,7 @@
 #define FV_BC_H
 
 #include "../fv.h"
-#include "../grid/side_kinds.h"
+#include "../grid/fv_grid.h"
 
 /* The six sides as this rank has them; s->bc. Arrays are owned. */
 struct bc {

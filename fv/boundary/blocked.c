@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* Number of the box in which a cell of the whole grid lies, from 1; 0: none. Behind closed sides as
  * before them. */

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_openings.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 
 enum outflow_kind carried_kind(const struct scene_wall *w)
 {

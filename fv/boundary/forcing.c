@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "bc.h"
 #include "blocked.h"
 #include "fv_sides.h"

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/rows.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 #include "mesh_bc.h"
 
 enum { WINDOW = 2 * REACH + 1, WINDOW_CELLS = WINDOW * WINDOW * WINDOW };

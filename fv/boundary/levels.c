@@ -11,9 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_openings.h"
-#include "../grid/mesh.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../grid/fv_grid.h"
 #include "carried.h"
 #include "still.h"
 

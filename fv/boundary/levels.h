@@ -9,7 +9,7 @@
 #define FV_LEVELS_H
 
 #include "../fv.h"
-#include "../grid/mesh_outside.h"
+#include "../grid/fv_grid.h"
 
 enum { LEVEL_GROUPS = MESH_OUTSIDES };
 

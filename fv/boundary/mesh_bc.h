@@ -4,7 +4,7 @@
 #ifndef FV_MESH_BC_H
 #define FV_MESH_BC_H
 
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 #include "bc.h"
 
 /* mesh_sides.c: makes s->sides; mesh_bc_free frees it. */

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "ghosts.h"
 
 /* Ghosts behind a slip side: the component along S is antisymmetric about the wall's own flux wS,

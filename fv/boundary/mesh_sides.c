@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/mesh_motion.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 #include "carried.h"
 #include "levels.h"
 

@@ -5,7 +5,7 @@
 #define FV_MESH_SIDES_H
 
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 #include "mesh_bc.h"
 
 /* A side of one part of this rank; arrays are owned. */

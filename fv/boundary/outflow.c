@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene/scene_openings.h"
+#include "../../common/scene/scene.h"
 #include "bc.h"
 #include "carried.h"
 #include "forcing.h"

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "bc.h"
 
 /* How many cells of each layer across axis a are computed, of all ranks. */

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/overset.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 
 enum { POINTS = 64, POINTS_3D = 8, DEPTHS = 3 };
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "../../common/scene/scene_fluid.h"
+#include "../../common/scene/scene.h"
 
 /* level: the case's, or without one the height of the highest point of the domain, against
  * gravity. */

@@ -7,11 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_probe.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 
 #define P struct blocked_params
 /* clang-format off */

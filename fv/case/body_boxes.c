@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/vec3.h"
-#include "../../common/scene/scene_mesh.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "fv_case.h"
 
 static const double same = 1e-9; /* of the size */

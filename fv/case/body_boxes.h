@@ -3,7 +3,7 @@
 #ifndef FV_BODY_BOXES_H
 #define FV_BODY_BOXES_H
 
-#include "../boundary/blocked.h"
+#include "../boundary/fv_boundary.h"
 
 struct run;
 

@@ -3,7 +3,7 @@
 #ifndef FV_CASE_H
 #define FV_CASE_H
 
-#include "../boundary/blocked.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
 
 /* fv_params.c */

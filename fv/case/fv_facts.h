@@ -4,7 +4,7 @@
 #ifndef FV_FACTS_H
 #define FV_FACTS_H
 
-#include "../../common/scene/scene_facts.h"
+#include "../../common/scene/scene.h"
 
 enum fv_fact {
     FACT_UNIFORM = FACTS_OF_PROGRAM, /* cells of one grid, no blocks */

@@ -4,13 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/blocked.h"
-#include "../boundary/still.h"
-#include "../grid/mesh.h"
-#include "../grid/rows.h"
-#include "../surface/levelset.h"
-#include "../watch/limits.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
+#include "../watch/fv_watch.h"
 #include "body_boxes.h"
 #include "fv_case.h"
 #include "fv_facts.h"

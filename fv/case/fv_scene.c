@@ -5,13 +5,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_openings.h"
-#include "../../common/scene/scene_probe.h"
-#include "../boundary/still.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "fv_case.h"
 
 static const char axes[] = "xyz";

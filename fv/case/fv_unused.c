@@ -7,12 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/blocked.h"
-#include "../grid/mesh.h"
-#include "../grid/rows.h"
-#include "../output/output.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../output/fv_output.h"
+#include "../surface/fv_surface.h"
 #include "body_boxes.h"
 #include "fv_case.h"
 #include "fv_facts.h"

@@ -2,10 +2,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/scene/scene_fluid.h"
-#include "../boundary/blocked.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 #include "fv_case.h"
 
 /* The axis that gravity lies along, to some 45 degrees; -1: none. What drives the flow along

@@ -1,11 +1,10 @@
 /* mesh_params.c - parameters of the list blocks. SPDX-License-Identifier: BSD-3-Clause */
-#include "../../common/scene/scene_check.h"
-#include "../grid/mesh.h"
-#include "../grid/mesh_motion.h"
+#include "../../common/scene/scene.h"
+#include "../grid/fv_grid.h"
 
 #include "../fv.h"
-#include "../surface/levelset.h"
-#include "../watch/limits.h"
+#include "../surface/fv_surface.h"
+#include "../watch/fv_watch.h"
 #include "fv_case.h"
 #include "fv_facts.h"
 

@@ -3,15 +3,12 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/scene/exact.h"
-#include "../boundary/still.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
-#include "../grid/mesh_motion.h"
-#include "../grid/mesh_outside.h"
-#include "../grid/overset.h"
-#include "../output/output.h"
-#include "../surface/levelset.h"
+#include "../grid/fv_grid.h"
+#include "../output/fv_output.h"
+#include "../surface/fv_surface.h"
 #include "fv_case.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};

@@ -1,32 +1,20 @@
 /* mesh_state.c - the state of a flow on blocks, at t = 0 or from a restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/mesh_bc.h"
-#include "../boundary/outflow.h"
-#include "../boundary/still.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
-#include "../operators/mesh_ops.h"
-#include "../operators/viscous_solver.h"
-#include "../output/mesh_output.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
+#include "../output/fv_output.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
+#include "../surface/fv_surface.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../coupling/fv_link.h"
-#include "../grid/mesh_motion.h"
-#include "../grid/overset.h"
-#include "../time/moving.h"
-#include "../time/newton.h"
-#include "../time/stages.h"
-#include "../time/steps.h"
-#include "../watch/limits.h"
-#include "../watch/watches.h"
+#include "../../common/base/base.h"
+#include "../coupling/fv_coupling.h"
+#include "../time/fv_time.h"
+#include "../watch/fv_watch.h"
 #include "fv_case.h"
 
 static void fill(struct fv *s)
@@ -96,7 +84,7 @@ void mesh_state_create(struct fv *s)
     if (!s->m && r->coupled)
         coupling_refuse(s, faults.text);
     if (!s->m)
-        fail("the blocks were good when they were checked");
+        abort_run("the blocks were good when they were checked");
     s->dim = s->m->dim;
     s->comm = s->m->comm;
     s->size = s->m->size_local;

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/mesh.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 
 enum { MOST = 8 }; /* points of a cell along an axis */
 

@@ -4,7 +4,7 @@
 #ifndef FV_FORCED_POINTS_H
 #define FV_FORCED_POINTS_H
 
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 
 struct forced_points {
     int64_t ncells, n;

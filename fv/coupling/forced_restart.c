@@ -7,10 +7,10 @@
 
 #include <stdlib.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../boundary/forcing.h"
-#include "../grid/layout.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 
 static const char *const forced_names[3][3] = {
     {"v_x", "v_y", "v_z"}, {"w_x", "w_y", "w_z"}, {"o_x", "o_y", "o_z"}};

@@ -6,19 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/run/watch.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/run/run.h"
 #include "../../coupler/cpl.h"
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/mesh_bc.h"
-#include "../boundary/parted.h"
-#include "../boundary/still.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
-#include "../surface/surface_forced.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "forced_points.h"
 #include "forced_restart.h"
 #include "fv_course.h"
@@ -76,7 +70,7 @@ static void check(const struct link *k, int code)
         cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
     }
     if (code)
-        fail("coupling: %s", cpl_strerror(k->c));
+        abort_run("coupling: %s", cpl_strerror(k->c));
 }
 
 /* m: edge of the cell whose average the kernel is. Of blocks that of the largest one that the

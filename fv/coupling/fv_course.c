@@ -9,15 +9,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/fit.h"
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/still.h"
-#include "../grid/layout.h"
-#include "../surface/levelset.h"
-#include "../time/steps.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
+#include "../time/fv_time.h"
 
 /* width: velocity, pressure, and phi with a surface. */
 struct course *course_create(const struct fv *s, struct patch *p, int memory)

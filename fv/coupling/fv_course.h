@@ -7,9 +7,9 @@
 #ifndef FV_COURSE_H
 #define FV_COURSE_H
 
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../time/steps.h"
+#include "../time/fv_time.h"
 #include "patch.h"
 
 enum {

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 
 /* Of what is missing, a coupling step: errors of the particles' density, by which the flow through
  * the box breathes, average out over some. Between 0.03 and 1 the results differ by a tenth. */

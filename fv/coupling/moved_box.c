@@ -8,17 +8,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/mesh_bc.h"
-#include "../grid/overset.h"
-#include "../operators/viscous_solver.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
-#include "../surface/surface_forced.h"
-#include "../time/moving.h"
-#include "../time/stages.h"
+#include "../surface/fv_surface.h"
+#include "../time/fv_time.h"
 
 /* Whether any rank's imposed cells are others. Collective. */
 static bool differs(const struct fv *s, const struct forcing *f)

@@ -8,9 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/block_walls.h"
-#include "../grid/overset.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 

@@ -7,8 +7,7 @@
 #define FV_PATCH_H
 
 #include "../fv.h"
-#include "../grid/layout.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 
 struct patch {
     int dim;

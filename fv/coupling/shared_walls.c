@@ -9,9 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene/scene_geometry.h"
-#include "../grid/block_walls.h"
-#include "../grid/overset.h"
+#include "../../common/scene/scene.h"
+#include "../grid/fv_grid.h"
 
 #define APART 0.5 /* of half a face's length: how far one wall may lie from the other */
 

@@ -9,11 +9,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/files/h5.h"
-#include "../../common/run/crossing.h"
-#include "../boundary/forcing.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
+#include "../../common/files/files.h"
+#include "../../common/run/run.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 
 /* sqrt(H/g) over which what is missing comes back. Waves last longer, 4.4 of it and more, and take
  * no part in what is missing; drops and shifted particles take water away steadily: a slower part,

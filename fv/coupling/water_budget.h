@@ -5,7 +5,7 @@
 #ifndef FV_WATER_BUDGET_H
 #define FV_WATER_BUDGET_H
 
-#include "../../common/run/watch.h"
+#include "../../common/run/run.h"
 #include "../fv.h"
 
 struct water_budget {

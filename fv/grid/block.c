@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* Whether every rank gets at least LEAST cells along an axis that is cut. */
 static bool is_wide(const int *cells, const int *dims)

@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
+#include "../../common/base/base.h"
 
 struct face {
     double x[3], n[3]; /* m: centre; into the fluid, of length 1 */

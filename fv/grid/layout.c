@@ -8,9 +8,8 @@
 
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
 #include "block.h"
 
 enum { NUMBERS = 11 }; /* that make a box: grid, lo, n, g, base */

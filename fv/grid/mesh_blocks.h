@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "../../common/run/run.h"
-#include "../../common/scene/scene_body.h"
+#include "../../common/scene/scene.h"
 #include "side_kinds.h"
 
 enum { MESH_BLOCKS_MAX = 16 };

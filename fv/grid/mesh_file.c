@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* Dataset "x" of shape [nk][nj][ni][dim]; NULL without errors printed if the file has no such
  * thing. */

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "mesh.h"
 
 /* Number of weights of a value. */

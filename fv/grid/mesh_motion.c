@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/geometry/body_math.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
 
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to)
 {

@@ -7,7 +7,7 @@
 #ifndef FV_MESH_MOTION_H
 #define FV_MESH_MOTION_H
 
-#include "../../common/scene/body_drive.h"
+#include "../../common/scene/scene.h"
 #include "mesh.h"
 
 /* The motion of a block and of the blocks joined to it. */

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "../../common/scene/scene_openings.h"
+#include "../../common/scene/scene.h"
 
 /* A tenth of the first cell inside the middle of a face of a side. p, q: the face's indices along
  * the tangents. */

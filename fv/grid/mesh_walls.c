@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/geometry/body_math.h"
+#include "../../common/geometry/geometry.h"
 #include "mesh.h"
 #include "mesh_motion.h"
 

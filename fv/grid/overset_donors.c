@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "mesh_motion.h"
 #include "overset_inside.h"
 

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* From 1 at x = 0 to 0 at x = 1, with two smooth derivatives. */
 static double step_down(double x) { return 1.0 - x * x * x * (10.0 + x * (6.0 * x - 15.0)); }

@@ -6,11 +6,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../boundary/forcing.h"
-#include "../boundary/levels.h"
-#include "../boundary/mesh_bc.h"
-#include "../surface/levelset.h"
-#include "../surface/mesh_view.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "flow_ops.h"
 #include "helmholtz.h"
 #include "mesh_ops.h"

@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-#include "../boundary/forcing.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 
 /* The ghosts' rule below and above a cell near boxes, for component q along axis a. */
 static void rules(const struct fv *s, const struct near_box *x, int q, int a,

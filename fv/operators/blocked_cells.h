@@ -5,7 +5,7 @@
 #ifndef FV_BLOCKED_CELLS_H
 #define FV_BLOCKED_CELLS_H
 
-#include "../boundary/blocked.h"
+#include "../boundary/fv_boundary.h"
 
 /* Values of component q on the faces along a; C: strength of the upwind bias by the fluxes U, 0:
  * none. */

@@ -14,7 +14,7 @@
 
 #include <math.h>
 
-#include "../boundary/bc.h"
+#include "../boundary/fv_boundary.h"
 #include "blocked_cells.h"
 #include "operators.h"
 

@@ -1,10 +1,8 @@
 /* even_forces.c - force of the flow on a face of a wall or of a box that is cut out of uniform
  * cells or layers, and the work that comes in through one of a side.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/blocked.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/still.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "operators.h"
 
 /* Whether the cell holds no water. */

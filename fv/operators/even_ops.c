@@ -7,10 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/levels.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "blocked_cells.h"
 #include "flow_ops.h"
 #include "helmholtz.h"

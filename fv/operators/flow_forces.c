@@ -6,10 +6,8 @@
 #include <assert.h>
 #include <string.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/mesh_bc.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "flow_measures.h"
 #include "flow_ops.h"
 

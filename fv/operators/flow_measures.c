@@ -8,9 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/forcing.h"
-#include "../boundary/mesh_bc.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "blocked_cells.h"
 #include "mesh_ops.h"
 

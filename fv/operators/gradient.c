@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 #include "operators.h"
 
 /* A row of n cells, c = 1/(12 h). */

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
+#include "../../common/base/base.h"
 #include "viscous_solver.h"
 
 /* fv.tol_viscous if given; else 1e-3 (blocks 1e-4, partners 1e-5), falling as 1/n^2 beyond 32 cells

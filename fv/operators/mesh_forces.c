@@ -2,10 +2,9 @@
  * through one of a side. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../boundary/fv_sides.h"
-#include "../boundary/still.h"
-#include "../grid/mesh_motion.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "mesh_ops.h"
 
 /* Derivatives of u with respect to the indices at the face f of a side, from cells and ghosts,

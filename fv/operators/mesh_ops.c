@@ -7,11 +7,10 @@
  *   volume average to average over indices: less sum over a of dq_a dV_a/48/V
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_ops.h"
-#include "../boundary/forcing.h"
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "operators.h"
 
 #include <math.h>

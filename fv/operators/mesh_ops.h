@@ -4,7 +4,7 @@
 #define FV_MESH_OPS_H
 
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 
 /* mesh_ops.c: all need ghosts. U = I(u).S, m^dim/s. */
 void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3]);

@@ -3,11 +3,11 @@
  * takes few steps; else, and should the bounds fail, BiCGStab scaled by the diagonal, which cells
  * of very different size want; between joins of like cells conjugate gradients.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../../common/base/lanes.h"
-#include "../boundary/mesh_bc.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "helmholtz.h"
 #include "mesh_ops.h"
 #include "operators.h"
@@ -79,15 +79,15 @@ double mesh_viscous_largest(const struct fv *s)
 }
 
 /* left = free (r - x + c L x); y = x + beta (x - y) + alpha left. Returns the sum of left^2, in
- * LANES partial sums. */
+ * SUM_LANES partial sums. */
 static double step_row(const double *restrict x, const double *restrict L, const double *restrict r,
                        const double *restrict is_free, double c, double alpha, double beta,
                        int64_t n, double *restrict y)
 {
-    double part[LANES] = {0.0};
+    double part[SUM_LANES] = {0.0};
     int64_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (int k = 0; k < LANES; k++) {
+    for (; i + SUM_LANES <= n; i += SUM_LANES)
+        for (int k = 0; k < SUM_LANES; k++) {
             const double left = is_free[i + k] * (r[i + k] - x[i + k] + c * L[i + k]);
             y[i + k] = x[i + k] + beta * (x[i + k] - y[i + k]) + alpha * left;
             part[k] += left * left;

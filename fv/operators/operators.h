@@ -4,7 +4,7 @@
 #ifndef FV_OPERATORS_H
 #define FV_OPERATORS_H
 
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 
 /* convection.c: N_a = (sum over faces of F)/h, F = U q with transverse corrections; needs u with
  * ghosts, and U. */

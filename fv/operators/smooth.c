@@ -3,7 +3,7 @@
  * axes of C^T C p. On (-1)^i, where |C p| = 8, this takes off a tenth along each axis; smooth
  * fields change by O(h^6). Once a step.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
 #include "operators.h"
 

@@ -7,9 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/bc.h"
-#include "../boundary/forcing.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "blocked_cells.h"
 #include "helmholtz.h"
 #include "operators.h"

@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/mesh_bc.h"
-#include "../grid/mesh.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 #include "mesh_ops.h"
 
 /* dim-th root of the number of all cells, for helmholtz_tolerance. Collective. */

@@ -5,9 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/still.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 
 /* Water of a cell in a column, over the cell, with what is cut out below it: a box is ground for
  * the water on it, and on the floor of the domain whether there is water or not. */

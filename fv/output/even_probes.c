@@ -4,9 +4,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/still.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "even_value.h"
 #include "probe_flow.h"
 

@@ -6,9 +6,8 @@
 
 #include <math.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/still.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 
 enum { MOST = 4, LEAST_CELLS = 3 };
 

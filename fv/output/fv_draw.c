@@ -2,11 +2,11 @@
  * blocks by what they are. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include "../../common/base/mem.h"
-#include "../../common/run/crossing.h"
-#include "../../common/scene/picture.h"
-#include "../boundary/blocked.h"
-#include "../grid/mesh.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 #include "output.h"
 
 static enum picture_kind kind_of(enum mesh_side side)

@@ -6,14 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/still.h"
-#include "../coupling/water_budget.h"
-#include "../grid/mesh.h"
-#include "../grid/overset.h"
-#include "../operators/flow_measures.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../coupling/fv_coupling.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 #include "mesh_output.h"
 #include "output.h"
 

@@ -4,10 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/blocked.h"
-#include "../boundary/mesh_bc.h"
-#include "../operators/flow_measures.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "output.h"
 
 /* Whether there are such columns. */

@@ -7,14 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/files/xdmf.h"
-#include "../boundary/forcing.h"
-#include "../boundary/still.h"
-#include "../grid/mesh.h"
-#include "../operators/flow_measures.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 
 /* Whether output.fields has this word. */
 bool fv_field_wanted(const struct run *r, const char *name)

@@ -7,10 +7,9 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
-#include "../grid/overset.h"
+#include "../grid/fv_grid.h"
 #include "mesh_output.h"
 #include "output.h"
 
@@ -70,7 +69,7 @@ static double middle_of_layers(const struct block *b, const double *q, int layer
 /* Values of component q on the line through the middle of axis `across', averages cell by cell
  * along the other one, on all ranks; owned by the caller, with an empty place on each side.
  * Collective. */
-static double *line_of(const struct fv *s, int q, int across)
+static double *profile_across(const struct fv *s, int q, int across)
 {
     const struct block *b = &s->b;
     const int along = 1 - across, n = b->cells[along];
@@ -132,7 +131,7 @@ static double extremum_in_layers(const struct block *b, const double *line, doub
 /* found: least u on the vertical line, most and least v on the horizontal one. */
 static void on_even_cells(const struct fv *s, double found[3])
 {
-    double *const lines[2] = {line_of(s, 0, 0), line_of(s, 1, 1)};
+    double *const lines[2] = {profile_across(s, 0, 0), profile_across(s, 1, 1)};
     found[0] = s->b.rows ? extremum_in_layers(&s->b, lines[0], -1.0)
                          : extremum(lines[0], s->b.cells[1], -1.0);
     found[1] = extremum(lines[1], s->b.cells[0], 1.0);

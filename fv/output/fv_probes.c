@@ -8,9 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene/scene_probe.h"
-#include "../boundary/still.h"
-#include "../grid/mesh_motion.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 #include "output.h"
 #include "probe_flow.h"
 

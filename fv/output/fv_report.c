@@ -7,13 +7,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/scene_probe.h"
-#include "../boundary/blocked.h"
-#include "../operators/flow_measures.h"
-#include "../surface/levelset.h"
-#include "../time/newton.h"
-#include "../watch/watches.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
+#include "../time/fv_time.h"
+#include "../watch/fv_watch.h"
 #include "mesh_output.h"
 #include "output.h"
 

@@ -6,24 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/files/h5.h"
-#include "../../common/scene/wave_zones.h"
-#include "../boundary/levels.h"
-#include "../boundary/outflow.h"
-#include "../coupling/fv_link.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../coupling/fv_coupling.h"
 #include "../fv.h"
-#include "../grid/layout.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 #include "../poisson/poisson.h"
-#include "../surface/fraction.h"
-#include "../surface/levelset.h"
-#include "../surface/surface_forced.h"
-#include "../time/moving.h"
-#include "../time/newton.h"
-#include "../time/stages.h"
-#include "../time/steps.h"
-#include "../watch/watches.h"
+#include "../surface/fv_surface.h"
+#include "../time/fv_time.h"
+#include "../watch/fv_watch.h"
 #include "output.h"
 
 /* A number that a run goes on with; one of the three places is given. */

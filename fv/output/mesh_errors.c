@@ -1,8 +1,8 @@
 /* mesh_errors.c - what runs on blocks alone show: where they are, overlaps; values at a place.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 #include "mesh_output.h"
 #include "output.h"
 #include "report.h"
@@ -11,14 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/run/forecast.h"
-#include "../boundary/still.h"
-#include "../grid/mesh_motion.h"
-#include "../grid/mesh_outside.h"
-#include "../grid/overset.h"
-#include "../surface/fraction.h"
-#include "../watch/limits.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
+#include "../surface/fv_surface.h"
+#include "../watch/fv_watch.h"
 
 /* Whether a later block computes the flow at x, so that an earlier one's cell there must not
  * count. */

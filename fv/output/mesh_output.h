@@ -4,7 +4,7 @@
 #define FV_MESH_OUTPUT_H
 
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 
 /* mesh_errors.c: this rank's share of the value at a place, of the finest block there; q NULL:
  * pressure. width 2: linear, 4: cubic from averages, 0: that where it can, else linear. */

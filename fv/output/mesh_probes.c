@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-#include "../boundary/still.h"
-#include "../grid/overset.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "mesh_output.h"
 #include "output.h"
 #include "probe_flow.h"

@@ -1,7 +1,7 @@
 /* newton_report.c - columns of the series and entries of the summary that Newton's method adds.
  * Counts are since the start, rates in the summary per step.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../time/newton.h"
+#include "../time/fv_time.h"
 
 int newton_columns(const struct fv_params *prm, const char **columns)
 {

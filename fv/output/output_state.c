@@ -3,8 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "output.h"
 
-#include "../../common/base/mem.h"
-#include "../grid/overset.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 
 struct fv_output *output_create(const struct fv *s)
 {

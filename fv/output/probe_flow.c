@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_probe.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 
 enum { ALONG_LINE = 400, ALONG_SIDE = 100 };
 

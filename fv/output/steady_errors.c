@@ -4,10 +4,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/exact.h"
-#include "../boundary/forcing.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "output.h"
 
 enum { HARMONICS = 5 }; /* 1, cos, sin, cos 2, sin 2 */

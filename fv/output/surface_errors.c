@@ -4,13 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/forcing.h"
-#include "../operators/flow_measures.h"
-#include "../surface/fraction.h"
-#include "../surface/levelset.h"
-#include "../surface/mesh_view.h"
-#include "../surface/surface_forced.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 #include "output.h"
 
 /* m^(dim+2)/s^2, over rho. Collective. */

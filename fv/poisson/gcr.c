@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
                 void (*apply)(void *of, double *x, double *Ax),

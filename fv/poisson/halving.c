@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 enum {
     MARGIN = 2, /* ghosts of coarse grids: what the transfers reach */

@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-#include "../grid/block.h"
+#include "../grid/fv_grid.h"
 
 /* Whether the grid has no period, and so few ranks share it that each may have all coarser levels.
  */

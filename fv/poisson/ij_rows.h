@@ -6,8 +6,7 @@
 
 #include <HYPRE_IJ_mv.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "../fv.h"
 #include "backend.h"
 #include "hypre_call.h"

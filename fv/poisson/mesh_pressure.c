@@ -7,10 +7,10 @@
  *   z = A_p^-1 b, c = (b - A z)_1/(V - A z_w)_1, psi = z - c z_w:  A psi = b - c V in all rows.
  * Conjugate residuals with one cycle of BoomerAMG; if the residual is not small enough again with
  * BiCGSTAB and a stronger cycle. SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
-#include "../operators/mesh_ops.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
 
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
@@ -19,8 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "backend.h"
 #include "gcr.h"
 #include "ij_rows.h"
@@ -367,7 +366,7 @@ static void solve_volumes(struct fv *s, struct mesh_pressure *p)
     memcpy(b, p->rows->V, (size_t)p->n * sizeof(double));
     if (!solve_pinned(s, p, b, tol, p->zw) &&
         !(gcr_norm(&p->gcr, p->gcr.r) < 1e-6 * gcr_norm(&p->gcr, b)))
-        fail("the pressure matrix of the blocks cannot be solved");
+        abort_run("the pressure matrix of the blocks cannot be solved");
     p->cw = pinned_residual(s, p, in_pinned_row(p, p->rows->V), p->zw);
     mem_free(b);
 }

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "hypre_call.h"
 
 struct pfmg {

@@ -10,11 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
-#include "../../common/base/mem.h"
-#include "../boundary/mesh_bc.h"
-#include "../grid/mesh.h"
-#include "../operators/flow_ops.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
 #include "backend.h"
 
 static void set_volumes(const struct fv *s, struct poisson *p)
@@ -77,10 +76,10 @@ const char *poisson_name(const struct poisson *p) { return p->by->name; }
 /* Sum of f q^2; sums side by side, or each addition waits for the one before. */
 static double squares(const double *restrict f, const double *restrict q, int64_t n)
 {
-    double part[LANES] = {0.0};
+    double part[SUM_LANES] = {0.0};
     int64_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (int k = 0; k < LANES; k++)
+    for (; i + SUM_LANES <= n; i += SUM_LANES)
+        for (int k = 0; k < SUM_LANES; k++)
             part[k] += f[i + k] * q[i + k] * q[i + k];
     for (; i < n; i++)
         part[0] += f[i] * q[i] * q[i];

@@ -8,12 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/bc.h"
-#include "../boundary/forcing.h"
-#include "../boundary/parted.h"
-#include "../operators/helmholtz.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 #include "backend.h"
 #include "halving.h"
 #include "pfmg.h"

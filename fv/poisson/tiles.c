@@ -4,10 +4,9 @@
  * too little (cells of strongly different shape) are left to the others: a rough right side is
  * solved for at the start, and the cycles are counted. Given cells have rows of their own, 1, and
  * psi = 0; no flux passes their faces. SPDX-License-Identifier: BSD-3-Clause */
-#include "../boundary/forcing.h"
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 #include "backend.h"
 #include "gcr.h"
 #include "pfmg.h"
@@ -16,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 enum { TRIAL = 20 }; /* cycles that the rough right side may take: as dear as 4 of BoomerAMG */
 

@@ -8,8 +8,8 @@
 #include <limits.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../surface/fv_surface.h"
 
 enum { TILE = 8, SPARE = 2 }; /* cells; how many times what is needed boxes may have */
 

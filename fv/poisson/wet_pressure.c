@@ -17,13 +17,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../boundary/mesh_bc.h"
-#include "../boundary/still.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
-#include "../surface/mesh_view.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
 #include "backend.h"
 #include "ij_rows.h"
 
@@ -97,7 +94,7 @@ static void make_donors(struct fv *s, struct wet_pressure *p)
             double move[3] = {0.0, 0.0, 0.0};
             struct mesh_request *q = request + each * k + d;
             if (!mesh_resolve(m, &block, at, move))
-                fail("a donor behind a wall");
+                abort_run("a donor behind a wall");
             *q = (struct mesh_request){.in = s->size + each * k + d};
             mesh_owner(m, block, at, &q->rank, &q->out);
         }

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
+#include "../../common/base/base.h"
 
 enum {
     REACH = 3,             /* cells around that are read: the ghosts of a rank */

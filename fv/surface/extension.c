@@ -8,11 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
-#include "../../common/base/mem.h"
-#include "../boundary/blocked.h"
-#include "../boundary/forcing.h"
-#include "../boundary/still.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "extension_window.h"
 #include "level_ops.h"
 #include "mesh_view.h"
@@ -47,7 +44,7 @@ static bool factor(struct least_squares *q)
     return true;
 }
 
-/* n is a multiple of LANES. */
+/* n is a multiple of SUM_LANES. */
 static bool prepare(struct least_squares *q, int n)
 {
     double wb[STENCIL];

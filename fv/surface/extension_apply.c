@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
+#include "../../common/base/base.h"
 #include "fraction.h"
 
 enum { STENCIL = 128 };

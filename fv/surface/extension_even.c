@@ -4,8 +4,7 @@
 
 #include <math.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 #include "levelset.h"
 
 /* Cells of the window (its corner at `corner' from the cell c) that are reached from c over faces

@@ -3,7 +3,7 @@
 #ifndef FV_EXTENSION_WINDOW_H
 #define FV_EXTENSION_WINDOW_H
 
-#include "../../common/base/lanes.h"
+#include "../../common/base/base.h"
 #include "../fv.h"
 
 enum { STENCIL = 128 /* 125 cells and what fills up the last lanes */ };
@@ -50,7 +50,7 @@ static inline int window_reach(const struct fv *s, int layer)
 static inline void window_fill_lanes(struct place *p, int n)
 {
     p->known = n;
-    for (; n % LANES; n++) {
+    for (; n % SUM_LANES; n++) {
         p->step[n] = p->step[p->known - 1];
         for (int a = 0; a < 3; a++)
             p->r[a][n] = p->r[a][p->known - 1];

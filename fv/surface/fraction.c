@@ -8,10 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../boundary/still.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
@@ -317,10 +315,10 @@ static void find_fluxes(const struct fv *s, int a, double dt)
 /* Sum over a row of what comes in through the lower faces less what leaves through the upper. */
 static double gain_of_row(const double *q, int64_t d, int64_t n)
 {
-    double part[LANES] = {0.0};
+    double part[SUM_LANES] = {0.0};
     int64_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (int m = 0; m < LANES; m++)
+    for (; i + SUM_LANES <= n; i += SUM_LANES)
+        for (int m = 0; m < SUM_LANES; m++)
             part[m] += q[i + m] - q[i + m + d];
     for (; i < n; i++)
         part[0] += q[i] - q[i + d];

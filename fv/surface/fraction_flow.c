@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "levelset.h"
 #include "mesh_view.h"
 

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/lanes.h"
+#include "../../common/base/base.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"

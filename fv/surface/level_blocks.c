@@ -4,8 +4,7 @@
 
 #include <string.h>
 
-#include "../boundary/blocked.h"
-#include "../boundary/mesh_bc.h"
+#include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "mesh_view.h"
 #include "weno.h"

@@ -4,10 +4,7 @@
 
 #include <string.h>
 
-#include "../boundary/bc.h"
-#include "../boundary/blocked.h"
-#include "../boundary/forcing.h"
-#include "../boundary/still.h"
+#include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "weno.h"
 

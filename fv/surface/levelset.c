@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "extension_window.h"
 #include "level_ops.h"
 #include "mesh_view.h"

@@ -6,9 +6,9 @@
 #ifndef FV_LEVELSET_H
 #define FV_LEVELSET_H
 
-#include "../../common/base/fit.h"
+#include "../../common/base/base.h"
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 
 enum {
     LAYERS = 6,    /* of dry cells that carry a velocity, for the advection of phi */

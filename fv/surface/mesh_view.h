@@ -5,7 +5,7 @@
 #define FV_MESH_VIEW_H
 
 #include "../fv.h"
-#include "../grid/mesh.h"
+#include "../grid/fv_grid.h"
 
 /* Flux of psi through a face that has dry cells around, per unit of psi: the sum of weight times
  * psi at the places `at', plus `given' times the pressure of the cut. */

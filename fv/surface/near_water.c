@@ -9,10 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/bc.h"
-#include "../boundary/forcing.h"
-#include "../grid/side_kinds.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 #include "fraction.h"
 #include "levelset.h"
 

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "../../common/base/lanes.h"
+#include "../../common/base/base.h"
 
 /* Sorts the sizes of the components, smallest first, and divides them by their sum, which it
  * returns; the missing ones are 0. */

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/blocked.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "level_ops.h"
 #include "reinit_band.h"
 #include "surface_forced.h"

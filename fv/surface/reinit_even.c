@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "../boundary/blocked.h"
+#include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "weno.h"
 

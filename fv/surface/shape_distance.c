@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-#include "../../common/scene/scene_fluid.h"
-#include "../boundary/blocked.h"
-#include "../grid/mesh.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 
 /* Whether a side of the water is, seen from x, a box that is cut out: what lies half a cell beyond
  * it is, and x is in the water's half or in that box. Of rooms behind the box it is none. */

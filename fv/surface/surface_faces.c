@@ -12,9 +12,8 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/mesh_bc.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 
 enum { AROUND = 12 }; /* two cells, and the four around each along two tangents */
 

@@ -5,11 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/waves/colour.h"
-#include "../boundary/forcing.h"
-#include "../grid/block_walls.h"
+#include "../../common/base/base.h"
+#include "../../common/waves/waves.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 #include "levelset.h"
 #include "mesh_view.h"
 

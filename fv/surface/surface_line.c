@@ -15,7 +15,7 @@
 
 #include <math.h>
 
-#include "../boundary/forcing.h"
+#include "../boundary/fv_boundary.h"
 #include "level_ops.h"
 #include "mesh_view.h"
 

@@ -5,10 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../grid/mesh_motion.h"
-#include "../grid/overset.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
 
 static const int none[3] = {0, 0, 0};
 

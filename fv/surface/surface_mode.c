@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "mesh_view.h"
 
 /* cos and sin of k x over the local cells along an axis, x from 0. */

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../grid/overset.h"
+#include "../../common/base/base.h"
+#include "../grid/fv_grid.h"
 
 /* --- polygons: convex, counter-clockwise --- */
 

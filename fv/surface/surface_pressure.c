@@ -12,10 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/levels.h"
-#include "../boundary/still.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "level_ops.h"
 #include "mesh_view.h"
 

@@ -2,14 +2,11 @@
  * restart file holds, in memory. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/carried.h"
-#include "../boundary/outflow.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
-#include "../operators/operators.h"
-#include "../surface/fraction.h"
-#include "../surface/levelset.h"
-#include "../surface/surface_forced.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 #include "newton.h"
 #include "steps.h"
 

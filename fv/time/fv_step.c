@@ -10,14 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/outflow.h"
-#include "../grid/mesh.h"
-#include "../surface/levelset.h"
-#include "../watch/limits.h"
-#include "../watch/watches.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../surface/fv_surface.h"
+#include "../watch/fv_watch.h"
 #include "moving.h"
 #include "newton.h"
 #include "relax.h"

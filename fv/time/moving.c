@@ -19,16 +19,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/geometry/body_math.h"
-#include "../boundary/mesh_bc.h"
-#include "../grid/mesh_motion.h"
-#include "../grid/overset.h"
-#include "../operators/mesh_ops.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/geometry/geometry.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
-#include "../surface/mesh_view.h"
+#include "../surface/fv_surface.h"
 #include "rk3.h"
 
 static const int none[3] = {0, 0, 0};

@@ -5,7 +5,7 @@
 #ifndef FV_MOVING_H
 #define FV_MOVING_H
 
-#include "../boundary/bc.h"
+#include "../boundary/fv_boundary.h"
 #include "../fv.h"
 
 struct h5;

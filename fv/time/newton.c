@@ -10,10 +10,8 @@
 #include <string.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/outflow.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
 #include "moving.h"
 #include "stages.h"
 
@@ -31,7 +29,7 @@ enum {
     do {                                                                                           \
         const int code_ = (int)(call);                                                             \
         if (code_ < 0)                                                                             \
-            fail("%s: SUNDIALS code %d", #call, code_);                                            \
+            abort_run("%s: SUNDIALS code %d", #call, code_);                                       \
     } while (0)
 
 static void start(struct fv *s, const char *timer) { timer_start(&s->run->timers, timer); }
@@ -48,7 +46,7 @@ static void make_kinsol(struct fv *s, struct newton *w)
     w->krylov = SUNLinSol_SPGMR(w->q, SUN_PREC_RIGHT, KRYLOV, w->ctx);
     w->kin = KINCreate(w->ctx);
     if (!w->krylov || !w->kin)
-        fail("SUNDIALS cannot be set up");
+        abort_run("SUNDIALS cannot be set up");
     SUN(SUNLinSol_SPGMRSetGSType(w->krylov, SUN_CLASSICAL_GS)); /* repeated where it must be */
     SUN(KINInit(w->kin, newton_residual, w->q));
     SUN(KINSetErrHandlerFn(w->kin, no_message, NULL));

@@ -9,7 +9,7 @@
 #include <sundials/sundials_linearsolver.h>
 
 #include "../fv.h"
-#include "../operators/operators.h"
+#include "../operators/fv_operators.h"
 
 /* A state, or a variation of one, with ghosts. */
 struct flow {

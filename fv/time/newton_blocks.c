@@ -5,13 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/mesh_bc.h"
-#include "../operators/mesh_ops.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
-#include "../surface/mesh_view.h"
+#include "../surface/fv_surface.h"
 #include "newton.h"
 #include "stages.h"
 

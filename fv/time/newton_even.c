@@ -5,12 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/bc.h"
-#include "../boundary/forcing.h"
-#include "../operators/operators.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
-#include "../watch/limits.h"
+#include "../surface/fv_surface.h"
+#include "../watch/fv_watch.h"
 #include "newton.h"
 
 /* ---- faces ---------------------------------------------------------------------------------- */

@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/fv_sides.h"
-#include "../operators/flow_ops.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
+#include "../surface/fv_surface.h"
 
 /* Beyond the surface the velocity goes on as it is; dry cells get rows of their own. */
 static void close_at_surface(struct fv *s)

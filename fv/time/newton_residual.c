@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/forcing.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 
 /* ---- layout --------------------------------------------------------------------------------- */
 

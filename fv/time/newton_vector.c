@@ -4,18 +4,18 @@
  */
 #include "newton.h"
 
-enum { LANES = 8, PART = 1024 };
+enum { PART = 1024 };
 
 static double dot_part(const double *restrict x, const double *restrict y, int64_t n)
 {
-    double lanes[LANES] = {0.0}, sum = 0.0;
+    double lanes[SUM_LANES] = {0.0}, sum = 0.0;
     int64_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (int m = 0; m < LANES; m++)
+    for (; i + SUM_LANES <= n; i += SUM_LANES)
+        for (int m = 0; m < SUM_LANES; m++)
             lanes[m] += x[i + m] * y[i + m];
     for (; i < n; i++)
         sum += x[i] * y[i];
-    for (int m = 0; m < LANES; m++)
+    for (int m = 0; m < SUM_LANES; m++)
         sum += lanes[m];
     return sum;
 }

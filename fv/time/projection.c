@@ -6,9 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../boundary/levels.h"
-#include "../boundary/outflow.h"
-#include "../surface/levelset.h"
+#include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "moving.h"
 #include "rk3.h"
 #include "stages.h"

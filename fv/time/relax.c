@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-#include "../../common/scene/wave_zones.h"
-#include "../surface/levelset.h"
+#include "../../common/scene/scene.h"
+#include "../surface/fv_surface.h"
 #include "stages.h"
 
 bool relax_zones(struct fv *s, double dt)

@@ -5,15 +5,12 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stages.h"
 
-#include "../../common/base/mem.h"
-#include "../boundary/forcing.h"
-#include "../boundary/levels.h"
-#include "../boundary/mesh_bc.h"
-#include "../boundary/outflow.h"
-#include "../operators/blocked_cells.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/levelset.h"
-#include "../watch/limits.h"
+#include "../surface/fv_surface.h"
+#include "../watch/fv_watch.h"
 #include "moving.h"
 
 #include <math.h>

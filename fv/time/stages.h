@@ -3,8 +3,8 @@
 #ifndef FV_STAGES_H
 #define FV_STAGES_H
 
-#include "../boundary/fv_sides.h"
-#include "../operators/flow_ops.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "steps.h"
 
 /* s->stages, all 0. */

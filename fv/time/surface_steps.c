@@ -6,27 +6,15 @@
  * travelled, and the volume is kept. surface_keep_state and surface_back take a step back that was
  * too long.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../surface/levelset.h"
+#include "../surface/fv_surface.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../boundary/bc.h"
-#include "../boundary/carried.h"
-#include "../boundary/forcing.h"
-#include "../boundary/levels.h"
-#include "../boundary/mesh_bc.h"
-#include "../boundary/outflow.h"
-#include "../boundary/still.h"
-#include "../operators/mesh_ops.h"
-#include "../operators/operators.h"
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
-#include "../surface/fraction.h"
-#include "../surface/level_ops.h"
-#include "../surface/mesh_view.h"
-#include "../surface/reinit_band.h"
-#include "../surface/surface_forced.h"
 #include "moving.h"
 #include "stages.h"
 

@@ -10,15 +10,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/wave_zones.h"
-#include "../boundary/forcing.h"
-#include "../boundary/fv_sides.h"
-#include "../boundary/still.h"
-#include "../operators/flow_measures.h"
-#include "../surface/fraction.h"
-#include "../surface/levelset.h"
-#include "../surface/mesh_view.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 
 /* Of openings under a surface, over the energy of the scene's velocity. Measured: an outlet that
  * drains half of its tank's depth at once 0.018, all else below 0.003; water that ran in through an

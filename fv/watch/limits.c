@@ -13,15 +13,12 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/scene_speed.h"
-#include "../boundary/bc.h"
-#include "../boundary/blocked.h"
-#include "../boundary/carried.h"
-#include "../boundary/still.h"
-#include "../grid/mesh_motion.h"
-#include "../operators/viscous_solver.h"
-#include "../surface/levelset.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../boundary/fv_boundary.h"
+#include "../grid/fv_grid.h"
+#include "../operators/fv_operators.h"
+#include "../surface/fv_surface.h"
 
 #define RK3_CFL 1.1      /* default */
 #define RK3_MOST 1.2     /* refused above */

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
 #include "limits.h"
 
 enum { WATCHES = 5 };

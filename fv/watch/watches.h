@@ -4,7 +4,7 @@
 #ifndef FV_WATCHES_H
 #define FV_WATCHES_H
 
-#include "../../common/run/watch.h"
+#include "../../common/run/run.h"
 #include "../fv.h"
 
 /* Sums over all ranks and all cells that are computed, over rho. */

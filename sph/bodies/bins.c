@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* Boxes of this width that hold everything up to hi; their number along each axis. */
 static double count(const struct body_bins *b, const double *hi, int n[3])

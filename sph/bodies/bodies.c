@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/geometry/body_math.h"
-#include "../particles/params_derived.h"
-#include "../rigid/body_impedance.h"
-#include "../walls/forces.h"
+#include "../../common/geometry/geometry.h"
+#include "../particles/sph_particles.h"
+#include "../rigid/sph_rigid.h"
+#include "../walls/sph_walls.h"
 #include "paddles.h"
 
 /* --- the start --- */

@@ -6,7 +6,7 @@
 #ifndef SPH_BODIES_H
 #define SPH_BODIES_H
 
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 struct h5;
 

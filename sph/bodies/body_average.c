@@ -10,10 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../pairs/kernel.h"
-#include "../particles/eos.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
 
 static struct average_node *add_node(struct nodes *to)
 {

@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../particles/params_derived.h"
-#include "../walls/wall_cover.h"
+#include "../../common/base/base.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
 
 struct wall_ends {
     int n;

@@ -4,11 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/geometry/body_math.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
+#include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 #include "bodies.h"
 
 enum { KEY = 96 };

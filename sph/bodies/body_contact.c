@@ -10,8 +10,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/geometry/body_math.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
 #include "bodies.h"
 #include "body_touch.h"
 

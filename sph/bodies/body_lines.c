@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#include "../../common/geometry/body_math.h"
+#include "../../common/geometry/geometry.h"
 
 int body_line_other(const struct scene *c, const struct scene_line *l)
 {

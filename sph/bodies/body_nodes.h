@@ -3,7 +3,7 @@
 #ifndef SPH_BODY_NODES_H
 #define SPH_BODY_NODES_H
 
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 /* Sums over the particles around a point: W, pressure, shear stress, each weighted by w W. */
 struct said {

@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/geometry/body_math.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/geometry/geometry.h"
 #include "bodies.h"
 
 enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };

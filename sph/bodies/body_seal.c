@@ -4,9 +4,8 @@
  * rests on the opposite. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../walls/forces.h"
+#include "../../common/base/base.h"
+#include "../walls/sph_walls.h"
 #include "bodies.h"
 #include "body_nodes.h"
 #include "body_touch.h"

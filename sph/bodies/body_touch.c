@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/geometry/body_math.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
 
 struct touch_box {
     double lo[2], hi[2];

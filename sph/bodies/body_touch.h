@@ -3,7 +3,7 @@
 #ifndef SPH_BODY_TOUCH_H
 #define SPH_BODY_TOUCH_H
 
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 /* A corner of one near the other. */
 struct touch {

@@ -2,7 +2,7 @@
  * vertices of one of them. Not seen: two edges that cross. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/geometry/body_math.h"
+#include "../../common/geometry/geometry.h"
 #include "body_touch.h"
 
 static bool is_near(const struct walls *w, int body, const double *x, double more)

@@ -9,15 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/digits.h"
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../../common/files/h5.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/wave_absorber.h"
-#include "../surface/level_gauge.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../surface/sph_surface.h"
+#include "../walls/sph_walls.h"
 
 struct paddle {
     struct wave_absorber *absorber; /* owned */

@@ -6,9 +6,8 @@
 
 #include <math.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "../sph.h"
 #include "first_lattice.h"
 #include "rooms.h"

@@ -11,10 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../walls/sph_walls.h"
 #include "rooms.h"
 #include "sph_params.h"
 #include "surface_rows.h"

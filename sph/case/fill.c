@@ -6,16 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
-#include "../refinement/mixed.h"
-#include "../refinement/refinement.h"
+#include "../particles/sph_particles.h"
+#include "../refinement/sph_refinement.h"
 #include "../sph.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 #include "amount.h"
 #include "basins.h"
 #include "first_lattice.h"

@@ -3,12 +3,11 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
-#include "../walls/walls.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
 #include "rooms.h"
 
 /* In a seam: two walls that face each other are less than dx apart here. Nothing can flow there,

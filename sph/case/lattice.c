@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 int64_t lattice_cells(const struct lattice *l) { return (int64_t)l->n[0] * l->n[1] * l->n[2]; }
 

@@ -8,15 +8,13 @@
 
 #include <math.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../pairs/kernel_sums.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../pairs/sph_pairs.h"
 #include "../sph.h"
-#include "../surface/surface.h"
-#include "../time/integrate.h"
-#include "../time/level.h"
-#include "../walls/walls.h"
+#include "../surface/sph_surface.h"
+#include "../time/sph_time.h"
+#include "../walls/sph_walls.h"
 #include "first_lattice.h"
 #include "rooms.h"
 

@@ -3,10 +3,9 @@
 
 #include <math.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/vec3.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../walls/sph_walls.h"
 #include "rooms.h"
 
 /* m: x lies inside the domain, off its sides. */

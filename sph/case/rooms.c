@@ -8,11 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../walls/sph_walls.h"
 
 /* Winding numbers nearer to the threshold than this say nothing. */
 static const double doubt = 0.02;

@@ -3,13 +3,10 @@
  * sph_sense.h. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/base/log.h"
-#include "../../common/geometry/tree.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_geometry.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
+#include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 #include "sph_sense.h"
 
 enum { PLACES = 20000, FLIGHTS = 200, STRIDES = 4000 };

@@ -5,11 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/vec3.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_mesh.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "sph_sense.h"
 
 enum { RAYS = 20000 }; /* about so many triangles of a mesh are looked at */

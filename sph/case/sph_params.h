@@ -4,7 +4,7 @@
 #ifndef SPH_SPH_PARAMS_H
 #define SPH_SPH_PARAMS_H
 
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 
 enum { SPH_GROUPS = 2 };
 extern const struct param_group sph_groups[SPH_GROUPS];

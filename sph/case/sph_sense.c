@@ -6,16 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_currents.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_geometry.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../../common/scene/scene_probe.h"
-#include "../bodies/body_backs.h"
-#include "../open_boundaries/wave_outside.h"
-#include "../open_boundaries/wave_stream.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../bodies/sph_bodies.h"
+#include "../open_boundaries/sph_open_boundaries.h"
 #include "../sph.h"
 #include "first_lattice.h"
 

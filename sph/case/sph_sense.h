@@ -4,7 +4,7 @@
 #ifndef SPH_SPH_SENSE_H
 #define SPH_SPH_SENSE_H
 
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 
 /* Particles across a passage below which more than 10 % of a flow are missing. */
 #define SPH_PASSAGE 10.0

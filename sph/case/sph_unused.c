@@ -7,11 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../refinement/apr_params.h"
+#include "../../common/scene/scene.h"
+#include "../refinement/sph_refinement.h"
 #include "../sph_facts.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 static bool any_opening(const struct scene *c)
 {

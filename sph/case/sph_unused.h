@@ -3,7 +3,7 @@
 #ifndef SPH_SPH_UNUSED_H
 #define SPH_SPH_UNUSED_H
 
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 
 /* Adds a fault for each of them. groups: the tables of sph and apr; given: the parameters as the
  * case has them; used: the result of sph_params_of. Call on all ranks alike. */

@@ -14,11 +14,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene/scene_fluid.h"
-#include "../open_boundaries/wave_stream.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"
-#include "../refinement/refinement.h"
-#include "../walls/walls.h"
+#include "../refinement/sph_refinement.h"
+#include "../walls/sph_walls.h"
 #include "first_lattice.h"
 #include "rooms.h"
 

@@ -4,7 +4,7 @@
 #ifndef SPH_SURFACE_ROWS_H
 #define SPH_SURFACE_ROWS_H
 
-#include "../../common/scene/exact.h"
+#include "../../common/scene/scene.h"
 #include "../sph.h"
 
 /* Whether the scene has free surfaces that cross the lattice in steps or lie between two of its

@@ -8,15 +8,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/zones.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../particles/sph_particles.h"
 #include "coupling_solids.h"
-#include "sph_coupling.h"
+#include "sph_link.h"
 #include "windows.h"
 
 static const char axes[] = "xyz";

@@ -8,15 +8,13 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/vec3.h"
-#include "../../common/run/solids.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/zones.h"
-#include "../particles/params_derived.h"
-#include "../rigid/body.h"
-#include "sph_coupling.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../particles/sph_particles.h"
+#include "../rigid/sph_rigid.h"
+#include "sph_link.h"
 
 /* Two cells from each open side: fv's stencils reach that deep into the box. Graded rows along y
  * count from where they begin. */

@@ -12,14 +12,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../open_boundaries/level_gap.h"
-#include "../open_boundaries/openings.h"
-#include "../open_boundaries/zones.h"
-#include "../particles/eos.h"
-#include "../surface/surface.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../particles/sph_particles.h"
+#include "../surface/sph_surface.h"
 #include "windows.h"
 
 const char *const overlap_columns[OVERLAP_COLUMNS] = {

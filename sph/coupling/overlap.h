@@ -5,7 +5,7 @@
 #ifndef SPH_OVERLAP_H
 #define SPH_OVERLAP_H
 
-#include "../../common/run/watch.h"
+#include "../../common/run/run.h"
 #include "../sph.h"
 
 enum { OVERLAP_COLUMNS = 3 };

@@ -6,23 +6,17 @@
  * that carries numbers. Called by run.c through struct program; everything is collective over the
  * program's ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "sph_coupling.h"
+#include "sph_link.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "../../coupler/cpl.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/level_gap.h"
-#include "../open_boundaries/wet_faces.h"
-#include "../open_boundaries/zone_steps.h"
-#include "../open_boundaries/zones.h"
+#include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 #include "overlap.h"
 #include "windows.h"
 
@@ -48,7 +42,7 @@ static void check(const struct sph_link *k, int code)
         cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
     }
     if (code)
-        fail("coupling: %s", cpl_strerror(k->c));
+        abort_run("coupling: %s", cpl_strerror(k->c));
 }
 
 /* "sph.velocity": of what this program gives. */

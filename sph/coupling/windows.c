@@ -9,16 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/vec3.h"
-#include "../../common/run/coupling_steps.h"
-#include "../../common/run/crossing.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/box_tracking.h"
-#include "../open_boundaries/zones.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../particles/sph_particles.h"
 
 /* Bounds of T for accuracy: U T/L of the flow; omega T of waves, whose errors add up over
  * periods. */

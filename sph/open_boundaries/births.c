@@ -9,10 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/neighbours.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
+#include "../particles/sph_particles.h"
 #include "openings.h"
 #include "wet_faces.h"
 #include "zones.h"

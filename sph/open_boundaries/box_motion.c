@@ -9,11 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene/scene_mesh.h"
+#include "../../common/scene/scene.h"
 #include "../parallel/domain.h"
-#include "../particles/params_derived.h"
-#include "../rigid/body.h"
-#include "../walls/walls.h"
+#include "../particles/sph_particles.h"
+#include "../rigid/sph_rigid.h"
+#include "../walls/sph_walls.h"
 #include "box_tracking.h"
 #include "openings.h"
 #include "zones.h"

@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/waves/colour.h"
-#include "../pairs/kernel.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/waves/waves.h"
+#include "../pairs/sph_pairs.h"
 #include "openings.h"
 #include "wet_faces.h"
 #include "zones.h"

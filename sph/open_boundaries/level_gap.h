@@ -6,7 +6,7 @@
 #ifndef SPH_LEVEL_GAP_H
 #define SPH_LEVEL_GAP_H
 
-#include "../../common/run/watch.h"
+#include "../../common/run/run.h"
 #include "../sph.h"
 
 enum { LEVEL_COLUMNS = 8 };

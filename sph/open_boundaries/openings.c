@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../particles/params_derived.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
 #include "zones.h"
 
 /* In R/c0: how long the drain takes for what voids left. With 50 the drain of the breaking wave is

@@ -8,10 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 #include "openings.h"
 #include "wet_faces.h"
 #include "zones.h"

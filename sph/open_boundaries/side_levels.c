@@ -9,11 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_openings.h"
-#include "../surface/level_window.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../surface/sph_surface.h"
 #include "openings.h"
 
 /* Transits of the domain, there and back, over which the mean velocity forgets; and how long the

@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../particles/eos.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
 #include "side_levels.h"
 
 /* What is averaged, and what a bin sums: weight, its place in the bin, each in units of dx. */

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene/exact.h"
-#include "../../common/waves/steady.h"
+#include "../../common/scene/scene.h"
+#include "../../common/waves/waves.h"
 
 static const double step = 1e-4; /* of differences, over the depth */
 

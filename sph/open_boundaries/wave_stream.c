@@ -8,11 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../../common/scene/scene_currents.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_waves.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "level_gap.h"
 
 static const double step = 1e-3; /* of differences, over the depth */

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/files/h5.h"
-#include "../walls/walls.h"
+#include "../../common/files/files.h"
+#include "../walls/sph_walls.h"
 #include "zones.h"
 
 /* Share of the unit square around 0 where phi + n0 s + n1 t < 0, n0 >= n1 >= 0: corners that stand

@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/scene/exact.h"
-#include "../particles/eos.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 #include "births.h"
 #include "box_motion.h"
 #include "level_gap.h"

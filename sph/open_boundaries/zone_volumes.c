@@ -13,9 +13,9 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel_sums.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
+#include "../walls/sph_walls.h"
 #include "zones.h"
 
 static const double memory = 4.0;     /* R/c0: short against the way through the zones */

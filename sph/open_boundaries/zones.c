@@ -8,9 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../particles/eos.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../particles/sph_particles.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)

@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-#include "../../common/scene/scene_probe.h"
+#include "../../common/scene/scene.h"
 
 static const double half = 2.0; /* dx: half width of the hat function */
 

@@ -9,11 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../open_boundaries/openings.h"
-#include "../open_boundaries/sides.h"
-#include "../open_boundaries/wave_stream.h"
-#include "../open_boundaries/zone_steps.h"
-#include "../particles/params_derived.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../particles/sph_particles.h"
 
 /* What a side of the region is to what passes it. */
 enum passing { PASSES_NOTHING, PASSES_FALLING, PASSES_ZONE };

@@ -10,13 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/scene/scene_probe.h"
-#include "../bodies/bodies.h"
-#include "../pairs/kernel.h"
-#include "../particles/eos.h"
-#include "../surface/level_gauge.h"
-#include "../walls/forces.h"
-#include "../walls/walls.h"
+#include "../../common/scene/scene.h"
+#include "../bodies/sph_bodies.h"
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
+#include "../surface/sph_surface.h"
+#include "../walls/sph_walls.h"
 #include "discharge_gauge.h"
 #include "shore.h"
 

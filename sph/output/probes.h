@@ -4,7 +4,7 @@
 #define SPH_PROBES_H
 
 #include "../sph.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 /* Headings of the columns of this scene (static memory) into names; returns their number, at most
  * PROBE_COLUMNS. */

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 static const double half = 2.0;  /* dx: half width of a column's hat function */
 static const double least = 0.5; /* dx: depth of the thinnest water */

@@ -4,8 +4,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "../sph.h"
 #include "sph_output.h"
 
@@ -46,7 +46,7 @@ static double fit(const double *m)
 
 /* Values at n + 1 points of a centre line, owned by the caller (mem_free): of u along the vertical
  * (across 0), of v along the horizontal one. Collective. */
-static double *line_of(const struct sph *s, int across, int n)
+static double *profile_across(const struct sph *s, int across, int n)
 {
     double *sums = NEW(double, SUMS *(size_t)(n + 1)), *f = NEW(double, n + 1);
     for (const struct sph *q = s; q; q = q->finer)
@@ -77,7 +77,7 @@ void sph_summarise_extrema(const struct sph *s)
 {
     const int n[2] = {2 * (int)lround((s->hi[0] - s->lo[0]) / s->dx),
                       2 * (int)lround((s->hi[1] - s->lo[1]) / s->dx)};
-    double *const lines[2] = {line_of(s, 0, n[1]), line_of(s, 1, n[0])};
+    double *const lines[2] = {profile_across(s, 0, n[1]), profile_across(s, 1, n[0])};
     const double found[3] = {extremum(lines[0], n[1], -1.0), extremum(lines[1], n[0], 1.0),
                              extremum(lines[1], n[0], -1.0)};
     summary_extrema(s->run->summary, found, s->prm.extrema);

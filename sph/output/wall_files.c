@@ -9,12 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/files/xdmf.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../walls/sph_walls.h"
 
 enum { SURFACES = WALLS_MAX + BODIES_MAX };
 

@@ -11,8 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "vec.h"
 
 /* Cells [0, cells) along each axis, the outermost for ghosts only. */

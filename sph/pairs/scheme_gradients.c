@@ -16,7 +16,7 @@
 
 #include <math.h>
 
-#include "../surface/surface.h"
+#include "../surface/sph_surface.h"
 #include "eigenvalue.h"
 #include "kernel.h"
 #include "neighbours.h"

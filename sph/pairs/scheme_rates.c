@@ -22,7 +22,7 @@
 
 #include <math.h>
 
-#include "../particles/eos.h"
+#include "../particles/sph_particles.h"
 #include "riemann_rows.h"
 
 enum { EXACT = false };

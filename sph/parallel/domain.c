@@ -11,10 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../pairs/neighbours.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../pairs/sph_pairs.h"
 
 /* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead.
  * With levels in eighths of a pair, measured: PAIR; of rows that are deep, which are listed and

@@ -7,8 +7,7 @@
 
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "eos.h"
 
 /* The line that pads neighbour rows: outside every support and without volume, yet harmless in any

@@ -4,7 +4,7 @@
 #ifndef SPH_APR_PARAMS_H
 #define SPH_APR_PARAMS_H
 
-#include "../../common/scene/scene_body.h"
+#include "../../common/scene/scene.h"
 
 struct run;
 

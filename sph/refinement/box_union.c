@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* Cells between the coordinates of faces: cell i of an axis from at[i] to at[i + 1]. */
 struct cuts {

@@ -16,11 +16,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 #include "guards.h"
 #include "refinement.h"
 #include "regions.h"

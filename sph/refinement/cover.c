@@ -6,9 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../walls/sph_walls.h"
 
 enum { LOOK_EVERY = 20, VERTICES = 500, PARTS = 8 }; /* of a side of a polygon */
 

@@ -12,9 +12,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
 #include "regions_parts.h"
 
 /* Mark, depth, value, until, surface, seed, units and allowed are 29 bytes a cell: 2^25 cells are 1
@@ -93,7 +92,7 @@ struct criteria *criteria_create(struct regions *g)
         struct criteria_grid *q = c->grid + n;
         if (!marks_create(&q->cells, g->dim, g->domain.lo, g->domain.hi, g->periodic, g->open,
                           regions_R(g, n - 1), CELLS_MOST))
-            fail("criteria of level %d need more than %g cells", n, CELLS_MOST);
+            abort_run("criteria of level %d need more than %g cells", n, CELLS_MOST);
         const size_t cells = marks_count(&q->cells);
         q->value = NEW(double, cells);
         q->until = NEW(double, cells);

@@ -9,9 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../particles/eos.h"
+#include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 
 static const double growth = 0.025;
 

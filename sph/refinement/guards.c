@@ -13,13 +13,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
-#include "../pairs/vec.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
-#include "../walls/walls.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
 #include "apr_params.h"
 #include "refinement.h"
 

@@ -15,10 +15,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../particles/state_sums.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
 
 static const double hysteresis = 0.5;                   /* coarser dx */
 static const double paid_back = 0.03, most_paid = 2e-4; /* a step: of the debt; of the mass */

@@ -7,18 +7,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "../open_boundaries/zones.h"
-#include "../pairs/neighbours.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../particles/eos.h"
-#include "../particles/state_sums.h"
-#include "../surface/surface.h"
-#include "../walls/walls.h"
+#include "../particles/sph_particles.h"
+#include "../surface/sph_surface.h"
+#include "../walls/sph_walls.h"
 #include "criteria.h"
 #include "refinement.h"
 
 /* Pressure of particle i with the linear part that the particles leave out, Pa. */
-static double pressure(const struct sph *s, int i)
+static double pressure_of_particle(const struct sph *s, int i)
 {
     const double *q = prim_line(&s->p, i);
     return scene_reference_at(&s->reference, s->dim, q) +
@@ -36,8 +35,8 @@ static void find_peak(struct regions *g, const struct sph *s)
     double x[3] = {0.0, 0.0, 0.0};
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
-            if (!particles_is_guard(&q->p, i) && pressure(q, i) > most.p) {
-                most.p = pressure(q, i);
+            if (!particles_is_guard(&q->p, i) && pressure_of_particle(q, i) > most.p) {
+                most.p = pressure_of_particle(q, i);
                 memcpy(x, prim_line(&q->p, i), (size_t)q->dim * sizeof *x);
             }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);

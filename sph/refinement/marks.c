@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* The number of cells along an axis is the largest at which they are at least `width' wide; 1e-12
  * keeps a length that is a multiple of it from losing one to rounding. */

@@ -10,13 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
 #include "../../common/params/params.h"
-#include "../pairs/neighbours.h"
-#include "../pairs/vec.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 #include "refinement.h"
 
 enum { CLASSES = 2 * APR_LEVELS_MAX + 8, SORT_EVERY = 50 };

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "refinement.h"
 
 static const double alpha = 0.6;      /* R of a child over that of its parent [5.2] */

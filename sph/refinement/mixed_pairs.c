@@ -9,10 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../pairs/neighbours.h"
 #include "../pairs/riemann_loops.h"
-#include "../pairs/scheme.h"
-#include "../surface/surface.h"
+#include "../pairs/sph_pairs.h"
+#include "../surface/sph_surface.h"
 
 enum { LINE_WEIGHT = 6, LINE_R = 7 };
 

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
 #include "regions.h"
 #include "regions_parts.h"
 

@@ -10,11 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/scene/scene_geometry.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/zones.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
 #include "criteria.h"
 #include "regions_parts.h"
 

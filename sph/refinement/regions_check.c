@@ -10,11 +10,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/digits.h"
-#include "../../common/scene/scene_check.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../open_boundaries/box_motion.h"
-#include "../rigid/body.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../rigid/sph_rigid.h"
 #include "criteria.h"
 #include "regions.h"
 #include "regions_parts.h"

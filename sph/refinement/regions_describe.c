@@ -5,10 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/picture.h"
-#include "../../common/scene/scene_mesh.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 #include "regions.h"
 #include "regions_check.h"
 #include "regions_parts.h"

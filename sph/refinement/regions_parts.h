@@ -3,7 +3,7 @@
 #ifndef SPH_REGIONS_PARTS_H
 #define SPH_REGIONS_PARTS_H
 
-#include "../particles/params_derived.h"
+#include "../particles/sph_particles.h"
 #include "apr_params.h"
 #include "ball.h"
 #include "box_union.h"

@@ -8,9 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/geometry/body_math.h"
-#include "../../common/geometry/tree.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
 
 /* Two triangles for each segment of the line, from z = -half to half. With half = 2 reach nothing
  * within reach of z = 0 is nearest to a rim. */

@@ -4,8 +4,8 @@
 #ifndef SPH_SHELL_H
 #define SPH_SHELL_H
 
-#include "../../common/scene/scene_mesh.h"
-#include "../rigid/body.h"
+#include "../../common/scene/scene.h"
+#include "../rigid/sph_rigid.h"
 
 /* The surface in the frame of the start, and the pose it has moved to. In 2D each segment is two
  * triangles of a strip so wide that its rims are never nearest. */

@@ -5,8 +5,7 @@
 #ifndef SPH_BODY_H
 #define SPH_BODY_H
 
-#include "../../common/geometry/trimesh.h"
-#include "../../common/scene/body_drive.h"
+#include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 
 struct run;

@@ -7,10 +7,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../../common/geometry/body_math.h"
-#include "../../common/scene/scene_mesh.h"
+#include "../../common/base/base.h"
+#include "../../common/geometry/geometry.h"
+#include "../../common/scene/scene.h"
 #include "body.h"
 
 /* --- the start --- */

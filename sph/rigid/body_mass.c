@@ -6,9 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/geometry/body_math.h"
-#include "../../common/scene/scene_geometry.h"
-#include "../../common/scene/scene_mesh.h"
+#include "../../common/geometry/geometry.h"
+#include "../../common/scene/scene.h"
 #include "body.h"
 
 static bool no(char *why, size_t size, const char *what)

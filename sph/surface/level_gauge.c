@@ -10,8 +10,7 @@
 #include <string.h>
 
 #include "../../common/scene/scene.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 #include "level_window.h"
 #include "surface.h"
 

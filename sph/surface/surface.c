@@ -11,13 +11,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/eigenvalue.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
-#include "../pairs/vec.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 static const double spray = 0.20, inside = 0.75; /* bounds of the eigenvalue */
 

@@ -9,10 +9,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel_sums.h"
-#include "../pairs/scheme.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
+#include "../walls/sph_walls.h"
 #include "surface.h"
 
 /* What is left of delta where it fades towards the surface [5.14], for comparison. v of [5.15] is

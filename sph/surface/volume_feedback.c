@@ -16,10 +16,9 @@
 
 #include <math.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../pairs/kernel_sums.h"
-#include "../walls/walls.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
+#include "../walls/sph_walls.h"
 
 static const double slow = 150.0;     /* R/c0 */
 static const double voids = 25.0;     /* R/c0: of what no calm water has */

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../particles/eos.h"
+#include "../particles/sph_particles.h"
 
 /* A NaN never replaces anything: faults are found by sph_fault_of instead. */
 void extremes_raise(double *most, double v) { *most = v > *most ? v : *most; }

@@ -4,7 +4,7 @@
 #ifndef SPH_EXTREMES_H
 #define SPH_EXTREMES_H
 
-#include "../refinement/apr_params.h"
+#include "../refinement/sph_refinement.h"
 #include "../sph.h"
 
 enum { LEVELS = APR_LEVELS_MAX + 1 };

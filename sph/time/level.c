@@ -10,20 +10,15 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/wave_zones.h"
-#include "../open_boundaries/outer_lattice.h"
-#include "../open_boundaries/zone_steps.h"
-#include "../pairs/neighbours.h"
-#include "../pairs/scheme.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
-#include "../particles/params_derived.h"
-#include "../refinement/guards.h"
-#include "../refinement/mixed.h"
-#include "../surface/surface.h"
-#include "../surface/volume_feedback.h"
-#include "../walls/forces.h"
-#include "../walls/walls.h"
+#include "../particles/sph_particles.h"
+#include "../refinement/sph_refinement.h"
+#include "../surface/sph_surface.h"
+#include "../walls/sph_walls.h"
 #include "runge_kutta.h"
 
 static void start(struct sph *s, const char *timer) { timer_start(&s->run->timers, timer); }

@@ -10,14 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../pairs/collisions.h"
-#include "../pairs/neighbours.h"
-#include "../particles/volume.h"
-#include "../refinement/counts.h"
-#include "../refinement/guards.h"
-#include "../refinement/refinement.h"
-#include "../walls/forces.h"
-#include "../walls/walls.h"
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
+#include "../refinement/sph_refinement.h"
+#include "../walls/sph_walls.h"
 #include "level.h"
 #include "runge_kutta.h"
 

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../pairs/kernel.h"
+#include "../pairs/sph_pairs.h"
 #include "vec_math.h"
 
 static const double C = 21.0 / (2.0 * M_PI); /* W = C (1-r)^4 (1+4r) */

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/vec3.h"
-#include "../pairs/kernel.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 
 enum { CORNERS = 8 };
 

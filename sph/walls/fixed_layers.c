@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* Two segments that turn by less go on in one layer; else one ends and the other begins. */
 static const double smooth = 0.7; /* cosine */

@@ -9,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../particles/state_sums.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../particles/sph_particles.h"
 
 enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1, PARTS = sizeof(struct force) / sizeof(double) };
 

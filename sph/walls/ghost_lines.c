@@ -7,10 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
-#include "../particles/eos.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
 
 double ghost_density(const struct sph *s, double rho, double K, double d)
 {

@@ -4,7 +4,7 @@
 #ifndef SPH_VEC_MATH_H
 #define SPH_VEC_MATH_H
 
-#include "../pairs/vec.h"
+#include "../pairs/sph_pairs.h"
 
 /* a where the mask is set, else b. */
 INLINE vec vec_pick(vec_bits mask, vec a, vec b)

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* A line that parts the plane: a segment of a wall, or an open side of the domain. */
 struct cover_line {

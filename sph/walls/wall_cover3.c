@@ -5,8 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
+#include "../../common/base/base.h"
 
 enum state { SEEN, HIDDEN, MIXED };
 

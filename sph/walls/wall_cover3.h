@@ -4,7 +4,7 @@
 #ifndef SPH_WALL_COVER3_H
 #define SPH_WALL_COVER3_H
 
-#include "../../common/geometry/tree.h"
+#include "../../common/geometry/geometry.h"
 
 /* A plane rectangle normal to an axis, its normal towards +axis if high; m. */
 struct cover_side {

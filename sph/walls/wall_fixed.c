@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "fixed_layers.h"
 #include "ghost_lines.h"
 #include "wall_moments.h"
@@ -79,7 +79,7 @@ struct fixed_sample {
 };
 
 /* v = N^-1 Q by row; false: too few places, or nearly in a line. N of lengths over R. */
-static bool solve(double N[3][3], double Q[3][3], double v[3][3])
+static bool fixed_solve(double N[3][3], double Q[3][3], double v[3][3])
 {
     double c[3][3];
     for (int a = 0; a < 3; a++)
@@ -119,7 +119,7 @@ static bool sample_at(const struct sph *s, const double *x, const int *near, int
     *to = (struct fixed_sample){.rho = s->rho0, .filled = N[0][0]};
     if (!(N[0][0] > 0.0))
         return false;
-    const bool linear = used >= 6 && solve(N, Q, v);
+    const bool linear = used >= 6 && fixed_solve(N, Q, v);
     to->rho = linear ? v[0][0] : Q[0][0] / N[0][0];
     for (int a = 0; a < 2; a++) {
         to->u[a] = linear ? v[1 + a][0] : Q[1 + a][0] / N[0][0];

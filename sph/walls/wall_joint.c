@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 enum { JOINT_RAYS = 16 };
 

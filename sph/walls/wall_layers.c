@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-#include "../pairs/kernel.h"
-#include "../pairs/kernel_sums.h"
+#include "../pairs/sph_pairs.h"
 
 /* int W dS over the plane at the height h, 1/m. Midpoints. */
 static double over_plane(const struct sph *s, double h)

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/neighbours.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 #include "wall_moments.h"
 #include "wall_points.h"
 
@@ -273,7 +273,7 @@ void wall_list_build(const struct sph *s, struct wall_list *l)
 }
 
 /* What `more' has goes to t, of the same plane. */
-static void join(struct wall_touch *t, struct wall_touch *more)
+static void touch_join(struct wall_touch *t, struct wall_touch *more)
 {
     const double W = t->is.W + more->is.W;
     for (int a = 0; a < 3 && W > 0.0; a++)
@@ -296,7 +296,7 @@ static void join_planes(struct wall_touch *touch, int n)
         t->joined = false;
         for (int k = 0; k < j && t->plane >= 0 && !t->joined; k++)
             if (touch[k].plane == t->plane && touch[k].of == t->of && !touch[k].joined)
-                join(touch + k, t);
+                touch_join(touch + k, t);
     }
 }
 

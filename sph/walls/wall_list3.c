@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 
 /* What is known of a mesh: frames of the triangles that some particle has seen. */
 struct wall_frames {

@@ -5,11 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../../common/files/xdmf.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 #include "wall_cover3.h"
 
 void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own)

@@ -14,11 +14,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
-#include "../pairs/scheme.h"
-#include "../particles/eos.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
 #include "forces.h"
 #include "wall_gap.h"
 #include "wall_layers.h"

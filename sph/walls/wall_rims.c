@@ -5,9 +5,8 @@
 
 #include <math.h>
 
-#include "../../common/base/vec3.h"
-#include "../pairs/kernel.h"
-#include "../pairs/neighbours.h"
+#include "../../common/base/base.h"
+#include "../pairs/sph_pairs.h"
 
 static const double least = 1e-3, whole = 0.1; /* -: R times the integral, from which it counts */
 

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/vec3.h"
+#include "../../common/base/base.h"
 
 enum { CORNERS = 12 };
 

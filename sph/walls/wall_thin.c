@@ -6,9 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/scene/exact.h"
-#include "../../common/scene/scene_fluid.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
 
 /* A segment with the fluid on its left. */
 struct thin_face {

@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
+#include "../../common/base/base.h"
 #include "wall_shadow.h"
 
 bool wall_list3_any_thin(const struct walls *w)

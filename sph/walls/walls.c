@@ -12,10 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 #include "forces.h"
 #include "wall_cover.h"
 

@@ -6,8 +6,8 @@
 #ifndef SPH_WALLS_H
 #define SPH_WALLS_H
 
-#include "../../common/geometry/tree.h"
-#include "../rigid/body.h"
+#include "../../common/geometry/geometry.h"
+#include "../rigid/sph_rigid.h"
 #include "../sph.h"
 
 /* A straight piece of wall in the plane. */

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../pairs/kernel_sums.h"
+#include "../pairs/sph_pairs.h"
 #include "../sph.h"
 
 static const double overlap = 1.35; /* sum w W that is too much */

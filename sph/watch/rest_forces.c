@@ -9,10 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../bodies/bodies.h"
+#include "../bodies/sph_bodies.h"
 #include "../sph.h"
-#include "../walls/forces.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 enum { SAMPLES = 6 };
 

@@ -6,11 +6,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../particles/eos.h"
-#include "../particles/params_derived.h"
+#include "../../common/base/base.h"
+#include "../particles/sph_particles.h"
 #include "../sph.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 /* Everything a double, so that ranks can exchange it. */
 struct culprit {

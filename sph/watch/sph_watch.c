@@ -26,18 +26,15 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/log.h"
-#include "../../common/base/mem.h"
-#include "../../common/files/h5.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../open_boundaries/openings.h"
-#include "../open_boundaries/zones.h"
-#include "../pairs/neighbours.h"
-#include "../particles/params_derived.h"
-#include "../particles/state_sums.h"
-#include "../refinement/refinement.h"
+#include "../../common/base/base.h"
+#include "../../common/files/files.h"
+#include "../../common/scene/scene.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
+#include "../refinement/sph_refinement.h"
 #include "../sph.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 /* Of g dx: rows at the surface and at walls find their places within some hundredths of dx, up as
  * well as down. Of water a row deep that is a tenth of all the energy it has. */

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../../common/run/watch.h"
+#include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 
 struct sph;

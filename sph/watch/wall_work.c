@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
+#include "../../common/base/base.h"
 #include "../sph.h"
-#include "../walls/walls.h"
+#include "../walls/sph_walls.h"
 
 static bool any_slides(const struct scene *c)
 {

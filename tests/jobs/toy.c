@@ -10,7 +10,7 @@
 #include "../../common/base/mem.h"
 #include "../../common/files/h5.h"
 #include "../../common/files/xdmf.h"
-#include "../../common/run/run.h"
+#include "../../common/run/program.h"
 
 static struct toy_params {
     double dt;   /* s */

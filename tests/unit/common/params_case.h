@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "../../../common/base/mem.h"
-#include "../../../common/params/params.h"
+#include "../../../common/params/parameter_table.h"
 
 enum { ITEMS = 3 };
 

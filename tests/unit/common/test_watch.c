@@ -2,7 +2,7 @@
  * stop. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/run/run.h"
+#include "../../../common/run/program.h"
 #include "../../../common/run/watch.h"
 
 static void a_falling_energy_gains_nothing(void **state)

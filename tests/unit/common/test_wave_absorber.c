@@ -9,7 +9,7 @@
 
 #include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_absorber.h"
-#include "../../../common/waves/waves.h"
+#include "../../../common/waves/imposed_waves.h"
 
 /* Water h deep, waves so flat that linear theory is theirs; hinge: m over the floor, a piston < 0.
  */

@@ -10,8 +10,8 @@
 
 #include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_maker.h"
+#include "../../../common/waves/imposed_waves.h"
 #include "../../../common/waves/sea.h"
-#include "../../../common/waves/waves.h"
 #include "../../../common/waves/zone_gain.h"
 
 static void near(double a, double b, double within)

@@ -1,23 +1,17 @@
-/* sph_bodies.c - bodies and walls of a scene as particles meet them: gaps that none can enter,
+/* sph_body_paths.c - bodies and walls of a scene as particles meet them: gaps that none can enter,
  * bodies that overlap, pierce walls or leave the domain, now or later, files of motion that a run
  * cannot follow. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/mem.h"
-#include "../../common/base/vec3.h"
-#include "../../common/run/solids.h"
-#include "../../common/scene/scene_fluid.h"
-#include "../../common/scene/scene_geometry.h"
-#include "../../common/scene/scene_mesh.h"
-#include "../case/sph_sense.h"
-#include "../open_boundaries/box_motion.h"
-#include "../open_boundaries/zones.h"
-#include "../walls/walls.h"
-#include "body_backs.h"
-#include "body_check.h"
-#include "paddles.h"
+#include "../../common/base/base.h"
+#include "../../common/run/run.h"
+#include "../../common/scene/scene.h"
+#include "../bodies/sph_bodies.h"
+#include "../open_boundaries/sph_open_boundaries.h"
+#include "../walls/sph_walls.h"
+#include "sph_sense.h"
 
 enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
 
