@@ -39,9 +39,8 @@ layers_sph=". rigid particles pairs parallel walls surface open_boundaries bodie
 # bodies would have to be split from what they fill, push and check
 known="sph/sph.h sph/particles/particles.h
 sph/sph.h sph/watch/sph_watch.h
-sph/pairs/scheme_gradients.c sph/surface/surface.h
-sph/walls/walls.c sph/walls/forces.h
-sph/bodies/sph_bodies.c sph/case/sph_sense.h"
+sph/pairs/scheme_gradients.c sph/surface/sph_surface.h
+sph/walls/walls.c sph/walls/forces.h"
 includes() { # PROGRAM: lines "file included" within it
     grep -H '^#include "' $(find "$1" -name '*.[ch]') | awk -v top="$1/" -v known="$known" '
         BEGIN { n = split(known, k, "\n"); for (i = 1; i <= n; i++) skip[k[i]] = 1 }
@@ -62,6 +61,17 @@ for s in fv sph; do
     found=$(includes $s | sed "/^$s\/[a-z_]*\.c /d; s/\.[ch]//g" | awk '$1 != $2' | tsort 2>&1 >/dev/null | sed 's/tsort: //')
     [ -z "$found" ] || bad "includes in a circle: $found"
 done
+# One header of a folder is its door: no other folder includes more than it. The state of sph holds particles by
+# value, and the pairs of two levels are compiled from the loops of one
+found=$(grep -H '^#include "' $(find sph fv coupler common -mindepth 2 -name '*.[ch]') sph/*.[ch] fv/*.[ch] | awk '
+    { split($0, part, ":"); split($0, quoted, "\""); dir = part[1]; sub("/[^/]*$", "", dir); at = dir; to = quoted[2]
+      while (to ~ /^\.\.\//) { sub("^../", "", to); sub("/?[^/]*$", "", dir) }
+      to = (dir == "" ? "" : dir "/") to; of = to; sub("/[^/]*$", "", of)
+      if (of == at || of !~ /\// || (part[1] == "sph/sph.h" && to == "sph/particles/particles.h") ||
+          (part[1] == "sph/refinement/mixed_pairs.c" && to == "sph/pairs/riemann_loops.h")) next
+      if (!(of in door)) door[of] = to
+      else if (door[of] != to) print part[1] " includes " to ", others of that folder " door[of] }')
+[ -z "$found" ] || bad "folders with two doors: $found"
 for f in $(find sph fv coupler common tests -name '*.[ch]'); do
     grep -q 'SPDX-License-Identifier: BSD-3-Clause' "$f" || bad "$f has no licence line"
 done

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "exact.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdio.h>
 

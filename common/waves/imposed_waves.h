@@ -10,7 +10,6 @@
 #ifndef COMMON_IMPOSED_WAVES_H
 #define COMMON_IMPOSED_WAVES_H
 
-#include <complex.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -71,9 +70,9 @@ struct waves {
     struct second_order *second; /* NULL: first order, or evolving */
     struct wave_field *field;    /* NULL: a sum */
     bool shares;                 /* the field is another's */
-    double complex *filter;      /* of the field's velocities: what makes up for the zone */
-    double *profile;         /* [ncomponents][2][WAVE_NODES]: velocities over a w, along and up */
-    double complex *turning; /* [2][ncomponents] */
+    double _Complex *filter;     /* of the field's velocities: what makes up for the zone */
+    double *profile;          /* [ncomponents][2][WAVE_NODES]: velocities over a w, along and up */
+    double _Complex *turning; /* [2][ncomponents] */
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
     struct wave_table table, frames[WAVE_FRAMES];
     long frame[WAVE_FRAMES]; /* number of the frame that each holds */

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "reflection.h"
 
+#include <complex.h>
 #include <lapacke.h>
 #include <math.h>
 

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sea_gains.h"
 
+#include <complex.h>
 #include <math.h>
 
 #include "../base/base.h"

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stddef.h>
 

@@ -8,14 +8,12 @@
 #ifndef COMMON_WAVE_H
 #define COMMON_WAVE_H
 
-#include <complex.h>
-
 /* The mode; plain data. */
 struct wave {
     double H, k, g, nu, rho; /* m, 1/m, m/s^2, m^2/s, kg/m^3 */
-    double complex s, m;     /* 1/s, 1/m; nu = 0: m is not used */
-    double complex c[4];     /* A, B, C, D in m/s */
-    double complex E;        /* m */
+    double _Complex s, m;    /* 1/s, 1/m; nu = 0: m is not used */
+    double _Complex c[4];    /* A, B, C, D in m/s */
+    double _Complex E;       /* m */
 };
 
 /* The wave of depth H, length and amplitude of eta, m; nu may be 0, and then bottom and surface

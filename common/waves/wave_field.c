@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_field.h"
 
+#include <complex.h>
 #include <math.h>
 #include <string.h>
 

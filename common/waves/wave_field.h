@@ -6,7 +6,6 @@
 #ifndef COMMON_WAVE_FIELD_H
 #define COMMON_WAVE_FIELD_H
 
-#include <complex.h>
 #include <stdbool.h>
 
 #include "evolution.h"
@@ -49,11 +48,11 @@ struct wave_table wave_field_table(const struct wave_field *f, const struct wave
                                    double longest);
 /* Factors of the velocities that correct for the zone, [modes]; NULL: there is no zone. Owned by
  * the caller (mem_free). */
-double complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,
-                                  const struct wave_component *components, int n);
+double _Complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,
+                                   const struct wave_component *components, int n);
 /* Fills `to' with the velocities of a frame, which is 0 at t = 0. false: the waves break before
  * it. */
-bool wave_field_frame(struct wave_field *f, long frame, const double complex *filter,
+bool wave_field_frame(struct wave_field *f, long frame, const double _Complex *filter,
                       struct wave_table *to);
 /* Continues from the modes [cells][2] of a step (restart). */
 void wave_field_set(struct wave_field *f, long step, const double *modes, double energy);

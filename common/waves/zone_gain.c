@@ -3,6 +3,7 @@
  * out as e^(i(wt - kx)). SPDX-License-Identifier: BSD-3-Clause */
 #include "zone_gain.h"
 
+#include <complex.h>
 #include <lapacke.h>
 #include <math.h>
 

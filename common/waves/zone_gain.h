@@ -7,12 +7,10 @@
 #ifndef COMMON_ZONE_GAIN_H
 #define COMMON_ZONE_GAIN_H
 
-#include <complex.h>
-
 struct zone_response {
-    double complex make; /* factor of u_w (of e^(iwt)) for waves that run away from the side */
-    double complex pass; /* the same for waves that run to the side and shall not come back */
-    double reflected;    /* -: share of the height that comes back with u_w = 0 */
+    double _Complex make; /* factor of u_w (of e^(iwt)) for waves that run away from the side */
+    double _Complex pass; /* the same for waves that run to the side and shall not come back */
+    double reflected;     /* -: share of the height that comes back with u_w = 0 */
 };
 
 /* omega (1/s), number (1/m) of the waves, cosine (> 0) of the angle between their direction and the

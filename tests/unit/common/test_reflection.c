@@ -3,6 +3,7 @@
  * heights and spectra of known histories. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 

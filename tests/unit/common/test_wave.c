@@ -2,6 +2,7 @@
  * and boundary conditions, channels, patch and drop. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include <complex.h>
 #include <math.h>
 #include <string.h>
 
