@@ -8,12 +8,12 @@
 /* int W dS over the plane at the height h, 1/m. Midpoints. */
 static double over_plane(const struct sph *s, double h)
 {
-    enum { POINTS = 400 };
+    enum { POINTS = 100 }; /* 5e-5 of the whole at the wall in 3D, 1e-10 in 2D */
     const double R = s->R, half = h < R ? sqrt(R * R - h * h) : 0.0;
     double sum = 0.0;
     for (int j = 0; j < POINTS; j++) {
         const double y = (j + 0.5) / POINTS * half;
-        sum += (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * kernel_w(s->dim, hypot(h, y), R);
+        sum += (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * kernel_w(s->dim, sqrt(h * h + y * y), R);
     }
     return sum * half / POINTS;
 }
