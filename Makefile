@@ -99,7 +99,8 @@ $(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/li
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) $(FAST_LD) -o $@ $(filter %.o,$^) $(version_o) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
-$(B)/tests/kill_at.so: tests/jobs/kill_at.c
+preloaded = $(B)/tests/kill_at.so $(B)/tests/starts.so
+$(preloaded): $(B)/tests/%.so: tests/jobs/%.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(filter-out -MMD,$(CFLAGS)) -shared -fPIC -o $@ $< -ldl
@@ -110,7 +111,7 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 # the tests' own lines take little of their time, and more than half of the compiler's if it is to make them fast
 $(B)/o/tests/unit/%.o: CFLAGS += -O0 -g1
 units: $(filter $(B)/tests/test_% $(B)/tests/toy%,$(tests_bin))
-tests: all $(tests_bin) $(mocks) $(B)/tests/heat $(B)/tests/kill_at.so $(B)/tests/properties_scene
+tests: all $(tests_bin) $(mocks) $(B)/tests/heat $(preloaded) $(B)/tests/properties_scene
 # (a pointer that overflows is one past memory, too)
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -g1 -march=native -fno-math-errno" \

@@ -1,0 +1,112 @@
+"""lib.py - what job scripts in Python share. A script that imports it stands in a folder of its own afterwards: `build' is
+the build, `root' the project. SPDX-License-Identifier: BSD-3-Clause"""
+import atexit
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+build = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else 'build')
+root = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..'))
+name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
+os.environ.update(ESTRAN_BUILD=build, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1')
+mpi = 'mpirun --quiet --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 --mca btl_vader_single_copy_mechanism none'.split()
+failed = 0
+
+
+def scratch(own=name):
+    """Goes to an empty folder, which is removed at the end."""
+    folder = tempfile.mkdtemp(prefix=own + '.', dir=os.environ.get('TEST_SCRATCH'))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    os.chdir(folder)
+
+
+def bad(what, log=None):
+    """One fault more, with the end of its log."""
+    global failed
+    failed += 1
+    print('FAIL: %s' % what)
+    if log:
+        print(''.join(open(log, errors='replace').readlines()[-6:]), end='')
+
+
+def end(said):
+    print('%s: %s' % (name, said))
+    sys.exit(1 if failed else 0)
+
+
+class Starts:
+    """Runs of one program on one rank, which starts MPI once for all of them (starts.c)."""
+
+    def __init__(self, program):
+        self.server = subprocess.Popen([os.path.join(build, program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                                       env=dict(os.environ, LD_PRELOAD=build + '/tests/starts.so'))
+
+    def __call__(self, *args, log='out.txt'):
+        """The exit code, 128 and more for a signal; what it says is in `log'."""
+        self.server.stdin.write('\t'.join([os.getcwd(), log, *args]) + '\n')
+        self.server.stdin.flush()
+        return int(self.server.stdout.readline())
+
+    def close(self):
+        self.server.stdin.close()
+        self.server.wait()
+
+
+servers = {}
+
+
+def start(program, *args, log='out.txt'):
+    """A run of sph or fv on one rank: the exit code."""
+    if program not in servers:
+        servers[program] = Starts(program)
+        atexit.register(servers[program].close)
+    return servers[program](*args, log=log)
+
+
+def run(*command, log='out.txt', most=300):
+    """Any command, at most so many seconds: the exit code."""
+    with open(log, 'w') as out:
+        return subprocess.run(['timeout', '-k', '5', str(most), *command], stdin=subprocess.DEVNULL, stdout=out, stderr=out).returncode
+
+
+def says(words, log='out.txt'):
+    """Whether a line of the log has a match of this pattern."""
+    return any(re.search(words, line) for line in open(log, errors='replace'))
+
+
+def write(path, text):
+    with open(path, 'w') as out:
+        out.write(text)
+
+
+def refused_by(program, case, old, new, words):
+    """The case (text), with the pattern `old' replaced, is refused by --check with these words."""
+    write('faulty.cfg', re.sub(old, new, case, flags=re.M))
+    if start(program, 'faulty.cfg', '--check', log='faulty.log') != 2:
+        bad('accepted: %s -> %s' % (old, new))
+    elif not says(words, 'faulty.log'):
+        bad('%s -> %s: not told "%s"' % (old, new, words), 'faulty.log')
+
+
+def summary(folder, program=None):
+    with open(os.path.join(folder, (program + '-' if program else '') + 'summary.json')) as f:
+        return json.load(f)
+
+
+def series(path):
+    """Columns of a CSV file by title."""
+    with open(path) as f:
+        rows = list(csv.reader(f))
+    return {title: [float(row[k]) for row in rows[1:]] for k, title in enumerate(rows[0])}
+
+
+def box_stl(path, low, high, without=''):
+    """The triangles of a box, one normal out of each face; `without' names an open face (zp: upper z)."""
+    command = ['awk', '-v', 'lo=' + ' '.join(map(str, low)), '-v', 'hi=' + ' '.join(map(str, high)), '-v', 'drop=' + without, '-v', 'sense=1',
+               '-f', root + '/tests/jobs/stl.awk']
+    write(path, subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
