@@ -165,9 +165,21 @@ static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
     return fv_still_pressure(s, x) / s->run->scene.fluid.rho;
 }
 
+/* m^2/s^2: what the weight of half a cell makes. */
+static double half_cell(const struct fv *s, int64_t c)
+{
+    int at[3];
+    double h[3], sum = 0.0;
+    const struct part *p = grid_part(&s->grid, c, at);
+    grid_box(&s->grid, p, at, h);
+    for (int a = 0; a < s->dim; a++)
+        sum += 0.5 * fabs(s->gravity.hydrostatic[a]) * h[a];
+    return sum;
+}
+
 /* m^2/s^2: p/rho on a face, less that of water at rest. Only water that comes in loses its dynamic
  * pressure. */
-static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i)
+static double set_on(const struct fv *s, const struct outflow *o, int64_t i)
 {
     const struct levels *l = s->levels;
     const int k = o->side;
@@ -178,6 +190,14 @@ static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i
         return -at_rest(s, o, i) - 0.5 * u * u;
     return g * (l->level[k] - s->gravity.level) + l->waves[k] * (l->mean[k] - l->past[k]) -
            0.5 * u * u + (l->inlet[k] ? 0.5 * all * all : 0.0);
+}
+
+/* Above the level outside there is air: an outflow has no tension there, beyond what the surface
+ * makes within half a cell; without it a level below the bed drew water out at 13 m/s. */
+static double pressure_on(const struct fv *s, const struct outflow *o, int64_t i)
+{
+    const double p = set_on(s, o, i);
+    return s->levels->falls[o->side] ? p : fmax(p, -at_rest(s, o, i) - half_cell(s, o->cell[i]));
 }
 
 /* Flux outwards by a unit of psi on a face over that in the cell: half a cell away. m on blocks

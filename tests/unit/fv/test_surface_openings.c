@@ -272,11 +272,38 @@ static void restart_is_exact(void **state)
     }
 }
 
+/* A tank opens at once to a level outside below its bed: from the side the wave of Ritter (1892)
+ * runs back, and (8/27) sqrt(g) H^(3/2) flow out. Air cannot pull: no water is faster than its
+ * head, sqrt(2 g H). */
+static void nothing_pulls_where_the_level_outside_is_low(void **state)
+{
+    (void)state;
+    static const double levels[] = {-0.5, -5.0};
+    const struct scene_wall left = {.side = SIDE_X_MIN, .kind = WALL_SLIP};
+    const double q = 8.0 / 27.0 * sqrt(G) * pow(DEPTH, 1.5);
+    for (int k = 0; k < 4; k++) {
+        const struct scene_wall out = {
+            .side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .level = levels[k % 2], .has_level = true};
+        struct mesh_case c;
+        struct fv *s = start(&c, grids[k / 2 * 2].blocks, grids[0].with, 0.0, &left, &out);
+        assert_true(mesh_case_run(s, 10000, 1.0 * TRANSIT));
+        const double before = surface_volume(s);
+        assert_true(mesh_case_run(s, 10000, 1.7 * TRANSIT));
+        const double discharge = (before - surface_volume(s)) / (0.7 * TRANSIT),
+                     fastest = hypot(s->max.u[0], s->max.u[1]);
+        print_message("%.4g m^2/s of %.4g, at most %.4g m/s\n", discharge, q, fastest);
+        assert_close(discharge, q, 0.05 * q);
+        assert_true(fastest < sqrt(2.0 * G * DEPTH));
+        mesh_case_end(&c, &s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_after_ten_transits_are_those_of_theory),
         cmocka_unit_test(current_over_a_sill_has_bernoullis_levels),
+        cmocka_unit_test(nothing_pulls_where_the_level_outside_is_low),
         cmocka_unit_test(wakes_leave_without_gain), cmocka_unit_test(restart_is_exact)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
