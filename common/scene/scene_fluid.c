@@ -95,8 +95,8 @@ void scene_heights(const struct scene *s, double *low, double *high)
         double x[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < s->domain.dim; a++)
             x[a] = k >> a & 1 ? s->domain.max[a] : s->domain.min[a];
-        *low = fmin(*low, scene_height(s, x));
-        *high = fmax(*high, scene_height(s, x));
+        *low = fmin(*low, scene_height(s, x)) + 0.0; /* no -0 in messages */
+        *high = fmax(*high, scene_height(s, x)) + 0.0;
     }
 }
 

@@ -165,12 +165,40 @@ static void check_file(const struct params *p, struct faults *f, int k, const ch
                      file, range[0]);
 }
 
+/* Water stands no higher than the domain; below the bed it falls out of an outflow, but nothing
+ * comes in. */
+static void check_level(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    const struct scene_wall *w = s->walls + k;
+    double low, high, range[2] = {w->level, w->level};
+    char key[64];
+    if (!w->has_level || w->kind < WALL_INFLOW || scene_still_axis(s) < 0 ||
+        (w->levels && w->levels->n <= 0))
+        return;
+    if (w->levels)
+        range_of(w->levels, range);
+    snprintf(key, sizeof key, "walls.[%d].level%s", k, w->levels ? "_file" : "");
+    scene_heights(s, &low, &high);
+    if (range[1] > high + 1e-9 * (high - low))
+        params_fault(p, f, key,
+                     "%g m is above the domain, whose heights are %g to %g m: raise domain.%s, or "
+                     "lower the level",
+                     range[1], low, high,
+                     s->fluid.gravity[scene_still_axis(s)] > 0.0 ? "min" : "max");
+    if (w->kind == WALL_INFLOW && range[0] <= low)
+        params_fault(p, f, key,
+                     "%g m is no higher than the domain's bottom, %g m: nothing flows in; a higher "
+                     "level, or kind = \"outflow\"",
+                     range[0], low);
+}
+
 void wall_histories_check(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         check_file(p, f, k, "level", w->level_file, w->levels, w->level < LEVEL_TOP);
         check_file(p, f, k, "discharge", w->discharge_file, w->discharges, w->discharge != 0.0);
+        check_level(s, p, f, k);
     }
 }
 

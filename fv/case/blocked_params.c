@@ -243,7 +243,10 @@ static bool check_box(const struct run *r, int k, struct faults *f)
     int lo[3], hi[3];
     blocked_cells(&r->scene.domain, prm, k, lo, hi);
     for (int a = 0; a < d->dim; a++)
-        if (!(p->max[a] > d->min[a] && p->min[a] < d->max[a]))
+        if (p->max[a] <= p->min[a])
+            fault(r, f, k, "max", "from %g to %g m along %c: give max above min", p->min[a],
+                  p->max[a], "xyz"[a]);
+        else if (!(p->max[a] > d->min[a] && p->min[a] < d->max[a]))
             fault(r, f, k, "min", "it lies outside the domain along %c", "xyz"[a]);
         else if (hi[a] <= lo[a])
             fault(r, f, k, "max",

@@ -88,6 +88,11 @@ static void check_wall(const struct run *r, struct faults *f, int k)
                  axes[a]);
         wall_fault(r, f, k, text);
     }
+    if (w->kind == WALL_INFLOW && surface_wanted(r) &&
+        v[a] * ((w->side - SIDE_X_MIN) % 2 ? 1 : -1) > 0.0 && !w->has_level && !w->has_discharge)
+        wall_fault(r, f, k,
+                   "its velocity points out of the domain: with a free surface that is kind = "
+                   "\"outflow\" with a discharge");
 }
 
 /* Outwards through a side whose velocity is given, m^dim/s; of the exact field at the start over 32

@@ -129,6 +129,10 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
             if (kind == MESH_INFLOW && !(t.most > 0.0))
                 mesh_fault(r, f, m->block[k].prm, sides[side],
                            "an inflow without a velocity across it: nothing flows in");
+            if (kind == MESH_INFLOW && t.flux > 0.0 && surface_wanted(r))
+                mesh_fault(r, f, m->block[k].prm, sides[side],
+                           "its velocity points out of the block: with a free surface that is an "
+                           "outflow with a discharge");
             if (kind == MESH_OUTFLOW && t.slant > 1e-6 && surface_wanted(r))
                 mesh_fault(r, f, m->block[k].prm, sides[side],
                            "water would fall out of it: with a free surface an outflow stands "

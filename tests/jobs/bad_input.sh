@@ -172,8 +172,8 @@ sed 's/gravity = (0, -9.81)/gravity = (0, -981)/' tank.cfg >case.cfg
 box() { # WORDS EDIT: basin with a box
     with basin "s/^fv:/blocked: ( { name = \"b\"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/; $2" "$1" fv
 }
-box 'blocked.\[0\].max: box "b": from 0.5 to 0.5 m along x it is no whole cell' 's/min = (0.25, 0)/min = (0.5, 0)/'
-box 'blocked.\[0\].min: box "b": it lies outside the domain along y' 's/max = (0.5, 0.5)/max = (0.5, -0.5)/'
+box 'blocked.\[0\].max: box "b": from 0.5 to 0.5 m along x: give max above min' 's/min = (0.25, 0)/min = (0.5, 0)/'
+box 'blocked.\[0\].min: box "b": it lies outside the domain along y' 's/min = (0.25, 0); max = (0.5, 0.5)/min = (0.25, -1); max = (0.5, -0.5)/'
 box 'box "b": only 2 cells along x are left' 's/min = (0.25, 0)/min = (0.125, 0)/'
 box 'box "b": only 2 cells along y are left' 's/max = (0.5, 0.5)/max = (0.5, 0.9)/'
 box 'box "b": only 3 cells along x are left between it and what is next: at least 4 between no-slip' 's/min = (0.25, 0)/min = (0.1875, 0)/; s/"b";/"b"; kind = "no_slip";/'
@@ -187,6 +187,9 @@ box 'blocked: not with newton' 's/16);/16); integrator = "newton";/'
 box 'initial.field: its exact solution has no boxes' 's/^walls:/initial: { field = "two_modes"; U = 1.0; L = 1.0; };\n&/'
 with block 's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/' 'blocked: not with blocks' fv
 with tank 's/max = (1, 1)/max = (1000, 1)/; s/(0.5, 0.5)/(500, 0.5)/' 'fv.cells: cells 1000 times as long as high' fv
+with tank 's/{ side = "x_max"; }/{ side = "x_max"; kind = "outflow"; level = 1.5; }/' 'walls.\[1\].level: 1.5 m is above the domain, whose heights are 0 to 1 m: raise domain.max' fv
+with tank 's/{ side = "x_min"; }, { side = "x_max"; }/{ side = "x_min"; kind = "inflow"; level = -0.5; }, { side = "x_max"; kind = "outflow"; }/' 'walls.\[0\].level: -0.5 m is no higher than .*: nothing flows in; a higher level, or' fv
+with tank 's/{ side = "x_max"; }/{ side = "x_max"; kind = "inflow"; velocity = (1, 0); }/; s/{ side = "x_min"; }/{ side = "x_min"; kind = "outflow"; }/' 'walls.\[1\]: .*points out of the domain: with a free surface that is kind = "outflow" with a discharge' fv
 with basin 's/nu = 0.01/& ; gravity = (0, -9.81)/; s/^fv:/initial: { field = "standing_wave"; L = 1.0; level = 0.7; amplitude = 0.2; };\n&/' 'initial.amplitude: .*k a = 1.26' fv
 with basin 's/nu = 0.01/nu = 0.01; central = 1.0/' 'case.cfg:3: fluid.central: is not used' fv
 with basin 's/^fv:/initial: { amplitude = 0.1; };\n&/' 'initial.amplitude: is not used' fv

@@ -46,6 +46,12 @@ for p in sph fv; do
     tank both_$p 5 'kind = "outflow"; level = 0.2; level_file = "tide.csv"' "$solver"
     refused both_$p 'give one of the two'
 done
+printf '0 0.2\n1 9\n' >flood.csv
+for p in sph fv; do
+    eval "solver=\$$p"
+    tank flood_$p 5 'kind = "outflow"; level_file = "flood.csv"' "$solver"
+    refused flood_$p 'level_file: 9 m is above the domain'
+done
 printf '0 0.02\n1 -0.02\n' >negative.csv
 tank back_fv 5 'kind = "inflow"; discharge_file = "negative.csv"' "$fv"
 refused back_fv 'it is positive'
