@@ -8,30 +8,12 @@
 #include <math.h>
 
 #include "../../common/base/base.h"
-#include "../../common/scene/scene.h"
 
 enum outflow_kind carried_kind(const struct scene_wall *w)
 {
     return !w->has_discharge        ? OUTFLOW_CONVECTS
            : w->kind == WALL_INFLOW ? OUTFLOW_GIVEN_IN
                                     : OUTFLOW_GIVEN_OUT;
-}
-
-/* out: m^dim/s outwards, negative for inflows. */
-void carried_set_discharges(struct fv *s, double t)
-{
-    struct outflows *all = s->outflows;
-    double out[6] = {0.0};
-    for (int k = 0; k < 6; k++) {
-        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
-        if (w && w->has_discharge)
-            out[k] = (w->kind == WALL_INFLOW ? -1.0 : 1.0) * wall_discharge(w, t);
-        all->given_out[k] = w && carried_kind(w) == OUTFLOW_GIVEN_OUT;
-        all->leaves[k] = fmax(out[k], 0.0);
-    }
-    for (int k = 0; k < all->n; k++)
-        if (all->of[k].side < 6)
-            all->of[k].discharge = out[all->of[k].side];
 }
 
 /* any and convects are the same on all ranks, so that collective calls are made by all or none. */

@@ -44,18 +44,19 @@ struct outflows {
                         * outside under a surface */
     double leaves[6];  /* m^dim/s: given discharge of a side now, outwards; 0: none, or inwards */
     bool given_out[6]; /* the side has one, outwards */
-    double area[6];    /* m^(dim-1): of the water in each side of the domain */
-    bool convects;     /* one of them does, on any rank */
-    bool level_free;   /* a surface takes the difference of what comes in and leaves */
-    double *kept[3];   /* m/s: fields: w in the first ghost behind the side, for restart files */
-    double given;      /* m^dim/s: through this rank's other faces of given velocity, outwards */
-    double all;        /* with these */
+    double passed[6];  /* m^dim: of this step and rank */
+    double lacks[6];   /* m^dim: what has not passed yet; equal on all ranks */
+    double lacks_before[6]; /* when a step began that may be taken back */
+    double area[6];         /* m^(dim-1): of the water in each side of the domain */
+    bool convects;          /* one of them does, on any rank */
+    bool level_free;        /* a surface takes the difference of what comes in and leaves */
+    double *kept[3]; /* m/s: fields: w in the first ghost behind the side, for restart files */
+    double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */
+    double all;      /* with these */
 };
 
 /* The kind of an opening of the scene. */
 enum outflow_kind carried_kind(const struct scene_wall *w);
-/* Sets the given discharges to those at time t, s. */
-void carried_set_discharges(struct fv *s, double t);
 /* Makes s->outflows if some side's velocity changes; on all ranks alike. */
 void carried_create(struct fv *s);
 /* Adds an opening with room for n cells, none filled, to *list; a: the axis across it, in: offset

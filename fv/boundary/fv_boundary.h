@@ -11,6 +11,7 @@
 #include "levels.h"
 #include "mesh_bc.h"
 #include "outflow.h"
+#include "outflow_budget.h"
 #include "parted.h"
 #include "still.h"
 

@@ -17,6 +17,7 @@
 #include "forcing.h"
 #include "fv_sides.h"
 #include "mesh_bc.h"
+#include "outflow_budget.h"
 
 /* Depths that a wave travels while the mean velocity returns to what the level asks for: k h of
  * waves that feel it is below 1, where shallow water is right. */
@@ -103,7 +104,7 @@ void outflow_start(struct fv *s)
 {
     if (!s->outflows)
         return;
-    carried_set_discharges(s, s->t);
+    outflow_set_discharges(s, s->t);
     OUTFLOWS (s, o)
         for (int q = 0; q < s->dim; q++)
             for (int64_t i = 0; i < o->n; i++) {
@@ -245,7 +246,7 @@ void outflow_set(struct fv *s, double dt)
     double gain[6];
     if (!s->outflows)
         return;
-    carried_set_discharges(s, s->t + dt);
+    outflow_set_discharges(s, s->t + dt);
     find_waves(s, dt, gain);
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++) {

@@ -76,6 +76,16 @@ static void add_openings(struct kept_numbers *to, struct levels *l)
     }
 }
 
+static void add_discharges(struct kept_numbers *to, struct outflows *o)
+{
+    static const char *const names[6] = {"lacks_x_min", "lacks_x_max", "lacks_y_min",
+                                         "lacks_y_max", "lacks_z_min", "lacks_z_max"};
+    for (int k = 0; k < 6; k++) {
+        const struct kept_number lacks[] = {{names[k], .real = o->lacks + k}};
+        ADD(to, "volume that given discharges lack", lacks);
+    }
+}
+
 static void add_newton(struct kept_numbers *to, struct newton *w)
 {
     const struct kept_number newton[] = {
@@ -100,6 +110,8 @@ static struct kept_numbers numbers_of(struct fv *s)
         add_surface(&all, s->surface);
     if (levels_set_any(s))
         add_openings(&all, s->levels);
+    if (s->surface && s->outflows)
+        add_discharges(&all, s->outflows);
     return all;
 }
 

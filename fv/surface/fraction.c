@@ -344,6 +344,7 @@ static void sweep(struct fv *s, int a, double dt)
     find_planes(s);
     memset(f->flux, 0, (size_t)s->size * sizeof(double)); /* beside cells near water, too */
     find_fluxes(s, a, dt);
+    outflow_count_volumes(s, a, f->flux);
     FLOW_NEAR_AT (s, part, j, c, n) {
         const int64_t d = part->stride[a];
         update_row(f, a, c, d, dt, n);

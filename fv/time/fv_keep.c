@@ -79,6 +79,7 @@ struct kept {
     double volume0, returned, lost, gained, passed, entered, travelled; /* of a free surface */
     double carries, calm, first;                                        /* of its shares */
     double dtau, norm;                                                  /* of newton */
+    double lacks[6];                                                    /* of given discharges */
     int64_t newtons, krylovs, cycles, halvings;
 };
 
@@ -138,6 +139,8 @@ static void carry(struct fv *s, struct kept *k, bool back)
         CARRY(k->calm, s->surface->fraction->calm);
         CARRY(k->first, s->surface->fraction->first);
     }
+    if (s->outflows)
+        CARRY(k->lacks, s->outflows->lacks);
     if (s->newton) {
         CARRY(k->dtau, s->newton->dtau);
         CARRY(k->norm, s->newton->norm);

@@ -298,6 +298,9 @@ static void note_openings(struct fv *s, double dt, const double now[3])
     struct surface *f = s->surface;
     const double half = 0.5 * dt, *start = f->through;
     const bool carried = is_carried(s);
+    if (!carried)
+        outflow_count_flows(s, half, share_that_counts);
+    outflow_settle(s, dt);
     f->volume0 += carried ? f->carried_in + f->fraction->entered : half * (start[0] + now[0]);
     f->passed += half * (start[1] + now[1]);
     f->entered += carried ? f->carried_in + f->fraction->entered : half * (start[2] + now[2]);
@@ -307,6 +310,8 @@ void surface_first_half(struct fv *s, double dt)
 {
     s->surface->theta_least = least_theta(s, dt);
     flows(s, s->surface->through);
+    if (!is_carried(s))
+        outflow_count_flows(s, 0.5 * dt, share_that_counts);
     if (s->moving) {
         moving_begin_surface(s, dt);
         surface_advance_to(s, s->t + 0.5 * dt, 0.5 * dt);
@@ -392,6 +397,7 @@ void surface_keep_state(struct fv *s)
     }
     s->surface->travelled_before = s->surface->travelled;
     levels_keep(s);
+    outflow_keep_budget(s);
     if (s->surface->fraction)
         s->surface->fraction->first_before = s->surface->fraction->first;
 }
@@ -403,6 +409,7 @@ void surface_back(struct fv *s)
     for (int k = 0; k < n; k++)
         memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));
     outflow_restore(s);
+    outflow_budget_back(s);
     s->surface->travelled = s->surface->travelled_before;
     levels_back(s);
     if (s->surface->fraction)

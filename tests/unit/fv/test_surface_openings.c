@@ -261,13 +261,15 @@ static void wakes_leave_without_gain(void **state)
 static void restart_is_exact(void **state)
 {
     (void)state;
-    static const struct scene_wall in = {
-        .side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}};
-    for (int k = 0; k < 4; k++) {
+    static const struct scene_wall inlets[] = {
+        {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}},
+        {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = 0.25, .has_discharge = true}};
+    for (int k = 0; k < 8; k++) {
+        const struct scene_wall in = inlets[k / 4];
         const struct scene_wall out = {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .carried = k % 2};
         struct mesh_case one, again;
-        struct fv *s = start(&one, k / 2 ? two : "", grids[0].with, 0.0, &in, &out);
-        read_case(&again, k / 2 ? two : "", grids[0].with, 0.0, &in, &out);
+        struct fv *s = start(&one, k / 2 % 2 ? two : "", grids[0].with, 0.0, &in, &out);
+        read_case(&again, k / 2 % 2 ? two : "", grids[0].with, 0.0, &in, &out);
         assert_int_equal(mesh_case_restart(&one, s, &again, 8), 0);
     }
 }
@@ -298,13 +300,39 @@ static void nothing_pulls_where_the_level_outside_is_low(void **state)
     }
 }
 
+/* A tank that one opening fills or empties has gained or lost the discharge times the time, to a
+ * thousandth. */
+static void what_passes_is_the_given_discharge(void **state)
+{
+    (void)state;
+    const double q = 0.1, end = 2.0;
+    for (int k = 0; k < 2 * GRIDS; k++) {
+        const bool fills = k % 2 == 0;
+        const struct scene_wall closed = {.side = SIDE_X_MIN, .kind = WALL_SLIP},
+                                opening = {.side = SIDE_X_MAX,
+                                           .kind = fills ? WALL_INFLOW : WALL_OUTFLOW,
+                                           .discharge = q,
+                                           .has_discharge = true};
+        struct mesh_case c;
+        struct fv *s = start(&c, grids[k / 2].blocks, grids[k / 2].with, 0.0, &closed, &opening);
+        const double before = surface_volume(s);
+        assert_true(mesh_case_run(s, 10000, end));
+        const double passed = fabs(surface_volume(s) - before);
+        print_message("%s: %.6g m^2 of %g\n", fills ? "in" : "out", passed, q * end);
+        assert_close(passed, q * end, 1e-3 * q * end);
+        mesh_case_end(&c, &s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_after_ten_transits_are_those_of_theory),
         cmocka_unit_test(current_over_a_sill_has_bernoullis_levels),
         cmocka_unit_test(nothing_pulls_where_the_level_outside_is_low),
-        cmocka_unit_test(wakes_leave_without_gain), cmocka_unit_test(restart_is_exact)};
+        cmocka_unit_test(what_passes_is_the_given_discharge),
+        cmocka_unit_test(wakes_leave_without_gain),
+        cmocka_unit_test(restart_is_exact)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();

@@ -1,0 +1,108 @@
+/* outflow_budget.c - a given discharge is what passes. The velocity on a side follows from the
+ * water in the cells beside it, while what crosses its faces comes of the planes in those cells at
+ * each substep: a per cent more or less, of a surface that falls towards an outlet up to five. What
+ * has passed is counted, and what the discharge is more than that,
+ *   D <- D + int Q dt - passed,
+ * is added over the next SETTLE steps: Q' = Q + D/(SETTLE dt), at most by MOST of Q, so that no
+ * water is asked for that is not there. SPDX-License-Identifier: BSD-3-Clause */
+#include "outflow_budget.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/scene/scene.h"
+#include "carried.h"
+
+/* Steps: at once, each step would push the water by what the last one lacked. */
+#define SETTLE 10.0
+#define MOST 0.1
+
+/* Visits the openings of given discharge: o. */
+#define OUTFLOWS(s, o)                                                                             \
+    for (struct outflow *o = (s)->outflows ? (s)->outflows->of : NULL;                             \
+         o && o < (s)->outflows->of + (s)->outflows->n; o++)                                       \
+        if (o->kind != OUTFLOW_CONVECTS)
+
+/* m^dim/s: outwards, by the case; 0: none is given. */
+static double discharge_of(const struct fv *s, int side, double t)
+{
+    const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+    if (!w || !w->has_discharge)
+        return 0.0;
+    return (w->kind == WALL_INFLOW ? -1.0 : 1.0) * wall_discharge(w, t);
+}
+
+/* m^dim/s: what a side's discharge is to be more at time t, s, than is given. */
+static double settling(const struct fv *s, int side, double t)
+{
+    const double dt = s->step.dt_now, most = MOST * fabs(discharge_of(s, side, t));
+    return dt > 0.0 ? fmax(-most, fmin(most, s->outflows->lacks[side] / (SETTLE * dt))) : 0.0;
+}
+
+void outflow_set_discharges(struct fv *s, double t)
+{
+    struct outflows *all = s->outflows;
+    double out[6];
+    for (int k = 0; k < 6; k++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
+        out[k] = discharge_of(s, k, t) + settling(s, k, t);
+        all->given_out[k] = w && carried_kind(w) == OUTFLOW_GIVEN_OUT;
+        all->leaves[k] = fmax(out[k], 0.0);
+    }
+    for (int k = 0; k < all->n; k++)
+        if (all->of[k].side < 6)
+            all->of[k].discharge = out[all->of[k].side];
+}
+
+void outflow_count_volumes(struct fv *s, int a, const double *volume)
+{
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n && o->a == a; i++)
+            if (o->own[i])
+                s->outflows->passed[o->side] +=
+                    (o->in < 0 ? 1.0 : -1.0) * volume[o->cell[i] + o->face];
+}
+
+void outflow_count_flows(struct fv *s, double dt, double (*share)(const struct fv *s, int64_t c))
+{
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++) {
+            const double size = s->m ? 1.0 : carried_area(o, i);
+            if (o->own[i])
+                s->outflows->passed[o->side] += (o->in < 0 ? dt : -dt) * size *
+                                                share(s, o->cell[i]) *
+                                                s->U[o->a][o->cell[i] + o->face];
+        }
+}
+
+void outflow_settle(struct fv *s, double dt)
+{
+    struct outflows *all = s->outflows;
+    double passed[6];
+    if (!all)
+        return;
+    MPI_Allreduce(all->passed, passed, 6, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < 6; k++) {
+        const double given = 0.5 * (discharge_of(s, k, s->t - dt) + discharge_of(s, k, s->t));
+        const double most = MOST * SETTLE * dt * fabs(given);
+        const double lacks = all->lacks[k] + dt * given - passed[k];
+        all->lacks[k] = fmax(-most, fmin(most, lacks));
+    }
+    memset(all->passed, 0, sizeof all->passed);
+}
+
+void outflow_keep_budget(struct fv *s)
+{
+    if (!s->outflows)
+        return;
+    memcpy(s->outflows->lacks_before, s->outflows->lacks, sizeof s->outflows->lacks);
+    memset(s->outflows->passed, 0, sizeof s->outflows->passed);
+}
+
+void outflow_budget_back(struct fv *s)
+{
+    if (!s->outflows)
+        return;
+    memcpy(s->outflows->lacks, s->outflows->lacks_before, sizeof s->outflows->lacks);
+    memset(s->outflows->passed, 0, sizeof s->outflows->passed);
+}
