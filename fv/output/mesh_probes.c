@@ -42,22 +42,34 @@ static void levels_along(struct fv *s, const double *at, int up, bool down, doub
     MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
-/* Whether some cell over x is computed: a partner's part moves, and has no level of FV's. True
- * where no box moves. */
-static bool is_known(const struct fv *s, const double *at, int up)
+static bool covers_at(const struct fv *s, const double *at, int up, double height)
 {
-    const struct scene_domain *d = &s->run->scene.domain;
-    for (int n = 0; n <= ALONG && s->partners.past[0][0]; n++) {
-        double x[3] = {at[0], at[1], at[2]};
-        x[up] = d->min[up] + n * (d->max[up] - d->min[up]) / ALONG;
-        if (mesh_covers(s, s->output->search, x))
-            return true;
+    double x[3] = {at[0], at[1], at[2]};
+    x[up] = height;
+    return mesh_covers(s, s->output->search, x);
+}
+
+/* Place along gravity of the lowest cells over x, the ground of a dry column, from top to end; NAN:
+ * there are none, as where a tank has moved away or a partner's part is. */
+static double ground_at(const struct fv *s, const double *at, int up, double top, double end)
+{
+    enum { HALVINGS = 24 };
+    const double part = (top - end) / ALONG;
+    int n = 0;
+    while (n <= ALONG && !covers_at(s, at, up, end + n * part))
+        n++;
+    if (n == 0 || n > ALONG)
+        return n == 0 ? end : NAN;
+    double out = end + (n - 1) * part, in = end + n * part;
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = 0.5 * (out + in);
+        *(covers_at(s, at, up, middle) ? &in : &out) = middle;
     }
-    return !s->partners.past[0][0];
+    return in;
 }
 
 /* Height against gravity, as keys of levels are, of the highest water over x, linear between
- * samples; that of the domain's end if there is none, NAN where FV does not compute. */
+ * samples; of the ground if there is none, NAN where FV does not compute. */
 static double level_at(struct fv *s, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -65,8 +77,10 @@ static double level_at(struct fv *s, const double *x)
     const bool down = s->run->scene.fluid.gravity[up] > 0.0;
     const double top = down ? -d->min[up] : d->max[up], end = down ? -d->max[up] : d->min[up];
     const double most = 1.5 * (top - end) / ALONG;
+    const double sign = down ? -1.0 : 1.0;
     double phi[ALONG + 1];
-    if (!is_known(s, x, up))
+    if ((s->m->moves || s->partners.past[0][0]) &&
+        isnan(ground_at(s, x, up, sign * top, sign * end)))
         return NAN;
     levels_along(s, x, up, down, phi);
     for (int n = 0; n <= ALONG; n++) {
@@ -77,7 +91,7 @@ static double level_at(struct fv *s, const double *x)
         const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
         return top + (end - top) * (n - back) / ALONG;
     }
-    return end;
+    return sign * ground_at(s, x, up, sign * top, sign * end);
 }
 
 /* Velocity and distance to the surface at a position: this rank's share. */

@@ -125,6 +125,23 @@ not_told() {
 not_told lift.cfg 's/0.2); body = "box"/0.2); body = "bax"/' "probes.\[0\].body: with: no body .bax' moves" sph
 not_told swing.cfg 's/body = "cylinder"/body = "outer"/' 'probes.\[0\].body: is not used: no block of that name moves' fv
 not_told lift.cfg 's/^sph/gauges: ( { name = "g"; probes = "level level"; period = 1; } );\n&/' 'gauges that move with a body' sph
+# A level gauge that a tank has left behind reads nothing, one over dry ground the height of the ground, not of the domain's end
+cat >leaves.cfg <<'END'
+format = 1;
+time:    { end = 0.15; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (-1, -0.3); max = (1.5, 1); };
+shapes:  ( { form = "box"; box = ((-0.5, 0.1), (0, 0.3)); } );
+blocks:  ( { name = "tank"; min = (-0.5, 0.1); max = (0.5, 0.7); cells = (20, 12); i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip";
+             motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0, 0.5); until = 0.15; } ); } );
+probes:  ( { name = "left"; kind = "level"; at = (-0.45, 0); }, { name = "dry"; kind = "level"; at = (0.4, 0); } );
+fv:      { };
+output:  { snapshots = false; series = 1; };
+END
+timeout -k 5 100 "$b/fv" leaves.cfg -o leaves --force >leaves.txt 2>&1 || bad "leaves: exit code $?" leaves.txt
+dry=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, "dry") == 1) c = i } NR == 2 { print $c }' leaves/series.csv)
+near "$dry" 0.1 1e-4 || bad "a gauge over the dry floor at 0.1 m reads $dry m"
+[ "$(last leaves/series.csv left)" = nan ] || bad "a gauge that the tank has left reads $(last leaves/series.csv left)"
 # Across periodic sides: vortices are the same on both sides of x = 0, so that no water crosses it; where the box of a coupled
 # job reaches over that side, sph reads what lies in it, (cos 2kx + cos 2ky) rho U^2 F^2/4 + p0 of the vortices
 cat >seam.cfg <<'END'
