@@ -234,6 +234,23 @@ static void check_sides(const struct run *r, int k, const int *lo, const int *hi
     }
 }
 
+/* A box has one place: what reaches over a side of the period would be lost, unless it fills it. */
+static void check_period(const struct run *r, int k, int a, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const struct blocked_params *p = fv_params_of(r)->boxes + k;
+    const double L = d->max[a] - d->min[a], below = d->min[a] - p->min[a],
+                 above = p->max[a] - d->max[a];
+    if (!d->periodic[a] || fmax(below, above) < 1e-9 * L || fmin(below, above) > -1e-9 * L)
+        return;
+    fault(r, f, k, below > above ? "min" : "max",
+          "from %g to %g m along %c it reaches over a periodic side: give its parts as two boxes, "
+          "%g to %g m and %g to %g m",
+          p->min[a], p->max[a], "xyz"[a], below > above ? d->min[a] : p->min[a],
+          below > above ? p->max[a] : d->max[a], below > above ? d->max[a] - below : d->min[a],
+          below > above ? d->max[a] : d->min[a] + above);
+}
+
 static bool check_box(const struct run *r, int k, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -259,6 +276,8 @@ static bool check_box(const struct run *r, int k, struct faults *f)
     for (int q = 0; q < k; q++)
         if (strcmp(p->name, prm->boxes[q].name) == 0)
             fault(r, f, k, "name", "another box has this name");
+    for (int a = 0; a < d->dim && f->n == before; a++)
+        check_period(r, k, a, f);
     if (f->n == before)
         check_sides(r, k, lo, hi, f);
     for (int q = 0; q < r->scene.nprobes; q++) {

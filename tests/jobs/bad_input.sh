@@ -174,6 +174,7 @@ box() { # WORDS EDIT: basin with a box
 }
 box 'blocked.\[0\].max: box "b": from 0.5 to 0.5 m along x: give max above min' 's/min = (0.25, 0)/min = (0.5, 0)/'
 box 'blocked.\[0\].min: box "b": it lies outside the domain along y' 's/min = (0.25, 0); max = (0.5, 0.5)/min = (0.25, -1); max = (0.5, -0.5)/'
+box 'blocked.\[0\].min: box "b": from -0.25 to 0.25 m along x it reaches over a periodic side: give its parts as two boxes, 0 to 0.25 m and 0.75 to 1 m' 's/min = (0.25, 0); max = (0.5, 0.5)/min = (-0.25, 0); max = (0.25, 0.5)/; s/max = (1, 1);/& periodic = (true, false);/; s/{ side = "x_min"; kind = "no_slip"; }, { side = "x_max"; kind = "no_slip"; },//'
 box 'box "b": only 2 cells along x are left' 's/min = (0.25, 0)/min = (0.125, 0)/'
 box 'box "b": only 2 cells along y are left' 's/max = (0.5, 0.5)/max = (0.5, 0.9)/'
 box 'box "b": only 3 cells along x are left between it and what is next: at least 4 between no-slip' 's/min = (0.25, 0)/min = (0.1875, 0)/; s/"b";/"b"; kind = "no_slip";/'
