@@ -59,6 +59,8 @@ struct watches *fv_watches_create(const struct fv *s)
         w->energy.likely = "the step or the cells are too large for this flow (fv.cfl at half its "
                            "value tells which), or a block ends where the surface runs along its "
                            "side: let it end some cells further up or down";
+    if (moves) /* the first look may find a flow that turns round: a seventh of its walls' speed */
+        w->least_square = 2e-2;
     if (open)
         watches_open(w);
     if (open && s->surface) { /* that open at once do more work than their flow will ever have */

@@ -118,6 +118,7 @@ struct watches *watches_create(const struct run *r, const struct fv_params *p, b
     w->periodic = periodic;
     w->has_surface = surface;
     w->least = 1e-9;
+    w->least_square = 1e-4;
     w->energy_every = 10;
     w->waves_every = 50;
     return w;
@@ -185,16 +186,23 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
 }
 
 /* Over the flow's root mean square; of pressure over its own about the mean, or a twentieth of the
- * mean of u^2 where pressure hardly varies. */
+ * mean of u^2 where pressure hardly varies. Of both a tenth of what they were at the look before
+ * counts: a flow that swings is at rest now and then, and has no pressure when it is fastest. */
 void watches_waves(struct watches *w, const struct flow_waves *v, double volume, double t,
                    int64_t step, struct diagnosis *d)
 {
-    const double all = fmax(v->velocity_all, 1e-4 * volume * w->speed * w->speed),
-                 dynamic = 0.05 * all / fmax(volume, 1e-300);
+    if (t > w->waves_t) /* not where the end looks once more */
+        w->waves_before = w->waves;
+    w->waves = *v;
+    w->waves_t = t;
+    const double all = fmax(fmax(v->velocity_all, w->least_square * volume * w->speed * w->speed),
+                            0.01 * w->waves_before.velocity_all),
+                 dynamic = 0.05 * all / fmax(volume, 1e-300),
+                 pressure = fmax(v->pressure_all, 0.01 * w->waves_before.pressure_all);
     watch_judge(&w->velocity, sqrt(v->velocity / fmax(all, 1e-300)), t, step, d);
     watch_judge(&w->pressure,
-                sqrt(v->pressure / fmax(fmax(v->pressure_all, volume * dynamic * dynamic), 1e-300)),
-                t, step, d);
+                sqrt(v->pressure / fmax(fmax(pressure, volume * dynamic * dynamic), 1e-300)), t,
+                step, d);
 }
 
 /* From the seventh step on: a start from rest grows. */

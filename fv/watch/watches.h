@@ -33,6 +33,9 @@ struct watches {
     double work_least, work_most, kinetic_most;
     double balance; /* m^(dim+2)/s^2: kinetic energy less the work, of the last look */
     double least;   /* with a surface: of the energy that the scene's velocity makes, what counts */
+    double least_square; /* of the scene's velocity squared, what counts at least */
+    struct flow_waves waves, waves_before; /* of the last look at them, and of that before */
+    double waves_t;                        /* s: of the last */
     int looks;
     double sum_before; /* m/s: of the largest velocities, a step ago */
 };

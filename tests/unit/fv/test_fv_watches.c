@@ -145,6 +145,30 @@ static void waves_of_two_cells_are_seen(void **state)
     fv_free(&c.s);
 }
 
+/* A flow that swings is at rest now and then, and has no pressure when it is fastest: what is left
+ * then, a thousandth of its size, is no wave of two cells; a tenth of its size is one. */
+static void a_swing_that_turns_is_sound(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct fv_case c;
+        struct diagnosis d = {0};
+        fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){"initial.U=1", NULL});
+        struct fv *s = fv_case_start(&c, NULL);
+        const double left = k ? 1e-2 : 1e-6;
+        const struct flow_waves fast = {left, 1.0, left, 1e-8}, turns = {left, 1e-8, left, 1.0};
+        for (int look = 1; look <= 6; look++)
+            watches_waves(s->watches, look % 2 ? &turns : &fast, 1.0, look, 50 * look, &d);
+        watches_waves(s->watches, &fast, 1.0, 6.0, 300, &d); /* the end looks once more */
+        s->watches->velocity.worst = s->watches->pressure.worst = 0.0;
+        for (int look = 7; look <= 8; look++)
+            watches_waves(s->watches, look % 2 ? &turns : &fast, 1.0, look, 50 * look, &d);
+        assert_true((s->watches->velocity.worst > s->watches->velocity.warn) == (k == 1));
+        assert_true((s->watches->pressure.worst > s->watches->pressure.warn) == (k == 1));
+        fv_free(&c.s);
+    }
+}
+
 static void sudden_growth_is_seen(void **state)
 {
     struct fv_case c;
@@ -301,6 +325,7 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(edges_make_no_energy),
                                        cmocka_unit_test(blocks_are_watched),
                                        cmocka_unit_test(waves_of_two_cells_are_seen),
+                                       cmocka_unit_test(a_swing_that_turns_is_sound),
                                        cmocka_unit_test(sudden_growth_is_seen),
                                        cmocka_unit_test(walls_and_openings_are_in_the_budget),
                                        cmocka_unit_test(lost_water_is_not_accepted),
