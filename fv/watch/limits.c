@@ -25,14 +25,15 @@
 #define RK3_LINEAR 1.262 /* stable to here */
 #define BDF2_CFL 0.5
 #define BDF2_MOST 0.7
-#define BDF2_SLOW 500.0  /* U h/nu: above, its steps are a tenth of rk3's */
-#define NEWTON_CFL 1.0   /* of accuracy: it is stable at any */
-#define TRANSIENT 0.25   /* of the time of layers that grow from walls: a step of newton */
-#define OUTFLOW_CFL 0.5  /* of the whole flow, which a carried outflow meets in time: measured */
-#define VISCOUS_MOST 1.0 /* nu dt/h^2 where a surface's normal stress is explicit */
-#define STIFFEST 7.75    /* h^2/nu times the largest eigenvalue of friction with walls */
-#define START_STIFF 60.0 /* first steps after a sudden start, of the time of that eigenvalue */
-#define START_SHARE 0.1  /* and later ones, of the time since: measured, README.md */
+#define BDF2_SLOW 500.0   /* U h/nu: above, its steps are a tenth of rk3's */
+#define NEWTON_CFL 1.0    /* of accuracy: it is stable at any */
+#define TRANSIENT 0.25    /* of the time of layers that grow from walls: a step of newton */
+#define STEPS_OF_WAVE 6.0 /* of newton in the period of the longest wave: measured */
+#define OUTFLOW_CFL 0.5   /* of the whole flow, which a carried outflow meets in time: measured */
+#define VISCOUS_MOST 1.0  /* nu dt/h^2 where a surface's normal stress is explicit */
+#define STIFFEST 7.75     /* h^2/nu times the largest eigenvalue of friction with walls */
+#define START_STIFF 60.0  /* first steps after a sudden start, of the time of that eigenvalue */
+#define START_SHARE 0.1   /* and later ones, of the time since: measured, README.md */
 #define MOVED_STIFF                                                                                \
     240.0         /* always where walls go with their blocks, which start anew all the time */
 #define WAVES 0.5 /* dt of sqrt(h/g), h of the smallest cell */
@@ -284,6 +285,42 @@ static void warn_transient(const struct run *r, const struct fv_params *p, doubl
             dt, T, s->time.end, limits_cfl(p) * TRANSIENT * whole / most);
 }
 
+/* s: period of the longest standing wave of the water, as deep as it is at its highest; along a
+ * period the longest is as long as that. w^2 = g k tanh(k H), k = pi/L or 2 pi/L. INFINITY: none.
+ */
+static double longest_period(const struct scene *s)
+{
+    const double g = size_of(s->fluid.gravity, s->domain.dim);
+    const int up = scene_still_axis(s);
+    double low, high, k = INFINITY;
+    if (up < 0)
+        return INFINITY;
+    scene_heights(s, &low, &high);
+    const double depth = fmin(scene_water_top(s), high) - low;
+    for (int a = 0; a < s->domain.dim; a++)
+        if (a != up)
+            k = fmin(k, (s->domain.periodic[a] ? 2.0 : 1.0) * M_PI /
+                            (s->domain.max[a] - s->domain.min[a]));
+    return depth > 0.0 ? 2.0 * M_PI / sqrt(g * k * tanh(k * depth)) : INFINITY;
+}
+
+/* newton is stable at any step for small waves, but steps of a quarter of a basin's period make it
+ * swing by more and more: 1 m x 0.4 m on 20 x 16 cells, swings of 0.035 m: after 8 s 0.028 m at 11
+ * steps a period, 0.031 at 7, 0.21 at 4.4, 0.27 at 3. */
+static void warn_long_steps(const struct run *r, const struct fv_params *p, double h)
+{
+    const double T = p->water ? longest_period(&r->scene) : INFINITY;
+    if (p->integrator != INTEGRATOR_NEWTON || !(T < INFINITY))
+        return;
+    const double most = limits_estimate(r, p, (const double[]){h, h, h}).dt,
+                 every = r->scene.output.every, dt = every > 0.0 ? fmin(most, every) : most;
+    if (dt > T / STEPS_OF_WAVE)
+        log_warn("fv.cfl: newton's steps of %.2g s are long for the water, whose longest wave has "
+                 "a period of %.2g s: below %g steps a period it swings by more and more; fv.cfl "
+                 "below %.2g",
+                 dt, T, STEPS_OF_WAVE, limits_cfl(p) * T / STEPS_OF_WAVE / most);
+}
+
 /* Under a surface it is the number of steps, too, at which the level set loses water: the dam of
  * dam_break_crossing, cell Reynolds numbers 70, 700, 7e4: put back 4.6, 5.3, 39 % of the volume
  * (rk3: 0.9 %); the last one ends by the water that is missing at t = 0.44 s. */
@@ -291,6 +328,7 @@ void limits_warn(const struct run *r, const struct fv_params *p, double h)
 {
     const double nu = r->scene.fluid.nu, Re = nu > 0.0 ? limits_reference(r) * h / nu : 0.0;
     warn_transient(r, p, h);
+    warn_long_steps(r, p, h);
     if (p->integrator != INTEGRATOR_BDF2 || !p->water || Re < BDF2_SLOW)
         return;
     log_warn("fv.integrator: bdf2 is for slow, viscous flow: at a cell Reynolds number U h/nu of "

@@ -165,6 +165,12 @@ done
 # lengths in cm: accepted, with a word
 sed 's/gravity = (0, -9.81)/gravity = (0, -981)/' tank.cfg >case.cfg
 "$b/fv" case.cfg --check >out.txt 2>&1 && grep -q 'fluid.gravity: 981 m/s^2 looks like cm/s^2' out.txt && grep -q 'run time' out.txt || { echo "FAIL: gravity in cm/s^2"; failed=$((failed + 1)); }
+# steps of a third of a basin's period: accepted, with a word; of a twentieth: without
+for cfl in 20 2; do
+    sed "s/cells = (16, 16)/& ; integrator = \"newton\"; cfl = $cfl/" tank.cfg >case.cfg
+    "$b/fv" case.cfg --check >out.txt 2>&1 && grep -q 'run time' out.txt && grep -q 'longest wave has a period of .* fv.cfl below' out.txt
+    [ $? = $((cfl < 10)) ] || { echo "FAIL: newton's long steps of a basin, fv.cfl $cfl"; failed=$((failed + 1)); }
+done
 # the picture of blocks has their names and what their sides are
 "$b/fv" block.cfg --check=picture -o drawn >out.txt 2>&1 && grep -q '>a<' drawn/fv-scene.svg && grep -q 'no-slip wall' drawn/fv-scene.svg &&
     grep -q 'run time' out.txt || { echo "FAIL: block.cfg is not drawn, or without its forecast"; failed=$((failed + 1)); }
