@@ -272,7 +272,7 @@ static void warn_transient(const struct run *r, const struct fv_params *p, doubl
     const struct scene *s = &r->scene;
     const double T = friction_time(s), whole = fmin(T, s->time.end);
     double dt = 0.0;
-    if (p->integrator != INTEGRATOR_NEWTON || p->steady || s->time.end > 3.0 * T)
+    if (p->integrator != INTEGRATOR_NEWTON || p->steady || !isfinite(T) || s->time.end > 3.0 * T)
         return;
     const double most = limits_estimate(r, p, (const double[]){h, h, h}).dt;
     dt = fmin(most, s->time.end);
@@ -313,7 +313,8 @@ static void warn_long_steps(const struct run *r, const struct fv_params *p, doub
     if (p->integrator != INTEGRATOR_NEWTON || !(T < INFINITY))
         return;
     const double most = limits_estimate(r, p, (const double[]){h, h, h}).dt,
-                 every = r->scene.output.every, dt = every > 0.0 ? fmin(most, every) : most;
+                 every = r->scene.output.every > 0.0 ? r->scene.output.every : INFINITY,
+                 dt = fmin(fmin(most, every), r->scene.time.end);
     if (dt > T / STEPS_OF_WAVE)
         log_warn("fv.cfl: newton's steps of %.2g s are long for the water, whose longest wave has "
                  "a period of %.2g s: below %g steps a period it swings by more and more; fv.cfl "
