@@ -107,6 +107,18 @@ static void follow_ray(const struct walls *w, struct wall_joint *j, const struct
     }
 }
 
+/* The end of one face where another of a second fluid begins or ends, too, but for the joint. */
+static void find_meets(struct wall_joint *j, const struct joint_face *f, const struct joint_face *o,
+                       double near)
+{
+    for (int end = 0; end < 4; end++) {
+        const double *x = end < 2 ? f->is.a : f->is.b, *y = end % 2 ? o->is.b : o->is.a;
+        if (j->nmeets < JOINT_MEETS && hypot(x[0] - y[0], x[1] - y[1]) < near &&
+            hypot(x[0] - j->x[0], x[1] - j->x[1]) > near)
+            memcpy(j->meet[j->nmeets++], x, sizeof *j->meet);
+    }
+}
+
 /* Whether walls part fluids at x. */
 static bool make_joint(const struct walls *w, const double *x, double near, double reach,
                        struct wall_joint *j)
@@ -125,6 +137,10 @@ static bool make_joint(const struct walls *w, const double *x, double near, doub
     for (int k = 0; k < n; k++)
         for (int end = 0; end < 2 && fluid[k] >= 0; end++)
             follow_ray(w, j, ray + (k + end) % n, fluid[k], near, reach);
+    for (int k = 0; k < j->nfaces; k++)
+        for (int m = 0; m < k; m++)
+            if (j->face[k].fluid != j->face[m].fluid)
+                find_meets(j, j->face + k, j->face + m, near);
     return true;
 }
 
@@ -248,12 +264,24 @@ const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, 
     return NULL;
 }
 
+/* Whether a place of a face is nearer to where the fluids meet again than to the joint. */
+static bool is_far(const struct wall_joint *j, const struct segment *g, double at)
+{
+    const double x[2] = {g->a[0] + at * g->t[0], g->a[1] + at * g->t[1]};
+    const double r = hypot(x[0] - j->x[0], x[1] - j->x[1]);
+    bool far = false;
+    for (int k = 0; k < j->nmeets; k++)
+        far = far || hypot(x[0] - j->meet[k][0], x[1] - j->meet[k][1]) < r;
+    return far;
+}
+
 bool wall_joint_parts(const struct wall_joint *j, const double *x, double reach)
 {
     int seen = -1;
     for (int k = 0; k < j->nfaces; k++) {
         double at;
-        if (j->face[k].fluid == seen || distance_to(&j->face[k].is, x, &at) >= reach)
+        if (j->face[k].fluid == seen || distance_to(&j->face[k].is, x, &at) >= reach ||
+            is_far(j, &j->face[k].is, at))
             continue;
         if (seen >= 0)
             return true;

@@ -15,12 +15,14 @@ struct joint_face {
     double from, to;   /* m along the segment */
 };
 
-enum { JOINT_FACES = 32 };
+enum { JOINT_FACES = 32, JOINT_MEETS = 4 };
 
-/* One such point with the faces that leave it, fluid by fluid. */
+/* One such point with the faces that leave it, fluid by fluid. Round a small body two fluids may
+ * meet again, where the faces of one go on as those of the other. */
 struct wall_joint {
     double x[2]; /* m */
-    int nfaces, nfluids;
+    int nfaces, nfluids, nmeets;
+    double meet[JOINT_MEETS][2]; /* m: the corners where that is */
     struct joint_face face[JOINT_FACES];
 };
 
@@ -42,7 +44,7 @@ int wall_joint_fluid(const struct wall_joint *j, const double *x);
 bool wall_joint_hides(const struct wall_joint *j, const double *x, const double *y);
 /* The part of a segment that bounds a fluid; NULL: none does. Borrowed. */
 const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, int fluid);
-/* Whether two fluids have faces within reach of x. */
+/* Whether two fluids have faces within reach of x, on this side of where they meet again. */
 bool wall_joint_parts(const struct wall_joint *j, const double *x, double reach);
 
 #endif

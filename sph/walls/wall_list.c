@@ -122,8 +122,8 @@ static struct segment part_of(const struct walls *w, const struct wall_list *l,
 
 /* Of touches [first, n) of a particle at x those go that a joint hides from it; returns the new n.
  */
-static int leave_seen(struct wall_list *l, const struct wall_joint *j, const double *x, int first,
-                      int n)
+static int leave_seen(const struct walls *w, struct wall_list *l, const struct wall_joint *j,
+                      const double *x, int first, int n)
 {
     const int fluid = wall_joint_fluid(j, x);
     int kept = first;
@@ -136,7 +136,7 @@ static int leave_seen(struct wall_list *l, const struct wall_joint *j, const dou
         if (hidden)
             continue;
         l->touch[kept] = *t;
-        if (f && (f->from > 0.0 || f->to < f->is.length))
+        if (f && (f->from > 0.0 || f->to < w->segments[t->piece].length))
             cut_touch(l, l->touch + kept, f->from, f->to);
         kept++;
     }
@@ -152,14 +152,15 @@ static void make_room_for_parted(struct wall_list *l)
 }
 
 /* Of the l->n-th to be, at x, with touches [first, n); returns the new n. */
-static int part(struct wall_list *l, const double *x, double reach, int first, int n)
+static int part(const struct walls *w, struct wall_list *l, const double *x, double reach,
+                int first, int n)
 {
     bool any = false;
     for (int k = 0; k < l->joints.n && n > first + 1; k++) {
         if (!wall_joint_parts(l->joints.of + k, x, reach))
             continue;
         any = true;
-        n = leave_seen(l, l->joints.of + k, x, first, n);
+        n = leave_seen(w, l, l->joints.of + k, x, first, n);
     }
     if (l->joints.n > 0) {
         make_room_for_parted(l);
@@ -212,7 +213,7 @@ static void build(const struct sph *s, struct wall_list *l)
             touches = list_group(w, l, k, x, reach, touches);
         if (touches > before) {
             wall_list_room(l, touches);
-            touches = part(l, x, reach, before, touches);
+            touches = part(w, l, x, reach, before, touches);
             l->who[l->n] = i;
             l->first[l->n++] = before;
         }

@@ -80,6 +80,56 @@ static void nobody_sees_through(void **state)
     sph_free(&c.s);
 }
 
+/* Beside the top of a square that stands on its corner the water is one again. */
+static void fluids_meet_over_a_small_body(void **state)
+{
+    struct sph_case c;
+    struct wall_joints found = {0};
+    (void)state;
+    wall_joints_find(tank(&c, 4, (double[][2]){{0.5, 0.0}, {0.3, 0.2}, {0.5, 0.4}, {0.7, 0.2}}),
+                     &found);
+    assert_int_equal(found.n, 1);
+    const struct wall_joint *j = found.of;
+    for (int side = -1; side <= 1; side += 2) {
+        assert_true(wall_joint_parts(j, (double[2]){0.5 + side * 0.05, 0.02}, c.s->R));
+        assert_false(wall_joint_parts(j, (double[2]){0.5 + side * 0.05, 0.38}, c.s->R));
+    }
+    wall_joints_free(&found);
+    sph_free(&c.s);
+}
+
+/* Of a symmetric scene. */
+static double gamma_of_mirror(const struct sph *s, const double *gamma, const double *x)
+{
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = prim_line(&s->p, i);
+        if (fabs(x[0] + y[0] - 1.0) < 1e-9 && fabs(x[1] - y[1]) < 1e-9)
+            return gamma[i];
+    }
+    return NAN;
+}
+
+/* The floor on either side of a tip is its own water's alone: the first half of its segment as well
+ * as the second. */
+static void sides_of_a_tip_are_mirrors(void **state)
+{
+    struct sph_case c;
+    double worst = 0.0;
+    (void)state;
+    struct sph *s = tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.3, 0.35}, {0.7, 0.35}});
+    integrate_prepare(s);
+    double *gamma = NEW(double, s->p.n);
+    for (int i = 0; i < s->p.n; i++)
+        gamma[i] = 1.0;
+    s->walls->model->gammas(s, gamma);
+    for (int i = 0; i < s->p.n; i++)
+        if (hypot(prim_line(&s->p, i)[0] - 0.5, prim_line(&s->p, i)[1]) < 0.2)
+            worst = fmax(worst, fabs(gamma_of_mirror(s, gamma, prim_line(&s->p, i)) - gamma[i]));
+    assert_close(worst, 0.0, 1e-12);
+    mem_free(gamma);
+    sph_free(&c.s);
+}
+
 /* A driven tip that leaves the floor opens it, one that comes down closes it. */
 static void joints_come_and_go(void **state)
 {
@@ -102,9 +152,10 @@ static void joints_come_and_go(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_that_part_are_found),
-                                       cmocka_unit_test(nobody_sees_through),
-                                       cmocka_unit_test(joints_come_and_go)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(walls_that_part_are_found), cmocka_unit_test(nobody_sees_through),
+        cmocka_unit_test(fluids_meet_over_a_small_body),
+        cmocka_unit_test(sides_of_a_tip_are_mirrors), cmocka_unit_test(joints_come_and_go)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
