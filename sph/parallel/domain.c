@@ -471,7 +471,8 @@ int domain_send_items(struct sph *s, double **items, int n, int width)
     return got;
 }
 
-/* Brings positions along periodic axes back into [lo, hi); NaN becomes lo. */
+/* Brings positions along periodic axes back into [lo, hi). One that is not finite becomes lo, so
+ * that it has a cell, and marks the momentum, which the next look at the state finds. */
 static void wrap(struct sph *s)
 {
     for (int a = 0; a < s->dim; a++) {
@@ -480,6 +481,8 @@ static void wrap(struct sph *s)
             double *x = state_row(&s->p, s->p.y, i) + a;
             if (*x >= lo && *x < hi)
                 continue;
+            if (!isfinite(*x))
+                x[s->dim] = NAN;
             *x -= (hi - lo) * floor((*x - lo) / (hi - lo));
             if (!(*x >= lo && *x < hi)) /* rounding at the seam */
                 *x = lo;

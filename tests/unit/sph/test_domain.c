@@ -268,12 +268,37 @@ static void balance_evens_out_the_pairs(void **state)
     sph_free(&c.s);
 }
 
+/* A position that is no number along a period must not become a sound one. */
+static void what_is_not_finite_keeps_its_mark(void **state)
+{
+    (void)state;
+    const double broken[2] = {NAN, INFINITY};
+    for (int k = 0; k < 2; k++) {
+        struct sph_case c;
+        start(&c, 2, 20, true);
+        int marked = 0;
+        for (int i = 0; i < c.s->p.n; i++)
+            if (c.s->p.id[i] == 7)
+                state_row(&c.s->p, c.s->p.y, i)[0] = broken[k];
+        domain_migrate(c.s);
+        for (int i = 0; i < c.s->p.n; i++) {
+            const double *y = state_row(&c.s->p, c.s->p.y, i);
+            assert_true(isfinite(y[0]));
+            marked += c.s->p.id[i] == 7 && isnan(y[c.s->dim]);
+        }
+        MPI_Allreduce(MPI_IN_PLACE, &marked, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+        assert_int_equal(marked, 1);
+        sph_free(&c.s);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(particles_reach_their_owners),
                                        cmocka_unit_test(ghosts_are_all_images_within_reach),
                                        cmocka_unit_test(halo_brings_the_owners_values),
                                        cmocka_unit_test(items_reach_owners_in_order_of_senders),
+                                       cmocka_unit_test(what_is_not_finite_keeps_its_mark),
                                        cmocka_unit_test(balance_evens_out_a_crowd),
                                        cmocka_unit_test(balance_evens_out_the_pairs)};
     MPI_Init(&argc, &argv);
