@@ -220,6 +220,7 @@ void level_begin_rates(struct sph *s)
 void level_rates(struct sph *s)
 {
     const struct wall_model *w = s->walls ? s->walls->model : NULL;
+    s->watch.wall_power = 0.0;
     if (s->scheme->gradients && !s->lists.sloped) {
         pass(s, s->scheme->gradients, "gradients", false, w ? w->lines : NULL);
         slopes_done(s);

@@ -32,7 +32,6 @@ bool sph_watch_moves(const struct scene *c)
 void sph_watch_before_walls(struct sph *s)
 {
     struct sph_watch *w = &s->watch;
-    w->wall_power = 0.0;
     if (!w->budget_closed || !s->walls || !any_slides(&s->run->scene))
         return;
     mem_free(w->rate);
