@@ -268,16 +268,15 @@ static struct flow_energy energy_of(struct fv *s)
 /* 1 where something flows, 0 behind closed sides, too. 1 or 0, with ghosts; s->flux is scratch. */
 static const double *mask_of(struct fv *s)
 {
-    const unsigned char *idle = s->surface   ? s->surface->layer
-                                : s->forcing ? s->forcing->forced
-                                             : NULL;
+    const unsigned char *air = s->surface ? s->surface->layer : NULL,
+                        *forced = s->forcing ? s->forcing->forced : NULL;
     const struct part *p = &s->whole;
     if (s->m)
         return s->free;
     PART_ROWS_AT (p, p->g, p->g, j, k, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const int at[3] = {(int)(i - c) - p->g[0], j, k};
-            bool in = !(idle && idle[i]);
+            bool in = !(air && air[i]) && !(forced && forced[i]);
             for (int a = 0; a < s->dim && in; a++)
                 in = (at[a] >= 0 || !closed_here(&s->b, 2 * a)) &&
                      (at[a] < p->n[a] || !closed_here(&s->b, 2 * a + 1));
