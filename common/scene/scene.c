@@ -149,7 +149,7 @@ static const struct param wall_rows[] = {
           USED(ONLY(kind, ONE(WALL_INFLOW), "only an inflow has a profile"),
                WHERE(no_flow, "no level and no discharge", "a level or a discharge is given: uniform over the water"),
                NEED(FULL, "under a free surface an inflow is uniform over its water"))),
-    PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow",
+    PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow; with weight at the height initial.level, by default the top of the domain (sph: between outflows at different heights at the middle of each)",
           USED(ONLY(kind, ~ONE(WALL_SLIP) & ~ONE(WALL_NO_SLIP), "a wall has none; outflow and absorbing have"),
                ONLY(kind, ONE(WALL_OUTFLOW) | ONE(WALL_ABSORBING), "the velocity is given here, the pressure follows"),
                WITHOUT(carried, "of a convective outflow (carried) it is part of the solution"),
