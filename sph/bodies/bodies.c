@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "../../common/geometry/geometry.h"
+#include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
 #include "../rigid/sph_rigid.h"
 #include "../walls/sph_walls.h"
@@ -180,29 +181,53 @@ static void take_hits(struct sph *s)
     }
 }
 
+/* Where a body may be: beyond open sides the flow is somebody else's, who has no bodies; m. */
+static void room_of(const struct sph *s, double lo[3], double hi[3])
+{
+    const struct sph_params *prm = &s->prm;
+    if (s->zones && prm->outer == OUTER_PARTNER)
+        zones_given_box(s->run, prm, lo, hi);
+    else if (s->zones)
+        zones_free_box(s->run, prm, lo, hi);
+    for (int a = 0; a < 3; a++) {
+        lo[a] = s->zones ? lo[a] + s->lo[a] - prm->box[0][a] : s->lo[a];
+        hi[a] = s->zones ? hi[a] + s->hi[a] - prm->box[1][a] : s->hi[a];
+    }
+}
+
 static void say_out(const struct sph *s, const struct body *b, const double *x, int axis,
                     struct diagnosis *d)
 {
+    const bool inside = x[axis] >= s->lo[axis] && x[axis] <= s->hi[axis],
+               coupled = s->prm.outer == OUTER_PARTNER;
     d->bad = true;
-    snprintf(d->reason, sizeof d->reason, "body %s leaves the region of the particles",
-             b->is->name);
+    snprintf(d->reason, sizeof d->reason, "body %s leaves %s", b->is->name,
+             !inside   ? "the region of the particles"
+             : coupled ? "what fv, which has no bodies, takes from the particles"
+                       : "the free zone of the particles");
     snprintf(d->where, sizeof d->where, "(%g, %g, %g) m, across %c", x[0], x[1],
              s->dim == 3 ? x[2] : 0.0, "xyz"[axis]);
     snprintf(d->likely, sizeof d->likely, "%s",
              s->periodic[axis] ? "a body may come up to a periodic side, not through it: walls "
                                  "there, or a larger domain"
-                               : "a larger domain, or walls that hold it");
+             : !inside         ? "a larger domain, or walls that hold it"
+             : coupled         ? "a larger sph.box, one that follows the body (sph.box_follows), "
+                                 "or an earlier time.end"
+                               : "openings farther away, or an earlier time.end");
 }
 
-/* A body that leaves the domain, or is no longer a number. */
+/* A body that leaves its room, or is no longer a number. */
 static void judge(const struct sph *s, const struct body *b, struct diagnosis *d)
 {
     const int n = b->mesh ? b->mesh->nvertices : b->is->points.n;
+    const double small = 1e-6 * s->dx;
+    double lo[3], hi[3];
+    room_of(s, lo, hi);
     for (int k = 0; k < n && !d->bad; k++) {
         double x[3] = {0.0, 0.0, 0.0};
         body_place(b, b->mesh ? b->mesh->x[k] : b->is->points.x[k], x);
         for (int a = 0; a < s->dim && !d->bad; a++)
-            if (!(x[a] >= s->lo[a] && x[a] <= s->hi[a]))
+            if (!(x[a] >= lo[a] - small && x[a] <= hi[a] + small))
                 say_out(s, b, x, a, d);
     }
 }

@@ -114,6 +114,13 @@ for level in 2 3; do
     below "$(number weight$level overlap_velocity)" 0.01 || bad "stream: velocities $(number weight$level overlap_velocity) apart"
 done
 
+# a free body that the stream carries out of what fv takes from the particles ends the run, as a driven one is refused
+# (before it went on through the zones, exit 0)
+sed 's/^sph:/bodies: ( { name = "log"; free = true; density = 1000; points = ((1.9, 0.9), (1.9, 1.1), (2.1, 1.1), (2.1, 0.9)); } );\nsph:/' weight.cfg >carries.cfg
+"$root/cases/run" carries.cfg -n 1:1:1 -o carries -p time.end=0.9 >carries.txt 2>&1
+[ $? = 3 ] && grep -q 'body log leaves what fv, which has no bodies, takes from the particles' carries.txt ||
+    bad "a body that leaves what fv takes from sph: $(tail -n 3 carries.txt)"
+
 # a box that moves across rows of unequal height, between sides of the exact flow: 1.5 times the even grid's error at most
 across() { # DIR ARGS...
     d=$1
