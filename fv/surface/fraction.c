@@ -79,6 +79,11 @@ static struct fraction *create(const struct fv *s)
     f->smooth = NEW(unsigned char, s->size);
     for (int64_t c = 0; c < s->size; c++)
         f->volume[c] = grid_volume(&s->grid, c);
+    for (int a = 0; a < s->dim && !s->m; a++) {
+        f->area[a] = NEW(double, s->size);
+        for (int64_t c = 0; c < s->size; c++)
+            f->area[a][c] = f->volume[c] / grid_height(&s->grid, c, a);
+    }
     return f;
 }
 
@@ -93,6 +98,7 @@ void fraction_free(struct fraction **fp)
     for (int a = 0; a < 3; a++) {
         mem_free(f->n[a]);
         mem_free(f->flow[a]);
+        mem_free(f->area[a]);
     }
     mem_free(f->air);
     mem_free(f->smooth);
@@ -142,6 +148,13 @@ void fraction_note_layers(const struct fv *s)
     const struct surface *f = s->surface;
     for (int64_t c = 0; c < s->size; c++)
         f->fraction->layer[c] = f->layer[c];
+    f->fraction->has_flows = false;
+}
+
+void fraction_forget_flows(const struct fv *s)
+{
+    if (s->surface && s->surface->fraction)
+        s->surface->fraction->has_flows = false;
 }
 
 double fraction_volume(const struct fv *s)
@@ -388,7 +401,9 @@ static void balance(struct fv *s)
 void fraction_advance(struct fv *s, double dt, int n)
 {
     struct fraction *f = s->surface->fraction;
-    fraction_set_flows(s);
+    if (!f->has_flows)
+        fraction_set_flows(s);
+    f->has_flows = true;
     f->entered = 0.0;
     f->excess = excess_of(s, dt);
     for (int k = 0; k < n; k++) {

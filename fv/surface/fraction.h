@@ -26,7 +26,10 @@ struct fraction {
     double *n[3];    /* -: normals of the planes in mixed cells, out of the water */
     double *alpha;   /* -: of the planes */
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
+    bool
+        has_flows; /* they are those of the present U: both halves around a step's end share them */
     double *volume;  /* m^dim: of cells, ghosts included */
+    double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;
     int64_t nair, air_room;
     struct air_cell *air;
@@ -59,6 +62,8 @@ void fraction_free(struct fraction **f);
 void fraction_take(const struct fv *s);
 /* Keeps the layers for which the projection has just been made. */
 void fraction_note_layers(const struct fv *s);
+/* U is no longer that of the last advance. */
+void fraction_forget_flows(const struct fv *s);
 /* Advects the shares by dt, s, in n parts, with the fluxes U as they are. Collective. */
 void fraction_advance(struct fv *s, double dt, int n);
 /* Volume of water, m^dim, over all ranks. Collective. */

@@ -144,13 +144,14 @@ void fraction_set_flows(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     for (int a = 0; a < s->dim; a++) {
+        const double *restrict U = s->U[a], *restrict area = f->area[a];
+        double *restrict flow = f->flow[a];
         int up[3] = {0, 0, 0};
         up[a] = 1;
         for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
             PART_NEAR (p, none, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
-                    f->flow[a][i] =
-                        s->m ? s->U[a][i] : s->U[a][i] * f->volume[i] / grid_height(&s->grid, i, a);
+                    flow[i] = area ? U[i] * area[i] : U[i];
     }
     take_divergence_away(s);
 }

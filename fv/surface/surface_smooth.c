@@ -91,9 +91,13 @@ void surface_smooth(struct fv *s, double dt)
     for (int q = 0; q < s->grid.nparts; q++) {
         const struct part *p = s->grid.part + q;
         const bool leans = surface_leans(s, p), overlaps = grid_overlaps(&s->grid) && !leans;
-        double share[3];
-        for (int a = 0; a < s->dim; a++)
+        double share[3], most = 0.0;
+        for (int a = 0; a < s->dim; a++) {
             share[a] = share_of(s, p, a, dt);
+            most = fmax(most, share[a]);
+        }
+        if (most == 0.0) /* water that is not calm */
+            continue;
         for (int a = 0; a < s->dim; a++)
             for (int k = 0; k < (leans ? PASSES : 1); k++) {
                 if (k > 0 && !s->m) /* a pass sees two cells beyond a rank's own */

@@ -156,5 +156,6 @@ void kept_take(struct kept *k, struct fv *s) { carry(s, k, false); }
 void kept_put_back(struct kept *k, struct fv *s)
 {
     carry(s, k, true);
+    fraction_forget_flows(s);
     outflow_restore(s);
 }

@@ -219,8 +219,10 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         surface_second_half(s, dt);
         timer_stop(&s->run->timers, "surface");
     }
-    if (relax_zones(s, dt))
+    if (relax_zones(s, dt)) {
+        fraction_forget_flows(s);
         measure(s); /* as a restart does */
+    }
     diagnose(s, dt, before * dt, good, d);
     const bool failed = run_diagnose(d, s->comm);
     if (s->step.predicts)

@@ -408,6 +408,7 @@ void surface_back(struct fv *s)
     const int n = state(s, f);
     for (int k = 0; k < n; k++)
         memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));
+    fraction_forget_flows(s);
     outflow_restore(s);
     outflow_budget_back(s);
     s->surface->travelled = s->surface->travelled_before;
