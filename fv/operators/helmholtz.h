@@ -56,6 +56,11 @@ static inline bool helmholtz_is_weak(const struct helmholtz *h, double tol)
     const double weak = 2.0 * h->c * h->largest;
     return weak * weak <= tol;
 }
+/* Whether r alone does: its error is c L r. */
+static inline bool helmholtz_is_nothing(const struct helmholtz *h, double tol)
+{
+    return 2.0 * h->c * h->largest <= tol;
+}
 /* Does so: delta += r + c L r. */
 void helmholtz_once(const struct helmholtz *h, double *const delta[3], double *const r[3]);
 /* As helmholtz_cg by Chebyshev's iteration, which needs no sums in between; r is kept. at_once, if

@@ -367,6 +367,24 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
     }
 }
 
+/* Where nothing is imposed delta starts at 0: friction so weak that one term or two of Neumann's
+ * series are the increment needs no residual of that start. */
+static bool solve_weak(const struct helmholtz *h, double tol, double *const delta[3],
+                       double *const rhs[3])
+{
+    struct fv *s = h->s;
+    if (!s->surface || s->forcing || s->blocked || !helmholtz_is_weak(h, tol))
+        return false;
+    for (int a = 0; a < s->dim; a++)
+        surface_zero(s, rhs[a]);
+    if (helmholtz_is_nothing(h, tol))
+        for (int a = 0; a < s->dim; a++)
+            helmholtz_add(s, 1.0, rhs[a], delta[a]);
+    else
+        helmholtz_once(h, delta, rhs);
+    return true;
+}
+
 /* rhs becomes the residual. Chebyshev's goal is a tenth (a third of the residual's norm), since its
  * last sum comes one step late; should it fail, BiCGStab goes on from the same start. */
 bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const rhs[3], double tol)
@@ -381,6 +399,8 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
                                 .zero = s->surface ? surface_zero : NULL,
                                 .step = step,
                                 .work = {work[0], work[1], work[2], work[3]}};
+    if (solve_weak(&h, tol, delta, rhs))
+        return true;
     block_halo(b, b->dim, delta);
     for (int a = 0; a < b->dim; a++)
         start_residual(s, a, c, delta[a], rhs[a], sums);
