@@ -403,7 +403,7 @@ void fraction_advance(struct fv *s, double dt, int n)
     struct fraction *f = s->surface->fraction;
     if (!f->has_flows)
         fraction_set_flows(s);
-    f->has_flows = true;
+    f->has_flows = false;
     f->entered = 0.0;
     f->excess = excess_of(s, dt);
     for (int k = 0; k < n; k++) {

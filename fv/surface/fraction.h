@@ -62,7 +62,7 @@ void fraction_free(struct fraction **f);
 void fraction_take(const struct fv *s);
 /* Keeps the layers for which the projection has just been made. */
 void fraction_note_layers(const struct fv *s);
-/* U is no longer that of the last advance. */
+/* U is no longer that of the last advance: takes has_flows back. */
 void fraction_forget_flows(const struct fv *s);
 /* Advects the shares by dt, s, in n parts, with the fluxes U as they are. Collective. */
 void fraction_advance(struct fv *s, double dt, int n);

@@ -349,6 +349,8 @@ void surface_second_half(struct fv *s, double dt)
         if (f->fraction)
             fraction_note_layers(s);
         advance_water(s, 0.5 * dt);
+        if (is_carried(s)) /* the next step begins with them */
+            f->fraction->has_flows = true;
     }
     impose(s, s->t);
     flows(s, now);
