@@ -69,6 +69,14 @@ static void use_exact(struct sph *s, struct zones *z)
     z->gap = level_gap_create(s);
 }
 
+/* Whether the flow outside has the pressure that particles have at rest near the surface. Without,
+ * they push out where they meet it: a channel 8 rows deep lost 1.5 % of its level. Not where masses
+ * do not follow the packing: there the level wanders off with it. */
+static bool has_excess(const struct sph *s, const struct zones *z)
+{
+    return z->surface && s->prm.scheme == SCHEME_RIEMANN_ALE;
+}
+
 /* Widths, faces and the flow outside by sph.outer: exact, of the domain's sides, or none yet (a
  * partner's, set by sph/coupling). */
 struct zones *zones_create(struct sph *s)
@@ -98,6 +106,8 @@ struct zones *zones_create(struct sph *s)
         use_exact(s, z);
     if (s->prm.outer == OUTER_SIDES)
         (wave_stream_wanted(s->run, &s->prm) ? wave_stream_create : sides_create)(s, z);
+    z->R = s->R;
+    z->weight = has_excess(s, z) ? s->rho0 * vec3_length(s->gravity) * s->R : 0.0;
     return z;
 }
 

@@ -10,6 +10,7 @@
 
 #include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
+#include "../surface/sph_surface.h"
 
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
@@ -152,8 +153,8 @@ void zones_look_at_surface(struct zones *z, double t)
 
 /* The pressure outside is that of a constant density, and where the surface is near no suction:
  * interpolation across it must not make any. The level of the flow inside draws at that outside. In
- * order: no suction near the surface, from the partner's constant density to this equation of
- * state, and the flow that levels ask for. */
+ * order: no suction near the surface, what particles at rest have there, from the partner's
+ * constant density to this equation of state, and the flow that levels ask for. */
 static void look_under_surface(struct zones *z, double t)
 {
     const struct sph_eos *e = &z->eos;
@@ -163,6 +164,8 @@ static void look_under_surface(struct zones *z, double t)
         const int side = zones_nearest(z, z->x + 3 * k, &below);
         if (z->phi[k] > -z->dx)
             z->p[k] = fmax(z->p[k], 0.0);
+        if (z->weight > 0.0)
+            z->p[k] += z->weight * rest_excess(-z->phi[k] / z->R);
         z->p[k] = eos_p_from_constant(z->p[k], e->rho0, e->c0, e->gamma);
         z->u[z->dim * k + side / 2] += (side % 2 ? 1.0 : -1.0) * z->outflow[side];
     }

@@ -6,6 +6,7 @@
 
 #include "level_gauge.h"
 #include "level_window.h"
+#include "rest_excess.h"
 #include "surface.h"
 #include "volume_feedback.h"
 

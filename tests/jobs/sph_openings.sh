@@ -33,12 +33,16 @@ level() { for gauge in up middle down; do
 # Froude number 0.25, ten transits of a wave; the level does not end on a lattice row in the second
 channel level 7 0.35 0.2 'discharge = 0.07' 'level = 0.2;'
 channel shifted 7 0.35 0.207 'discharge = 0.07245' 'level = 0.207;'
+channel shallow 7 0.3 0.16 'discharge = 0.048' 'level = 0.16;'
 channel still 4 0 0.2 'level = 0.2' 'level = 0.2;'
 channel bore 0.8 0 0.2 'velocity = (0.35, 0)' ''
-for name in level shifted still bore; do runs $name; done
+for name in level shifted shallow still bore; do runs $name; done
 level level 0.2 5 7 0.01
 level shifted 0.207 5 7 0.01
 level still 0.2 3 4 0.01
+# eight rows, what is in them: 160 kg and g h^2/(2 c0^2) for the weight of the water (-1.7 % where the pressure outside was hydrostatic up
+# to the surface, which particles exceed there)
+close_to "$(mean shallow 'mass [' 5 7)" 160.31 0.01 || bad "shallow: $(mean shallow 'mass [' 5 7) kg for 160.31" shallow.txt
 close_to "$(number level x_min)" 490 0.02 || bad "discharge in: $(number level x_min) kg for 490" level.txt
 close_to "$(number level x_max)" -490 0.02 || bad "discharge out: $(number level x_max) kg for -490" level.txt
 # the same through any section, upright or not
