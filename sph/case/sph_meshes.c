@@ -125,16 +125,28 @@ static void check_thin(const struct run *r, const struct scene_mesh *m,
 
 /* --- gauges --- */
 
+/* How far behind a surface a gauge still counts as on it. Of a body: what rounding makes, of the
+ * file's numbers (7 digits) and of its place. */
+static double behind_and_on(const struct scene_mesh *m, double dx)
+{
+    double lo[3], hi[3], far = 0.0;
+    if (m->owner != MESH_OF_BODY)
+        return dx;
+    trimesh_bounds(&m->mesh, lo, hi);
+    for (int a = 0; a < 3; a++)
+        far = fmax(far, fmax(fabs(lo[a]), fabs(hi[a])));
+    return 1e-6 * fmax(far, dx);
+}
+
 static void check_probes(const struct run *r, const struct scene_mesh *m, double dx,
                          struct faults *f)
 {
     const struct scene *c = &r->scene;
     for (int k = 0; k < c->nprobes && m->mesh.closed; k++) {
         const struct scene_probe *g = c->probes + k;
-        const double least = m->owner == MESH_OF_BODY ? 1e-6 * dx : dx;
         char key[64];
         if (g->kind != PROBE_PRESSURE || scene_mesh_holds(m, g->at) ||
-            fabs(tree_nearest(m->tree, g->at, INFINITY).distance) <= least)
+            fabs(tree_nearest(m->tree, g->at, INFINITY).distance) <= behind_and_on(m, dx))
             continue;
         snprintf(key, sizeof key, "probes.[%d].at", k);
         params_fault(r->params, f, key, "%s is behind the surface %s: put it before it", g->name,

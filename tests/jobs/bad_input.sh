@@ -485,6 +485,9 @@ else
     tells mesh 's/solid.stl/three.stl/' 'mesh three: 36 triangles in 3 parts' 'triangles pierce others, the first at' \
         'face others across less than 2 dx'
     tells mesh 's/dx = 0.05/dx = 0.1/; s/solid.stl/drum.stl/' 'edges of 0.0.* finer than the particles'
+    # a gauge that the file's 7 digits put behind a body's face is on it, however fine the particles
+    tells mesh '/^ *{ mesh/d; s/,$/);/; s/dx = 0.05/dx = 0.01/; s/^sph/bodies: ( { mesh = "solid.stl"; } );\nprobes: ( { name = "p"; at = (0.69999995, 0.5, 0.4); } );\n&/' \
+        'mesh body'
     tells mesh 's/solid.stl"/&; weld = 0.01/' 'weld = 0.01 m is more than sph.dx.100'
     with mesh 's/solid.stl/nothing.stl/' 'case.cfg:6: walls.\[5\].mesh: nothing.stl: there is no such file' sph
     with mesh 's/solid.stl/empty.stl/' 'walls.\[5\].mesh: empty.stl: .*nothing in it' sph
