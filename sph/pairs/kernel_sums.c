@@ -39,3 +39,16 @@ double kernel_lattice_sum(const struct sph *s)
                 sum += kernel_w(s->dim, s->dx * sqrt(i * i + j * j + k * k), s->R);
     return sum * s->dxD;
 }
+
+double kernel_pair_viscosity(const struct sph *s)
+{
+    const int n = s->nu > 0.0 ? (int)(s->R / s->dx) + 1 : 0, deep = s->dim == 3 ? n : 0;
+    const double d2 = s->dx * s->dx;
+    double moment = 0.0;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -n; j <= n; j++)
+            for (int i = -n; i <= n; i++)
+                moment -=
+                    d2 * i * i * kernel_dw_r(s->dim, sqrt(d2 * (i * i + j * j + k * k)), s->R);
+    return s->nu > 0.0 ? s->rho0 * s->nu / (moment * s->dxD) : 0.0;
+}

@@ -10,6 +10,7 @@
 
 #include "../sph.h"
 #include "kernel.h"
+#include "kernel_sums.h"
 #include "riemann.h"
 #include "riemann_exact.h"
 #include "vec.h"
@@ -84,7 +85,8 @@ static struct riemann_constants constants_of(const struct sph *s)
         .kernel = -2.0 * kernel_dw_r(s->dim, 0.0, s->R),
         .damper = s->prm.damper * s->rho0 * s->c0 * s->R,
         .c2_1 = 1.0 / (s->c0 * s->c0),
-        .mu = s->rho0 * s->nu * (s->prm.viscosity == VISCOSITY_MORRIS ? 1.0 : s->dim + 2.0),
+        .mu =
+            kernel_pair_viscosity(s) * (s->prm.viscosity == VISCOSITY_MORRIS ? 1.0 : s->dim + 2.0),
         .slack_rho = free ? 0.002 * s->rho0 : 0.0,
         .slack_u = free ? 0.02 * s->c0 : 0.0,
         .sharp = {whole ? 4.0 / 3.0 : 1.0, whole ? -1.0 / 6.0 : 0.0},

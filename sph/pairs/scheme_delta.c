@@ -20,6 +20,7 @@
 
 #include "../sph.h"
 #include "kernel.h"
+#include "kernel_sums.h"
 #include "neighbours.h"
 #include "riemann.h"
 #include "vec.h"
@@ -64,7 +65,7 @@ struct delta_sums {
 /* Collects what is the same for all pairs of the pass from the state and the parameters. */
 static struct delta_constants constants_of(const struct sph *s)
 {
-    const double R = s->R, mu = s->rho0 * s->nu, monaghan = 2.0 * (s->dim + 2.0) * mu;
+    const double R = s->R, mu = kernel_pair_viscosity(s), monaghan = 2.0 * (s->dim + 2.0) * mu;
     const bool delta = s->prm.scheme == SCHEME_DELTA;
     const bool linear = s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MONAGHAN;
     return (struct delta_constants){

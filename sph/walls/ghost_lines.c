@@ -55,12 +55,12 @@ int ghost_append(struct sph *s, struct ghost_block *g, int n)
 }
 
 /* The part of one row; entries of a row ascend, ghosts of walls are near its end. */
-static void rub_row(struct sph *s, const struct ghost_block *g, int i)
+static void rub_row(struct sph *s, const struct ghost_block *g, int i, double mu)
 {
     const struct neighbours *l = s->list;
     const int dim = s->dim, first = s->p.n + g->first;
     const double *x = prim_line(&s->p, i);
-    const double factor = -2.0 * s->rho0 * s->nu * kernel_dw_r(dim, 0.0, s->R) * x[at_volume(dim)];
+    const double factor = -2.0 * mu * kernel_dw_r(dim, 0.0, s->R) * x[at_volume(dim)];
     const int *j = l->j + l->start[i];
     double *rate = state_row(&s->p, s->p.rate, i) + dim;
     for (int k = l->count[i] - 1; k >= 0 && j[k] >= s->p.n; k--) {
@@ -82,6 +82,7 @@ void ghost_friction(struct sph *s, const struct ghost_block *g)
 {
     if (!g->has_friction || s->nu == 0.0)
         return;
+    const double mu = kernel_pair_viscosity(s);
     for (int i = 0; i < s->p.n; i++)
-        rub_row(s, g, i);
+        rub_row(s, g, i, mu);
 }

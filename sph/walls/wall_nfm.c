@@ -32,7 +32,8 @@ static const double least_gamma = 0.2; /* of corners below 72 degrees: 15 ran aw
 struct nfm {
     struct wall_list list;
     double crowding[RATIOS + 1]; /* see tabulate */
-    double *room;                /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
+    double mu; /* Pa s: that of the pairs whose sum the weight of friction closes, else rho0 nu */
+    double *room; /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
     int pushes_capacity, q_capacity;
@@ -245,7 +246,7 @@ static void slopes(struct sph *s)
 /* A particle as the wall sees it. */
 struct seen {
     const double *x, *u, *u0, *grho, *gu;
-    double rho, p, c, w, damped;
+    double rho, p, c, w, damped, mu;
     bool in_air;               /* a layer one particle thick, or less */
     double pairs[3], walls[3]; /* 0: no wall here rubs; see friction_weight */
 };
@@ -391,7 +392,7 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
                          double wave, const int dim)
 {
     const bool ale = s->prm.scheme == SCHEME_RIEMANN_ALE;
-    const double *moved = ale ? i->u0 : i->u, mu = s->rho0 * s->nu, W = t->is.W;
+    const double *moved = ale ? i->u0 : i->u, mu = i->mu, W = t->is.W;
     double x[3], uw[3], across = 0.0, drift = 0.0;
     for (int a = 0; a < dim; a++)
         x[a] = i->x[a] + t->is.e[a];
@@ -577,6 +578,7 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     const struct wall_list *l = &m->list;
     const int who = l->who[k];
     struct seen i = look(s, who, dim);
+    i.mu = m->mu;
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
     double *rate = state_row(&s->p, s->p.rate, who), pairs[3], own[8] = {0.0};
@@ -607,6 +609,7 @@ static void rates(struct sph *s)
     forces_clear(s->walls);
     if (s->flows_at && !m->judged)
         judge(s, m);
+    m->mu = s->prm.viscosity == VISCOSITY_MORRIS ? kernel_pair_viscosity(s) : s->rho0 * s->nu;
     for (int k = 0; k < m->list.n && s->dim == 2; k++)
         add_walls(s, m, k, 2);
     for (int k = 0; k < m->list.n && s->dim == 3; k++)

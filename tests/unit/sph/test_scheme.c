@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "../../../sph/pairs/kernel.h"
+#include "../../../sph/pairs/kernel_sums.h"
 #include "../../../sph/particles/eos.h"
 #include "sph_toy.h"
 
@@ -115,7 +116,7 @@ static void add_pair(const struct sph *s, int i, int j, double *rate)
         add_viscous(s, i, j, n, r, area, viscous);
     for (int a = 0; a < dim; a++) {
         u0[a] = 0.5 * (I.u0[a] + J.u0[a]);
-        rate[a] += ww * (s->rho0 * s->nu * viscous[a] - 2.0 * pE * area * n[a]);
+        rate[a] += ww * (kernel_pair_viscosity(s) * viscous[a] - 2.0 * pE * area * n[a]);
     }
     if (s->prm.scheme == SCHEME_RIEMANN) {
         rate[dim] += ww * 2.0 * (uE - dot(prim_of(s, i) + dim, n, dim)) * area; /* [2.97] */

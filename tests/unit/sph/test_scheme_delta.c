@@ -6,6 +6,7 @@
 #include <mpi.h>
 
 #include "../../../sph/pairs/kernel.h"
+#include "../../../sph/pairs/kernel_sums.h"
 #include "../../../sph/particles/eos.h"
 #include "sph_toy.h"
 
@@ -66,7 +67,7 @@ static void add_pair(const struct sph *s, int i, int j, double *force, double *d
     const struct pair p = pair_of(s, i, j);
     if (p.r >= s->R)
         return;
-    const double w = prim_of(s, j)[2 * dim], r2 = p.r * p.r, mu = s->nu * s->rho0;
+    const double w = prim_of(s, j)[2 * dim], r2 = p.r * p.r, mu = kernel_pair_viscosity(s);
     double P = pressure_of(s, i) + pressure_of(s, j);
     if (s->prm.scheme == SCHEME_STANDARD)
         P += artificial(s, &p);
