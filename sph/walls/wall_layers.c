@@ -45,3 +45,32 @@ void wall_layers_rooms(const struct sph *s, int n, double *ratio)
         ratio[k] = layers / (lattice * behind);
     }
 }
+
+/* Over the plane at the height h, 1/m^2: the part along it of the gradient whose sum the crowding
+ * vector is, (1 + (W/W(dx))^4/5) grad W. */
+static double push_of_plane(const struct sph *s, double h)
+{
+    enum { POINTS = 400 };
+    const double R = s->R, half = h < R ? sqrt(R * R - h * h) : 0.0;
+    const double W_dx = kernel_w(s->dim, s->dx, R);
+    double sum = 0.0;
+    for (int j = 0; j < POINTS; j++) {
+        const double y = (j + 0.5) / POINTS * half, r = hypot(h, y);
+        const double q = kernel_w(s->dim, r, R) / W_dx;
+        sum -= (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * h * kernel_dw_r(s->dim, r, R) *
+               (1.0 + 0.2 * q * q * q * q);
+    }
+    return sum * half / POINTS;
+}
+
+void wall_layers_crowding(const struct sph *s, int n, double *ratio)
+{
+    ratio[n] = 0.0;
+    for (int k = 0; k < n; k++) {
+        const double d = k * s->R / n;
+        double layers = 0.0;
+        for (double h = d + 0.5 * s->dx; h < s->R; h += s->dx)
+            layers += s->dx * push_of_plane(s, h);
+        ratio[k] = layers / over_plane(s, d);
+    }
+}

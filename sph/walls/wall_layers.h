@@ -12,5 +12,8 @@
  * that of the whole lattice is 1 minus this ratio times what the wall takes from the Shepard
  * factor; the Shepard factor alone is off by 3 % in the first layer with R = 2.5 dx. */
 void wall_layers_rooms(const struct sph *s, int n, double *ratio);
+/* The same for the crowding vector: ratio[0..n] of the push of such layers over int W dS of the
+ * plane. */
+void wall_layers_crowding(const struct sph *s, int n, double *ratio);
 
 #endif

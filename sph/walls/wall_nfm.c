@@ -42,7 +42,7 @@ struct nfm {
 
 /* int (W + 0.04 W^5/W(dx)^4) over int W of a plane at the distance k/RATIOS R: what the function
  * whose gradient the crowding vector sums [4.89] has more than the kernel. Midpoints. */
-static void tabulate(const struct sph *s, double *ratio)
+static void integrals_of_plane(const struct sph *s, double *ratio)
 {
     enum { POINTS = 200 };
     const double W0 = kernel_w(s->dim, s->dx / s->R, 1.0);
@@ -58,6 +58,19 @@ static void tabulate(const struct sph *s, double *ratio)
         ratio[k] = 1.0 + more / sum;
     }
     ratio[RATIOS] = 1.0;
+}
+
+/* What a plane pushes with by the crowding vector, over int W of it. Where the fluid fills all it
+ * is that of layers behind it, so that those before it rest in their places: by the integral the
+ * first three rest at 0.497, 1.516 and 2.516 dx, which is a tenth of a percent of Poiseuille flow.
+ * Under a surface, where the shift follows the speed, water at rest is a fifth less still with
+ * layers. */
+static void tabulate(const struct sph *s, double *ratio)
+{
+    if (s->prm.surface == SURFACE_YES)
+        integrals_of_plane(s, ratio);
+    else
+        wall_layers_crowding(s, RATIOS, ratio);
 }
 
 static void *nfm_create(struct sph *s)
