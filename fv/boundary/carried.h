@@ -45,7 +45,8 @@ struct outflows {
     double leaves[6];  /* m^dim/s: given discharge of a side now, outwards; 0: none, or inwards */
     bool given_out[6]; /* the side has one, outwards */
     double passed[6];  /* m^dim: of this step and rank */
-    double lacks[6];   /* m^dim: what has not passed yet; equal on all ranks */
+    bool short_told[6];     /* that an outlet has too little water was told */
+    double lacks[6];        /* m^dim: what has not passed yet; equal on all ranks */
     double lacks_before[6]; /* when a step began that may be taken back */
     double area[6];         /* m^(dim-1): of the water in each side of the domain */
     bool convects;          /* one of them does, on any rank */

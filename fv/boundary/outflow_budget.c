@@ -4,18 +4,22 @@
  * has passed is counted, and what the discharge is more than that,
  *   D <- D + int Q dt - passed,
  * is added over the next SETTLE steps: Q' = Q + D/(SETTLE dt), at most by MOST of Q, so that no
- * water is asked for that is not there. SPDX-License-Identifier: BSD-3-Clause */
+ * water is asked for that is not there. Nor is more than A FASTEST sqrt(g H) asked of an outlet.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "outflow_budget.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "carried.h"
 
 /* Steps: at once, each step would push the water by what the last one lacked. */
 #define SETTLE 10.0
 #define MOST 0.1
+/* Of water that leaves, over the speed of its waves: none that is drawn away passes faster. */
+#define FASTEST 1.4
 
 /* Visits the openings of given discharge: o. */
 #define OUTFLOWS(s, o)                                                                             \
@@ -39,6 +43,29 @@ static double settling(const struct fv *s, int side, double t)
     return dt > 0.0 ? fmax(-most, fmin(most, s->outflows->lacks[side] / (SETTLE * dt))) : 0.0;
 }
 
+/* m^dim/s: that the water in an outlet lets through. A tank that is drained to below the critical
+ * depth of its outlet ended by a velocity without bound. */
+static double passing(const struct fv *s, int side, double out)
+{
+    const struct outflows *all = s->outflows;
+    return s->surface ? fmin(out, FASTEST * all->waves[side] * all->area[side]) : out;
+}
+
+/* Once: less leaves than the case says. */
+static void tell_shortage(struct fv *s, int side, double t)
+{
+    struct outflows *all = s->outflows;
+    if (all->short_told[side] || !all->given_out[side] ||
+        passing(s, side, discharge_of(s, side, t)) >= discharge_of(s, side, t))
+        return;
+    all->short_told[side] = true;
+    const char *const length = s->dim == 2 ? "m" : "m^2", *const flow =
+                                                              s->dim == 2 ? "m^2/s" : "m^3/s";
+    log_warn("t = %.4g s: the water in %s, %.3g %s, is too little for its discharge of %g %s: what "
+             "runs there leaves; less discharge, or an outflow with a level",
+             t, scene_side_names[side], all->area[side], length, discharge_of(s, side, t), flow);
+}
+
 void outflow_set_discharges(struct fv *s, double t)
 {
     struct outflows *all = s->outflows;
@@ -47,6 +74,7 @@ void outflow_set_discharges(struct fv *s, double t)
         const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
         out[k] = discharge_of(s, k, t) + settling(s, k, t);
         all->given_out[k] = w && carried_kind(w) == OUTFLOW_GIVEN_OUT;
+        out[k] = all->given_out[k] ? passing(s, k, out[k]) : out[k];
         all->leaves[k] = fmax(out[k], 0.0);
     }
     for (int k = 0; k < all->n; k++)
@@ -88,6 +116,8 @@ void outflow_settle(struct fv *s, double dt)
         const double lacks = all->lacks[k] + dt * given - passed[k];
         all->lacks[k] = fmax(-most, fmin(most, lacks));
     }
+    for (int k = 0; k < 6; k++)
+        tell_shortage(s, k, s->t);
     memset(all->passed, 0, sizeof all->passed);
 }
 
