@@ -23,7 +23,10 @@ sed 's/^sph:.*/sph: { dx = 0.02; box = ((0.2, 0.2), (0.8, 0.8)); };\nfv: { cells
 says() {
     words=$1
     shift
-    "$@" >out.txt 2>&1 </dev/null
+    case $1 in
+    "$b/sph" | "$b/fv") p=${1##*/} && shift && start "$p" out.txt "$@" && set -- "$p" "$@" ;;
+    *) "$@" >out.txt 2>&1 </dev/null ;;
+    esac
     code=$?
     if [ $code = 2 ] && grep -q -- "$words" out.txt && [ ! -e out ] && [ ! -e result ]; then
         passed=$((passed + 1))
@@ -465,7 +468,7 @@ tells() {
     sed "$2" "$1.cfg" >case.cfg
     base=$1 edit=$2
     shift 2
-    "$b/sph" case.cfg --check >out.txt 2>&1
+    start sph out.txt case.cfg --check
     code=$?
     for words in "$@"; do
         if [ $code = 0 ] && grep -q -- "$words" out.txt; then

@@ -18,10 +18,30 @@ bad() {
     echo "FAIL: $1"
     [ -z "$2" ] || tail -n 6 "$2"
 }
+# start PROGRAM LOG ARGS...: a run of sph or fv on one rank: its exit code. One process of each program has started MPI once for
+# all of them (starts.c); it ends with the script, which must not `wait' for it.
+serve() {
+    mkfifo "$tmp/$1.ask" "$tmp/$1.told"
+    LD_PRELOAD="$b/tests/starts.so" "$b/$1" <"$tmp/$1.ask" >"$tmp/$1.told" &
+}
+start() {
+    started=$1
+    shift
+    asked=$(printf '%s\t' "$PWD" "$@")
+    [ -p "$tmp/$started.ask" ] || case $started in
+    sph) serve sph && exec 3>"$tmp/sph.ask" 4<"$tmp/sph.told" ;;
+    fv) serve fv && exec 5>"$tmp/fv.ask" 6<"$tmp/fv.told" ;;
+    esac
+    case $started in
+    sph) printf '%s\n' "$asked" >&3 && read -r ended <&4 ;;
+    fv) printf '%s\n' "$asked" >&5 && read -r ended <&6 ;;
+    esac
+    return "$ended"
+}
 # refused_by PROGRAM CASE CHANGE WORDS: the case, changed by sed, is refused by --check with these words
 refused_by() {
     sed "$3" "$2" >faulty.cfg
-    "$b/$1" faulty.cfg --check >faulty.log 2>&1 && bad "accepted: $3"
+    start "$1" faulty.log faulty.cfg --check && bad "accepted: $3"
     grep -q "$4" faulty.log || bad "$3: not told \"$4\"" faulty.log
 }
 # number DIR KEY: of DIR/summary.json; number_of FILE KEY; the first of that name
