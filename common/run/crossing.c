@@ -104,6 +104,17 @@ static bool any_moves(const struct run *r)
     return moves;
 }
 
+/* Whether the surface over a level gauge is above the box, so that the particles have none there:
+ * water stands at the start where the box ends. */
+static bool is_drowned(const struct scene *c, int up, double box[2][3], const struct scene_probe *g)
+{
+    const struct exact e = exact_create(c);
+    double x[3];
+    memcpy(x, g->at, sizeof x);
+    x[up] = box[c->fluid.gravity[up] < 0.0][up];
+    return scene_is_fluid(c, &e, x, NULL);
+}
+
 /* A gauge is read here unless gauge_elsewhere says otherwise, by SPH or by FV, but not by both,
  * except points where a box moves (`both'). */
 void crossing_deal(struct run *r)
@@ -119,7 +130,8 @@ void crossing_deal(struct run *r)
         const struct scene_probe *g = c->probes + k;
         bool inside = false;
         for (int q = 0; q < n; q++)
-            inside = inside || holds(c, up, box[q], g);
+            inside = inside || (holds(c, up, box[q], g) &&
+                                !(g->kind == PROBE_LEVEL && is_drowned(c, up, box[q], g)));
         if (shared && (g->body[0] || (!r->crossed && !probe_is_point(g))))
             r->gauge_elsewhere[k] = !particles; /* what moves, and a surface that is theirs alone */
         else

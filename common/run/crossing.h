@@ -16,8 +16,9 @@ bool crossing_box(const struct run *r, const char *group, double box[2][3]);
 bool crossing_find(const struct run *r);
 /* Deals out the gauges of the scene to the programs of a coupled job: r->gauge_elsewhere. SPH reads
  * those in its box at the start and those of bodies, FV those outside; a gauge of the surface's
- * level counts by its horizontal position where a surface crosses, else it is SPH's. Gauges of
- * points are read by both where a box moves under no surface. Collective over r->comm. */
+ * level counts by its horizontal position where a surface crosses, unless the box ends below the
+ * water there, else it is SPH's. Gauges of points are read by both where a box moves under no
+ * surface. Collective over r->comm. */
 void crossing_deal(struct run *r);
 /* Depth of the water at the start, m: from the domain's floor to the highest point of the fluid's
  * shapes, or to initial.level, against gravity along axis a. */

@@ -57,6 +57,12 @@ near "$(last off/sph-series.csv right)" 1.015 0.005 || bad "off: sph's gauge at 
 back=$(last off/fv-series.csv 'volume put back')
 { below 1e-12 "$back" && below "$back" 1e-3; } || bad "off: columns of fv's series are out of place: volume put back $back"
 
+# over a box that lies below the surface the level is fv's (it read the top of the box)
+# shellcheck disable=SC2086
+job low 1:1:1 off.cfg $still -p time.end=0.3 -p "sph.box=((2,0),(4,0.9))"
+near "$(last low/fv-series.csv right)" 1.015 0.005 || bad "low: fv's gauge over the box at $(last low/fv-series.csv right), water at 1.015"
+[ -z "$(last low/sph-series.csv right)" ] || bad "low: sph reads a level that lies over its box"
+
 # a cube of triangles half in the water, held: fv, which reads no mesh, has the water around its box; force of Archimedes
 if "$b/sph" "$root/cases/sphere_3d/case.cfg" --check 2>&1 | grep -q 'built without a reader'; then
     echo "note: this build has no reader of meshes: no body of triangles is looked at"
