@@ -70,29 +70,55 @@ static double of_angle(const struct sph *s, const struct wall_touch *t, const st
     return 2.0 / fmax(1.0 - (o->on >= 0 ? -along : along), least_turn);
 }
 
-/* The foot of x on the nearest piece of a touch's plane, or beyond its ends what it has of the
- * kernel; a little way into the fluid. */
-static void foot_of(const struct sph *s, const struct wall_touch *t, const double *x, double *foot)
+/* Whether a face of another owner makes a wedge with it that is sharper than a corner. */
+static bool is_acute(const struct sph *s, const struct wall_list *l, int k,
+                     const struct wall_touch *t)
 {
-    for (int a = 0; a < s->dim; a++)
-        foot[a] = x[a] + (t->foot ? t->height * t->n[a] : t->is.e[a]) - 1e-4 * s->R * t->n[a];
+    bool any = false;
+    for (int j = l->first[k]; j < l->first[k + 1]; j++) {
+        double along = 0.0;
+        for (int a = 0; a < s->dim; a++)
+            along += t->n[a] * l->touch[j].n[a];
+        any = any || (l->touch[j].body != t->body && l->touch[j].is.W > 0.0 && along < -0.1);
+    }
+    return any;
 }
 
-/* Face j with the faces of other owners. */
-static void exchange(const struct sph *s, struct wall_list *l, int k, int j, const double *q,
-                     double w)
+/* Where the others are asked for, as shares of the face's weight: the foot of x on the nearest
+ * piece of a touch's plane, or beyond its ends what it has of the kernel; in wedges (2D) points
+ * along the face, since what it lacks grows quickly towards their tip, where no foot is. A little
+ * way into the fluid. */
+static int points_of(const struct sph *s, const struct wall_list *l, int k,
+                     const struct wall_touch *t, double (*y)[3], double *share)
+{
+    const double *x = prim_line(&s->p, l->who[k]);
+    int n = 1;
+    share[0] = 1.0;
+    if (s->dim == 2 && is_acute(s, l, k, t))
+        n = wall_list_points(s, l, t, x, y, share);
+    else
+        for (int a = 0; a < s->dim; a++)
+            y[0][a] = x[a] + (t->foot ? t->height * t->n[a] : t->is.e[a]);
+    for (int p = 0; p < n; p++)
+        for (int a = 0; a < s->dim; a++)
+            y[p][a] -= 1e-4 * s->R * t->n[a];
+    return n;
+}
+
+/* Face j, at the point y that has `part' of it, with the faces of other owners. */
+static void exchange_at(const struct sph *s, struct wall_list *l, int k, int j, const double *q,
+                        double part, const double *y)
 {
     const struct wall_touch *t = l->touch + j, *o = l->touch + l->first[k];
     const int n = l->first[k + 1] - l->first[k];
     const double *x = prim_line(&s->p, l->who[k]);
-    double foot[3], gamma = 1.0, sum[3] = {0.0, 0.0, 0.0};
-    foot_of(s, t, x, foot);
-    const double *share = wall_list_shares(s, l, k, t->body, foot);
+    double gamma = 1.0, sum[3] = {0.0, 0.0, 0.0};
+    const double *share = wall_list_shares(s, l, k, t->body, y);
     if (!share)
         return;
     for (int m = 0; m < n; m++)
         gamma += share[m];
-    const double factor = 0.5 * w * share_of_face(t, gamma) / fmax(gamma, least_gamma);
+    const double factor = 0.5 * part * share_of_face(t, gamma) / fmax(gamma, least_gamma);
     for (int m = 0; m < n && factor > 0.0; m++, o++) {
         double f, back[3];
         if (o->body == t->body || share[m] == 0.0 || is_thin(s, o))
@@ -125,8 +151,11 @@ void wall_gap_exchange(const struct sph *s, struct wall_list *l, int k, const do
     int face[GAP_FACES];
     const int n = pick_faces(s, l, k, face);
     for (int i = 0; i < n; i++) {
-        double flux[3];
+        double flux[3], y[FACE_POINTS][3], part[FACE_POINTS];
+        int points;
         flux_of(s, l, k, face[i], q, flux);
-        exchange(s, l, k, face[i], flux, w);
+        points = points_of(s, l, k, l->touch + face[i], y, part);
+        for (int p = 0; p < points; p++)
+            exchange_at(s, l, k, face[i], flux, w * part[p], y[p]);
     }
 }

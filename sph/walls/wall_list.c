@@ -452,6 +452,30 @@ double wall_list_nearest(const struct sph *s, const struct wall_list *l, const s
     return hypot(foot[0] - x[0], foot[1] - x[1]);
 }
 
+int wall_list_points(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                     const double *x, double (*y)[3], double *share)
+{
+    static const double at[FACE_POINTS] = {-0.8611363115940526, -0.3399810435848563,
+                                           0.3399810435848563, 0.8611363115940526};
+    static const double gauss[FACE_POINTS] = {0.3478548451374538, 0.6521451548625461,
+                                              0.6521451548625461, 0.3478548451374538};
+    const struct segment g = part_of(s->walls, l, t);
+    const double along = (x[0] - g.a[0]) * g.t[0] + (x[1] - g.a[1]) * g.t[1];
+    const double half = sqrt(fmax(s->R * s->R - t->height * t->height, 0.0));
+    const double from = fmax(0.0, along - half), to = fmin(along + half, g.length);
+    double sum = 0.0;
+    for (int k = 0; k < FACE_POINTS; k++) {
+        const double place = 0.5 * (from + to + at[k] * (to - from));
+        for (int a = 0; a < 2; a++)
+            y[k][a] = g.a[a] + place * g.t[a];
+        share[k] = gauss[k] * kernel_w(2, fmin(hypot(place - along, t->height), s->R), s->R);
+        sum += share[k];
+    }
+    for (int k = 0; k < FACE_POINTS && sum > 0.0; k++)
+        share[k] /= sum;
+    return sum > 0.0 ? FACE_POINTS : 0;
+}
+
 void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x, double *u)
 {
     const struct walls *w = s->walls;

@@ -93,6 +93,11 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
 /* Sets foot to the point of the touch's piece nearest to x; returns the distance, m. */
 double wall_list_nearest(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                          const double *x, double *foot);
+/* Points y of the plane's part of a touch within R of x, with their shares of its weight W, which
+ * sum to 1; returns how many. In 2D. */
+enum { FACE_POINTS = 4 };
+int wall_list_points(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+                     const double *x, double (*y)[3], double *share);
 /* Velocity of the wall's material point x, m/s. */
 void wall_list_velocity(const struct sph *s, const struct wall_touch *t, const double *x,
                         double *u);

@@ -10,6 +10,7 @@ pairs() { # N FIRST_SEED [ARGS]
 }
 pairs 3 5 --pair thin-side # sheets that part the water
 pairs 2 1 --pair thin-thin
+pairs 4 1 --pair wedge-floor # forces in wedges, rest on both sides of a tip
 pairs 2 1 --pair thin-rim --most 1
 pairs 40 1000 --most 6
 echo "pairs: $(tail -n 1 pairs.txt); $failed faults"

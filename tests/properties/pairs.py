@@ -322,6 +322,16 @@ def polygon_floor(rng):
     return s
 
 
+def wedge_floor(rng):
+    """A corner of a triangle or a square stands on the floor, with wedges of 40 to 70 degrees beside it."""
+    s = tank2(rng, "sides", wide=(32, 40), deep=(20, 26))
+    n = rng.choice([3, 4])
+    r, turn = rng.uniform(4.5, 6) * s.dx, math.radians(rng.uniform(-5, 5))
+    s.polygon("b", (0.5 * s.hi[0], r * math.cos(turn)), r, n, turn - 0.5 * math.pi)
+    s.gauges([0.25 * (s.hi[0] - 2 * r)])
+    return s
+
+
 def body_surface(rng):
     s = tank2(rng, wide=(30, 40), deep=(16, 24))
     w = rng.uniform(6, 10) * s.dx
@@ -689,6 +699,7 @@ PAIRS = [
     ("body-period", "body x period", 2, body_period),
     ("body-body", "body x body", 2, body_body),
     ("polygon-floor", "body with edges at any angle x floor", 2, polygon_floor),
+    ("wedge-floor", "corner of a body on the floor, with wedges of water beside it", 0, wedge_floor),
     ("body-surface", "body x free surface", 1, body_surface),
     ("body-lid", "top of a body x free surface", 1, body_lid),
     ("body-edge", "body x level edge", 1, body_level_edge),
