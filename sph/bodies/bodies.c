@@ -72,6 +72,7 @@ void bodies_create(struct sph *s)
         }
     w->dt_contact = fmin(dt, bodies_dt(s));
     body_contacts_start(s);
+    body_wedges_find(s);
 }
 
 double bodies_dt(const struct sph *s)
@@ -138,7 +139,6 @@ void bodies_stage(struct sph *s, double weight)
     if (!w || !w->any_free)
         return;
     memset(loads, 0, sizeof loads);
-    body_seals_add(s);
     fluid_loads(s, weight, loads);
     for (int k = 0; k < w->nbodies; k++)
         if (w->bodies[k].free) {

@@ -57,8 +57,12 @@ struct force body_average_pushed(struct sph *s, int k, double *pushed, double *p
  * displaces, unless they cut it. */
 struct force body_reference(const struct sph *s, int k);
 
-/* body_seal.c: adds to the forces of the stage the pressure of the water that seeps between a free
- * body and what it has rested on since the start. Needs prim and slope. Collective. */
+/* body_wedge.c: finds where bodies that stay where they are leave too little room for particles
+ * before each other and walls at rest. */
+void body_wedges_find(struct sph *s);
+/* body_seal.c: adds to the forces of the stage, before they are summed, the pressure of the water
+ * that seeps between a free body and what it has rested on since the start, and of that in those
+ * wedges. Needs prim and slope. Collective. */
 void body_seals_add(struct sph *s);
 
 /* body_output.c: columns of series.csv of body k; appends their headings to names, returns their

@@ -2,20 +2,14 @@
  * yet real faces are rough and water seeps in. So what is dry there and stands closely before what
  * the body rests on gets the pressure of the wet surface around, as of water at rest, and what it
  * rests on the opposite. SPDX-License-Identifier: BSD-3-Clause */
+#include "body_seal.h"
+
 #include <math.h>
 
 #include "../../common/base/base.h"
 #include "../walls/sph_walls.h"
 #include "bodies.h"
-#include "body_nodes.h"
 #include "body_touch.h"
-
-/* A point of the surface close before what the body rests on. */
-struct seal_point {
-    const struct average_node *is;
-    int other;     /* body, -1: walls at rest */
-    double sealed; /* -: part of the pressure that no particle gives; 0: of the wet rim */
-};
 
 static const double wet_plane = 0.2, close_by = 1.25, around = 3.0; /* -, dx, dx */
 
@@ -26,7 +20,7 @@ static bool rests_on(const struct walls *w, int body, int other)
     return isfinite(w->start_gap[a][b < 0 ? BODIES_MAX : b]);
 }
 
-static double wetness(const struct average_node *d) { return fmin(d->said.W / wet_plane, 1.0); }
+double seal_wetness(const struct seal_point *p) { return fmin(p->is->said.W / p->full, 1.0); }
 
 /* The point of a node; false: far from all that the body rests on. */
 static bool classify(const struct sph *s, int body, const struct average_node *d,
@@ -47,7 +41,8 @@ static bool classify(const struct sph *s, int body, const struct average_node *d
         facing = vec3_dot(out, d->n);
     }
     to->is = d;
-    to->sealed = least < close_by * s->dx && facing > 0.1 ? 1.0 - wetness(d) : 0.0;
+    to->full = wet_plane;
+    to->sealed = least < close_by * s->dx && facing > 0.1 ? 1.0 - seal_wetness(to) : 0.0;
     return isfinite(least);
 }
 
@@ -64,22 +59,16 @@ static double seeping_pressure(const struct sph *s, const struct seal_point *of,
         if (of[k].sealed > 0.0)
             continue;
         const double r = vec3_length(e) + 0.25 * s->dx, W = d->area / pow(r, 2.0 * s->dim - 2.0);
-        const double p = d->said.P / fmax(d->said.W, wet_plane);
-        sum += W * (p + wetness(d) * s->rho0 * vec3_dot(s->gravity, e));
+        const double p = d->said.P / fmax(d->said.W, of[k].full);
+        sum += W * (p + seal_wetness(of + k) * s->rho0 * vec3_dot(s->gravity, e));
         weight += W;
     }
     return weight > 0.0 ? sum / weight : 0.0;
 }
 
-static void add_seal(struct sph *s, int body)
+void seal_points_press(struct sph *s, int body, const struct seal_point *of, int n)
 {
-    struct nodes nodes = body_nodes_lay(s, body);
-    struct seal_point *of = NEW(struct seal_point, nodes.n);
-    int n = 0;
-    body_nodes_ask(s, &nodes);
-    for (int k = 0; k < nodes.n; k++)
-        n += classify(s, body, nodes.node + k, of + n);
-    for (int k = 0; k < n && s->run->rank == 0; k++) {
+    for (int k = 0; k < n; k++) {
         const struct average_node *d = of[k].is;
         double f[3], back[3];
         if (of[k].sealed == 0.0)
@@ -92,6 +81,18 @@ static void add_seal(struct sph *s, int body)
         forces_add(s, body, d->x, f);
         forces_add(s, of[k].other, d->x, back);
     }
+}
+
+static void add_seal(struct sph *s, int body)
+{
+    struct nodes nodes = body_nodes_lay(s, body);
+    struct seal_point *of = NEW(struct seal_point, nodes.n);
+    int n = 0;
+    body_nodes_ask(s, &nodes);
+    for (int k = 0; k < nodes.n; k++)
+        n += classify(s, body, nodes.node + k, of + n);
+    if (s->run->rank == 0)
+        seal_points_press(s, body, of, n);
     mem_free(of);
     mem_free(nodes.node);
 }
@@ -99,11 +100,13 @@ static void add_seal(struct sph *s, int body)
 void body_seals_add(struct sph *s)
 {
     const struct walls *w = s->walls;
-    for (int k = 0; k < w->nbodies; k++) {
+    for (int k = 0; w && k < w->nbodies; k++) {
         bool any = false;
         for (int m = -1; m < w->nbodies && w->bodies[k].free; m++)
             any = any || (m != k && rests_on(w, k, m));
         if (any)
             add_seal(s, k);
     }
+    if (w)
+        body_wedges_add(s);
 }

@@ -195,6 +195,7 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[LEVE
         integrate_rates(s);
         if (k == 0)
             paddles_steer(s, dt);
+        body_seals_add(s);
         if (s->walls)
             forces_stage(s, part);
         bodies_stage(s, part);

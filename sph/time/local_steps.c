@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../bodies/sph_bodies.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"
@@ -155,6 +156,8 @@ static void take_stages(struct sph *s, double t_end, struct common *all)
             }
         }
         level_rates(s);
+        if (!s->coarser)
+            body_seals_add(s);
         if (s->walls)
             forces_stage(s, c->weight[k] * dt);
         if (!s->coarser)

@@ -607,6 +607,7 @@ void walls_free(struct walls **w)
     }
     wall_meshes_free(*w);
     mem_free((*w)->beside);
+    mem_free((*w)->wedge);
     mem_free((*w)->segments);
     mem_free((*w)->start);
     mem_free(*w);

@@ -97,6 +97,7 @@ struct wall_forces {
     bool credited, known;                 /* the model reports forces; a step has been completed */
 };
 
+struct wedge_point;
 /* All walls of a run; made by walls_create. */
 struct walls {
     int nsegments;
@@ -127,6 +128,8 @@ struct walls {
                                                      at rest; 0: apart */
     double start_gap[BODIES_MAX][BODIES_MAX + 1]; /* m: contact of a pair that has not parted since
                                                      the start begins here; INFINITY: it has */
+    int nwedges;
+    struct wedge_point *wedge; /* body_wedge.c: where bodies that stay stand too close for water */
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */

@@ -1,0 +1,88 @@
+/* test_wedges.c - what bodies at rest get where no particle fits before a wall: which have such
+ * places, and that the wall gets the opposite. SPDX-License-Identifier: BSD-3-Clause */
+#include "../test.h"
+
+#include "../../../sph/bodies/bodies.h"
+#include "../../../sph/walls/forces.h"
+#include "sph_case.h"
+
+enum { CELLS = 20, CORNERS = 32 };
+
+static const double depth = 0.8, radius = 0.2;
+
+/* A tank of 1 m, dx 0.05 m, and a disc whose lowest corner is `low', m, above the floor, or a block
+ * on it. */
+static struct sph *tank(struct sph_case *c, double low, bool block)
+{
+    static const double box[4][2] = {{0.3, 0.0}, {0.3, 0.4}, {0.7, 0.4}, {0.7, 0.0}};
+    sph_case_set(c, 2, CELLS);
+    struct scene *e = &c->run.scene;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[1] = -9.81;
+    e->initial.field = FIELD_REST;
+    e->domain.periodic[0] = e->domain.periodic[1] = false;
+    e->nwalls = 3;
+    for (int k = 0; k < 3; k++)
+        e->walls[k].side = SIDE_X_MIN + k;
+    e->nshapes = 1;
+    e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = depth};
+    e->nbodies = 1;
+    e->bodies[0].points.n = block ? 4 : CORNERS;
+    for (int k = 0; k < e->bodies[0].points.n; k++) {
+        double *x = e->bodies[0].points.x[k];
+        x[0] = block ? box[k][0] : 0.5 - radius * sin(2.0 * M_PI * k / CORNERS);
+        x[1] = block ? box[k][1] : low + radius * (1.0 - cos(2.0 * M_PI * k / CORNERS));
+    }
+    c->prm.scheme = SCHEME_RIEMANN;
+    c->prm.surface = true;
+    c->prm.c0 = 40.0;
+    return sph_case_start(c, NULL);
+}
+
+/* The force on the body of what is added alone, and on the walls. */
+static void press(struct sph *s, double body[2], double walls[2])
+{
+    integrate_gradients(s);
+    forces_clear(s->walls);
+    body_seals_add(s);
+    memcpy(body, s->walls->forces.stage[0].F, 2 * sizeof *body);
+    memcpy(walls, s->walls->forces.stage[BODIES_MAX].F, 2 * sizeof *walls);
+}
+
+/* Where a disc stands the water below it bears it: by no more than its pressure on the floor over
+ * the width above which the gap is 3 dx. */
+static void disc_on_the_floor_is_borne(void **state)
+{
+    struct sph_case c;
+    double on[2], back[2];
+    (void)state;
+    struct sph *s = tank(&c, 0.0, false);
+    const double gap = 3.0 / CELLS, width = 2.0 * sqrt(gap * (2.0 * radius - gap));
+    press(s, on, back);
+    assert_true(s->walls->nwedges > 0);
+    assert_true(on[1] > 0.0 && on[1] < 9.81 * depth * width);
+    assert_close(on[0] + back[0], 0.0, 1e-12);
+    assert_close(on[1] + back[1], 0.0, 1e-12);
+    sph_free(&c.s);
+}
+
+/* No water is below a block on the floor; a disc above it has particles all round. Neither asks. */
+static void others_have_none(void **state)
+{
+    struct sph_case c;
+    (void)state;
+    assert_int_equal(tank(&c, 0.0, true)->walls->nwedges, 0);
+    sph_free(&c.s);
+    assert_int_equal(tank(&c, 4.0 / CELLS, false)->walls->nwedges, 0);
+    sph_free(&c.s);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(disc_on_the_floor_is_borne),
+                                       cmocka_unit_test(others_have_none)};
+    MPI_Init(&argc, &argv);
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    MPI_Finalize();
+    return failed;
+}
