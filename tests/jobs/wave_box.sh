@@ -49,7 +49,7 @@ refused 's/(3.5, 1.5)/(3.5, 1.2)/' 'sph.box: must hold the free surface'
 # the box is that of linear potential flow (1498 and 2561 N/m a metre of amplitude), and no water gets lost.
 sed 's/end = "9\*T"/end = "5*T"/; s/from = "6\*T"/from = "3*T"/; s/dx = 0.025/dx = 0.05/; s/cells = (200, 36)/cells = (100, 15)/; s/every = "T"/snapshots = false/; s/at = (3.84/at = (3.7/
 s/box = ((4.2, 0), (5.8, 0.75))/box = ((3.75, 0), (6.25, 0.75))/' "$root/cases/box_in_waves/case.cfg" >box.cfg
-timeout -k 5 300 "$root/cases/run" box.cfg -o box --force >box.log 2>&1 || bad "a box in waves: exit code $?" box.log
+timeout -k 5 300 "$root/cases/run" box.cfg -n 1:1:1 -o box --force >box.log 2>&1 || bad "a box in waves: exit code $?" box.log
 # swing COLUMN: amplitude of 1.3 s over the last period
 swing() { awk -F, -v p="$1" 'BEGIN { w = 2 * 3.14159265358979 / 1.3 } NR == 1 { for (i = 1; i <= NF; i++) if (index($i, p) == 1) c = i; next }
     $1 > 5.2 { if (t) { d[++n] = $1 - t; at[n] = $1; v[n] = $c; sum += d[n] * $c; all += d[n] } t = $1 }
