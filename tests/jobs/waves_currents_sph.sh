@@ -57,7 +57,7 @@ close_to "$(last whole/series.csv 'kinetic energy')" "$(last two/series.csv 'kin
 # a box of particles inside fv, which has the waves and the current through its sides
 current joint 0.3 10.74 4.5 'sph: { dx = 0.0125; scheme = "riemann_ale"; box = ((1.6, 0), (2.9, 0.25)); }; fv: { cells = (144, 25); };' "$gauges"
 sed 's/ checkpoint = 0.2;//' joint.cfg >box.cfg
-"$root/cases/run" box.cfg -o joint >joint.log 2>&1 || bad "a box of particles in waves on a current" joint.log
+"$root/cases/run" box.cfg -n 1:1:1 -o joint >joint.log 2>&1 || bad "a box of particles in waves on a current" joint.log
 # harmonic FILE PROBE T: amplitude, phase and mean of its last five periods
 harmonic() { awk -F, -v p="$2 " -v T="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if (index($i, p) == 1 && !c) c = i; next } { n++; t[n] = $1; v[n] = $c }
     END { w = 2 * atan2(0, -1) / T; from = t[n] - 5 * T
