@@ -199,6 +199,26 @@ static void check_water(const struct scene *s, const struct params *p, struct fa
 
 /* --- gauges --- */
 
+/* That the domain has the section, and a period no more than once. */
+static void check_section(const struct scene *s, const struct params *p, int k, struct faults *f)
+{
+    const struct scene_probe *g = s->probes + k;
+    const struct scene_domain *d = &s->domain;
+    char key[64];
+    snprintf(key, sizeof key, "probes.[%d].at", k);
+    for (int a = 0; a < d->dim; a++) {
+        const double lo = fmin(g->at[a], g->to[a]), hi = fmax(g->at[a], g->to[a]);
+        const double near = 1e-6 * (d->max[a] - d->min[a]);
+        const bool is_outside = hi < d->min[a] - near || lo > d->max[a] + near;
+        const bool is_longer = d->periodic[a] && (lo < d->min[a] - near || hi > d->max[a] + near);
+        if (is_outside || is_longer)
+            params_fault(p, f, key, "%s: its section, %c from %g to %g m, %s, %g to %g m", g->name,
+                         "xyz"[a], lo, hi,
+                         is_outside ? "lies outside the domain" : "reaches beyond the period",
+                         d->min[a], d->max[a]);
+    }
+}
+
 /* A discharge goes through a line, in 3D through a rectangle across an axis. */
 static void check_discharge(const struct scene *s, const struct params *p, int k, struct faults *f)
 {
@@ -213,11 +233,15 @@ static void check_discharge(const struct scene *s, const struct params *p, int k
     if (s->has_sph && s->has_fv)
         params_fault(p, f, key, "%s: a discharge is read by one program, without a partner",
                      g->name);
+    else if (!params_given(p, key))
+        params_fault(p, f, key, "%s: must be given: the other end of its section", g->name);
     else if (s->domain.dim == 2 ? same == 2 : same != 1)
         params_fault(p, f, key, "%s: %s", g->name,
                      s->domain.dim == 2
                          ? "the line has no length"
                          : "a rectangle across an axis has one coordinate in common");
+    else
+        check_section(s, p, k, f);
 }
 
 static void check_probes(const struct scene *s, const struct params *p, struct faults *f)
