@@ -51,6 +51,29 @@ done
 for gauge in flow slant 'in u'; do
     close_to "$(last cells/series.csv "$gauge")" "$(last ranks/series.csv "$gauge")" 1e-6 || bad "two ranks say another $gauge"
 done
+# Sections on the side of a period, or along all of one, and parts of a particle's width take what goes through them, in an
+# oblique stream (exact, as of any lattice); those on open sides what comes in and goes out. At first sections beyond the
+# domain or a period, and those without another end, are told.
+cat >stream.cfg <<'END'
+format = 1;
+time:    { end = 0.3; };
+domain:  { max = (2, 1); periodic = (true, true); };
+initial: { field = "uniform"; velocity = (1, 0.5); };
+probes:  ( { name = "seam"; kind = "discharge"; at = (0, 0); to = (0, 1); }, { name = "end"; kind = "discharge"; at = (2, 0); to = (2, 1); },
+           { name = "mid"; kind = "discharge"; at = (0.51, 0); to = (0.51, 1); }, { name = "thin"; kind = "discharge"; at = (1, 0.5); to = (1, 0.52); } );
+sph:     { dx = 0.05; };
+output:  { snapshots = false; series = 1; };
+END
+sed 's/, 0.5); };/, 0); };/; s/ periodic = (true, true);//; s/^sph/walls: ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; }, { side = "y_max"; } );\n&/' stream.cfg >ends.cfg
+for name in stream ends; do "$b/sph" $name.cfg -o $name --force >$name.txt 2>&1 || bad "$name: exit code $?" $name.txt; done
+for gauge in seam end mid; do
+    close_to "$(volume_of stream $gauge)" 0.3 1e-9 || bad "stream: $(volume_of stream $gauge) m^2 through $gauge, not 0.3" stream.txt
+    close_to "$(volume_of ends $gauge)" 0.3 0.01 || bad "ends: $(volume_of ends $gauge) m^2 through $gauge, not 0.3" ends.txt
+done
+close_to "$(volume_of stream thin)" 0.006 1e-9 || bad "stream: $(volume_of stream thin) m^2 through 0.02 m, not 0.006"
+refused_by sph stream.cfg 's/to = (1, 0.52); //' 'probes.\[3\].to: thin: must be given'
+refused_by sph stream.cfg 's/(2, 0); to = (2, 1)/(3, 0); to = (3, 1)/' 'probes.\[1\].at: end: its section, x from 3 to 3 m, lies outside'
+refused_by sph stream.cfg 's/(2, 0); to = (2, 1)/(2, 0); to = (2, 1.1)/' 'probes.\[1\].at: end: its section, y from 0 to 1.1 m, reaches beyond the period'
 # A column of honey that falls in a closed tank, in cells and in two joined blocks: at rest half of it is beyond the middle.
 tank() {
     cat >"$1.cfg" <<END
