@@ -491,6 +491,20 @@ static bool check_solids(const struct run *r, struct body *bodies, double t, str
     return any;
 }
 
+/* Of one in 2D, as of meshes in 3D (sph_meshes.c). */
+static void check_size(const struct run *r, const struct sph_params *used, int k, struct faults *f)
+{
+    const struct line l = line_of(&r->scene.bodies[k].points, true);
+    const double size = line_size(&l);
+    char key[64];
+    snprintf(key, sizeof key, "bodies.[%d]", k);
+    if (size < used->dx)
+        params_fault(r->params, f, key,
+                     "%s is %.3g m in size, less than sph.dx = %g m: no particle sees it. Are its "
+                     "points in m? Else take sph.dx = %.2g or less",
+                     r->scene.bodies[k].name, size, used->dx, 0.25 * size);
+}
+
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
@@ -513,6 +527,8 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
         all[k].line = line_of(&c->bodies[k].points, true);
         all[k].line.x = (const double(*)[2])now[k].x;
         all[k].elsewhere = solids_elsewhere(r, MESH_OF_BODY, k);
+        if (!all[k].elsewhere)
+            check_size(r, used, k, f);
     }
     for (int k = 0; k < c->nbodies; k++)
         speed = fmax(speed, body_drive_speed(&bodies[k].drive, bodies[k].reach, c->time.end));

@@ -311,6 +311,7 @@ with channel 's/kind = "inflow"/kind = "inflow"; pressure = 3.0/' 'walls.\[0\].p
 with tank 's/(1.2, 0.4), (1.2, 0.2)/(1.2, 0.2), (1.2, 0.4)/' 'case.cfg:8: bodies.\[0\].points: at (1, 0.3) m: crosses' sph
 with tank 's/(1.2, 0.4),/(1.2, 0.4), (1.2, 0.4),/' 'bodies.\[0\].points: at (1.2, 0.4) m: .*twice' sph
 with tank 's/(0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1, 0.2), (1.2, 0.2)/' 'bodies.\[0\].points: .*no area' sph
+with tank 's/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(0.8, 0.2), (0.8, 0.201), (0.801, 0.201), (0.801, 0.2)/' 'bodies.\[0\]: b is .* m in size, less than sph.dx' sph
 with tank 's/(1.2, 0.2))/(1.2, 0.2), (1.2, 0.3))/' 'bodies.\[0\].points: .*runs back' sph
 with tank 's/points = ((0.8, 0.2), .*; }/points = ((0.8, 0.2), (0.9, 0.4)); }/' 'three points' sph
 # bodies and walls
