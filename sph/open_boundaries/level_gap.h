@@ -14,7 +14,8 @@ enum { LEVEL_COLUMNS = 8 };
 /* The measured differences and the correction. */
 struct level_gap {
     double *profile;   /* colour.h */
-    double at_rest[6]; /* m: difference at the start, which counts as none */
+    bool kept;         /* the level outside is to be kept, whatever the start was */
+    double at_rest[6]; /* m: else the difference at the start, which counts as none */
     double gap[6];     /* m: present difference beyond that, by side */
     double lasting[6]; /* m/s: part of the outflow that a lasting difference has called for */
     bool started;      /* at_rest is known */
@@ -23,8 +24,8 @@ struct level_gap {
     int probes; /* places that were compared, last time */
 };
 
-/* Owned by the caller (level_gap_free). */
-struct level_gap *level_gap_create(const struct sph *s);
+/* kept: the level outside holds, not that of the start. Owned by the caller (level_gap_free). */
+struct level_gap *level_gap_create(const struct sph *s, bool kept);
 void level_gap_free(struct level_gap **g);
 /* Compares the levels at s->t, dt, s, after the last time, and sets the zones' outflow.
  * Collective. */

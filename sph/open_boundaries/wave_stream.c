@@ -155,7 +155,7 @@ void wave_stream_create(struct sph *s, struct zones *z)
     z->free_ctx = free_stream;
     z->eval = wave_stream_eval;
     z->surface = stream_surface;
-    z->gap = level_gap_create(s);
+    z->gap = level_gap_create(s, true);
 }
 
 double wave_stream_level(const struct sph *s, int side)

@@ -66,7 +66,7 @@ static void use_exact(struct sph *s, struct zones *z)
         return;
     z->eval = wave_outside_eval;
     z->surface = wave_outside_surface;
-    z->gap = level_gap_create(s);
+    z->gap = level_gap_create(s, false);
 }
 
 /* Whether the flow outside has the pressure that particles have at rest near the surface. Without,
@@ -100,7 +100,7 @@ struct zones *zones_create(struct sph *s)
     z->overlap = zones_overlap(s->run, &s->prm);
     z->openings = openings_create(s);
     z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
-    z->gap = s->run->crossed ? level_gap_create(s) : NULL;
+    z->gap = s->run->crossed ? level_gap_create(s, false) : NULL;
     zones_counted_box(s->run, &s->prm, z->way, z->counted[0], z->counted[1]);
     if (s->prm.outer == OUTER_EXACT)
         use_exact(s, z);

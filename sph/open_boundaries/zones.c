@@ -151,6 +151,13 @@ void zones_look_at_surface(struct zones *z, double t)
     z->surface(z->ctx, t, z->n, z->x, z->phi, z->gphi);
 }
 
+void zones_add_outflow(const struct zones *z, const double *x, double *u)
+{
+    double below;
+    const int side = zones_nearest(z, x, &below);
+    u[side / 2] += (side % 2 ? 1.0 : -1.0) * z->outflow[side];
+}
+
 /* The pressure outside is that of a constant density, and where the surface is near no suction:
  * interpolation across it must not make any. The level of the flow inside draws at that outside. In
  * order: no suction near the surface, what particles at rest have there, from the partner's
@@ -158,16 +165,14 @@ void zones_look_at_surface(struct zones *z, double t)
 static void look_under_surface(struct zones *z, double t)
 {
     const struct sph_eos *e = &z->eos;
-    double below;
     z->surface(z->ctx, t, z->n, z->x, z->phi, NULL);
     for (int k = 0; k < z->n; k++) {
-        const int side = zones_nearest(z, z->x + 3 * k, &below);
         if (z->phi[k] > -z->dx)
             z->p[k] = fmax(z->p[k], 0.0);
         if (z->weight > 0.0)
             z->p[k] += z->weight * rest_excess(-z->phi[k] / z->R);
         z->p[k] = eos_p_from_constant(z->p[k], e->rho0, e->c0, e->gamma);
-        z->u[z->dim * k + side / 2] += (side % 2 ? 1.0 : -1.0) * z->outflow[side];
+        zones_add_outflow(z, z->x + 3 * k, z->u + z->dim * k);
     }
 }
 

@@ -86,6 +86,9 @@ void zones_counted_box(const struct run *r, const struct sph_params *prm, const 
                        double lo[3], double hi[3]);
 /* Side of the region nearest to x; *below: depth of x below it, m. */
 int zones_nearest(const struct zones *z, const double *x, double *below);
+/* Adds to the velocity u, m/s, at x what brings the level back (level_gap.h), outwards through the
+ * nearest open side. */
+void zones_add_outflow(const struct zones *z, const double *x, double *u);
 /* Depth of x below the open sides of the region, m; negative outside. */
 double zones_depth(const struct sph *s, const double *x);
 

@@ -146,7 +146,8 @@ static void add_central(struct sph *s)
 
 /* Zones before sides take momentum, which walls at rest get, and do work where they make waves. The
  * force on a particle is -m rate (u - u_w), with u_w the velocity of the wave that the zone lets
- * through and `rate', 1/s, growing towards the side. */
+ * through and `rate', 1/s, growing towards the side. Before open sides the flow that brings the
+ * level back goes through the zone, too: held back there it would take no effect. */
 static void add_wave_zones(struct sph *s)
 {
     const int dim = s->dim;
@@ -160,6 +161,8 @@ static void add_wave_zones(struct sph *s)
         const double m = state_row(&s->p, s->p.y, i)[at_mass(dim)];
         if (rate == 0.0)
             continue;
+        if (s->zones)
+            zones_add_outflow(s->zones, at, u_w);
         for (int a = 0; a < dim; a++) {
             taken[a] = m * rate * (q[dim + a] - u_w[a]);
             momentum[a] -= taken[a];
