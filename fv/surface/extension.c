@@ -110,7 +110,7 @@ static void terms_at(int dim, int order, bool skip, const double *r, double *e)
         e[i] = b[i][0];
 }
 
-static void make_frame(const struct fv *s, int64_t c, int row, struct place *p)
+static void find_normal(const struct fv *s, int64_t c, int row, struct place *p)
 {
     const double *q = s->surface->phi + c;
     double size = 0.0, n[3] = {0.0, 0.0, 0.0};
@@ -126,6 +126,11 @@ static void make_frame(const struct fv *s, int64_t c, int row, struct place *p)
     memset(p->e, 0, sizeof p->e);
     for (int a = 0; a < 3; a++)
         p->e[0][a] = n[a] / size;
+}
+
+static void make_frame(const struct fv *s, int64_t c, int row, struct place *p)
+{
+    find_normal(s, c, row, p);
     if (s->dim == 2) {
         p->e[1][0] = -p->e[0][1];
         p->e[1][1] = p->e[0][0];
@@ -230,6 +235,16 @@ static bool may_slow(const struct fv *s, double h)
     return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_leans(s);
 }
 
+static void list_carry(struct surface *f, int layer, const struct carry *x)
+{
+    if (f->ncarry[layer] == f->carry_room[layer]) {
+        const int64_t more = 2 * f->carry_room[layer] + 256;
+        GROW(f->carry[layer], f->ncarry[layer], more);
+        f->carry_room[layer] = more;
+    }
+    f->carry[layer][f->ncarry[layer]++] = *x;
+}
+
 static void add_carry(struct fv *s, const struct part *part, int64_t c, int row, int layer)
 {
     struct surface *f = s->surface;
@@ -265,12 +280,45 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
         x.has_slope = true;
     }
     x.slows = layer == 2 && may_slow(s, p.spacing);
-    if (f->ncarry[layer] == f->carry_room[layer]) {
-        const int64_t more = 2 * f->carry_room[layer] + 256;
-        GROW(f->carry[layer], f->ncarry[layer], more);
-        f->carry_room[layer] = more;
-    }
-    f->carry[layer][f->ncarry[layer]++] = x;
+    list_carry(f, layer, &x);
+}
+
+/* Weights of a new pattern, by the first cell that has it. */
+static void learn(struct fv *s, int64_t c, int layer, struct place *p, struct pattern *x)
+{
+    struct surface *f = s->surface;
+    struct least_squares q;
+    double e[TERMS];
+    p->spacing = f->window->size(s, c);
+    f->window->look_along_axes(s, c, layer, x->key.shift, p);
+    make_room(f, STENCIL, 0);
+    x->first = (int)f->nstencil;
+    x->n = p->n;
+    for (int k = 0; k < p->n; k++)
+        f->at[f->nstencil + k] = p->step[k];
+    terms_at(s->dim, fit(s, p, x->key.order, false, p->self, &q), false, p->self, e);
+    weights(&q, p->n, e, f->weight + f->nstencil);
+    f->nstencil += p->n;
+}
+
+/* The same beyond the first layer where patterns decide. */
+static void add_alike(struct fv *s, const struct part *part, int64_t c, int row, int layer)
+{
+    struct surface *f = s->surface;
+    struct place p;
+    p.part = part;
+    p.mixed = false;
+    find_normal(s, c, row, &p);
+    struct pattern_key key = f->window->pattern(s, c, layer, &p);
+    key.order = is_thin(s, &p, layer) ? 0 : layer <= 2 ? 2 : 1;
+    struct pattern *x = patterns_find(&f->patterns, &key);
+    if (x->n < 0)
+        learn(s, c, layer, &p, x);
+    list_carry(f, layer,
+               &(struct carry){.cell = c,
+                               .first = x->first,
+                               .n = x->n,
+                               .slows = layer == 2 && may_slow(s, f->window->size(s, c))});
 }
 
 /* least = the least of q and its neighbours along the stride, for a row. */
@@ -334,21 +382,43 @@ static void find_layers(struct fv *s)
     near_water_find(s);
 }
 
+enum { KEPT_MOST = 1 << 20 }; /* weights of patterns that are kept, 8 MB */
+
+/* Patterns of all but the first layer, and their stencils before those of this step alone. */
+static void add_patterns(struct fv *s)
+{
+    struct surface *f = s->surface;
+    f->nstencil = f->nkept;
+    if (f->nkept > KEPT_MOST) {
+        f->nstencil = 0;
+        patterns_free(&f->patterns);
+    }
+    FLOW_NEAR_AT (s, part, j, at, n)
+        for (int64_t c = at; c < at + n; c++)
+            if (f->layer[c] >= 2 && f->layer[c] <= LAYERS)
+                add_alike(s, part, c, j, f->layer[c]);
+    f->nkept = f->nstencil;
+}
+
 void extension_build(struct fv *s)
 {
     struct surface *f = s->surface;
+    const bool alike = f->window->has_patterns && f->window->has_patterns(s);
+    const int last = alike ? 1 : LAYERS;
     find_layers(s);
     if (f->window->begin)
         f->window->begin(s);
     f->nstencil = f->ngrad = f->ndeep = 0;
     for (int l = 0; l <= LAYERS; l++)
         f->ncarry[l] = 0;
+    if (alike)
+        add_patterns(s);
     FLOW_NEAR_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
             const int l = f->layer[c];
             if (f->window->is_wanted && !f->window->is_wanted(s, c, l))
                 continue;
-            if (l >= 1 && l <= LAYERS)
+            if (l >= 1 && l <= last)
                 add_carry(s, part, c, j, l);
             else if (l == DEEP)
                 f->deep[f->ndeep++] = c;

@@ -46,17 +46,22 @@ static double mean_size(const struct fv *s, int64_t c)
     return s->dim == 2 ? sqrt(volume) : cbrt(volume);
 }
 
-static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
+static void find_shift(const struct fv *s, const struct place *p, int *shift)
+{
+    for (int a = 0; a < 3; a++)
+        shift[a] = a < s->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
+}
+
+/* The window of a cell whose middle is `shift' away. */
+static void look_at(const struct fv *s, int64_t c, int layer, const int *shift, struct place *p)
 {
     const struct block *b = &s->b;
     const unsigned char *known = s->surface->layer + c;
     const bool *out = s->surface->closed + c;
     const int reach = window_reach(s, layer), deep = b->dim == 3 ? reach : 0;
     const double per = 1.0 / p->spacing, *y = b->rows ? b->rows->y + block_row(b, c) : NULL;
-    int shift[3], n = 0;
+    int n = 0;
     p->room = 0;
-    for (int a = 0; a < 3; a++)
-        shift[a] = a < b->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
     const int corner[3] = {shift[0] - 2, shift[1] - 2, shift[2] - (b->dim == 3 ? 2 : 0)};
     bool seen[125], *const some = s->blocked && look_past_boxes(s, c, corner, seen) ? seen : NULL;
     for (int k = -deep; k <= deep; k++)
@@ -83,4 +88,57 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
     window_fill_lanes(p, n);
 }
 
-const struct window_ops even_window = {.size = mean_size, .look_around = look_around};
+static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
+{
+    int shift[3];
+    find_shift(s, p, shift);
+    look_at(s, c, layer, shift, p);
+}
+
+/* All cells are equal, and none is hidden behind a box. */
+static bool has_patterns(const struct fv *s)
+{
+    return !s->b.rows && !s->blocked && s->prm.integrator == INTEGRATOR_RK3;
+}
+
+static struct pattern_key pattern(const struct fv *s, int64_t c, int layer, struct place *p)
+{
+    const struct block *b = &s->b;
+    const unsigned char *known = s->surface->layer + c;
+    const bool *out = s->surface->closed + c;
+    const int reach = window_reach(s, layer), deep = b->dim == 3 ? reach : 0;
+    struct pattern_key key = {.layer = (signed char)lesser(layer, 3)};
+    int shift[3], at = 0;
+    find_shift(s, p, shift);
+    p->room = p->known = 0;
+    for (int k = -deep; k <= deep; k++)
+        for (int j = -reach; j <= reach; j++) {
+            const int64_t row =
+                shift[0] + (j + shift[1]) * b->stride[1] + (k + shift[2]) * b->stride[2];
+            for (int i = -reach; i <= reach; i++, at++) {
+                const bool there = !out[row + i], is = there && known[row + i] < layer;
+                p->room += there;
+                p->known += is;
+                key.known[at / 64] |= (uint64_t)is << at % 64;
+            }
+        }
+    for (int a = 0; a < 3; a++)
+        key.shift[a] = (signed char)shift[a];
+    return key;
+}
+
+static void look_along_axes(const struct fv *s, int64_t c, int layer, const signed char *shift,
+                            struct place *p)
+{
+    p->depth = 0.0;
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < 3; k++)
+            p->e[a][k] = a == k;
+    look_at(s, c, layer, (const int[]){shift[0], shift[1], shift[2]}, p);
+}
+
+const struct window_ops even_window = {.size = mean_size,
+                                       .look_around = look_around,
+                                       .has_patterns = has_patterns,
+                                       .pattern = pattern,
+                                       .look_along_axes = look_along_axes};

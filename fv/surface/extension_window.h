@@ -5,6 +5,7 @@
 
 #include "../../common/base/base.h"
 #include "../fv.h"
+#include "patterns.h"
 
 enum { STENCIL = 128 /* 125 cells and what fills up the last lanes */ };
 
@@ -27,6 +28,14 @@ struct window_ops {
     /* Known cells of a window of window_reach cells on either side of its middle, moved one cell
      * into the water; p has its frame. */
     void (*look_around)(const struct fv *s, int64_t c, int layer, struct place *p);
+    /* Whether weights beyond the first layer depend on patterns alone; NULL: they do not. */
+    bool (*has_patterns)(const struct fv *s);
+    /* The key of a cell's window but for its order, with the known cells and the room of it in p,
+     * whose normal is there; and that window as look_around has it, but along the axes and about
+     * the cell. */
+    struct pattern_key (*pattern)(const struct fv *s, int64_t c, int layer, struct place *p);
+    void (*look_along_axes)(const struct fv *s, int64_t c, int layer, const signed char *shift,
+                            struct place *p);
     /* Ahead of all; NULL: nothing is to be done. */
     void (*begin)(struct fv *s);
     /* Whether a cell of this layer gets its velocity here; NULL: all do. */

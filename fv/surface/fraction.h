@@ -26,8 +26,7 @@ struct fraction {
     double *n[3];    /* -: normals of the planes in mixed cells, out of the water */
     double *alpha;   /* -: of the planes */
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
-    bool
-        has_flows; /* they are those of the present U: both halves around a step's end share them */
+    bool has_flows;  /* for the next advance: U is that of the last one, as around a step's end */
     double *volume;  /* m^dim: of cells, ghosts included */
     double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;

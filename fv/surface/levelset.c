@@ -221,6 +221,7 @@ void levelset_free(struct surface **fp)
     mem_free(f->layer);
     mem_free(f->deep);
     mem_free(f->at);
+    patterns_free(&f->patterns);
     mem_free(f->weight);
     mem_free(f->grad);
     for (int a = 0; a < 3; a++) {

@@ -9,6 +9,7 @@
 #include "../../common/base/base.h"
 #include "../fv.h"
 #include "../grid/fv_grid.h"
+#include "patterns.h"
 
 enum {
     LAYERS = 6,    /* of dry cells that carry a velocity, for the advection of phi */
@@ -73,6 +74,8 @@ struct surface {
     int64_t ncarry[LAYERS + 1], carry_room[LAYERS + 1];
     struct carry *carry[LAYERS + 1];
     int64_t nstencil, stencil_room, ngrad, grad_room;
+    int64_t nkept; /* of the stencils, the first ones: those of patterns, which stay */
+    struct patterns patterns;
     int *at; /* offsets from the cell to those of its stencil */
     double *weight, *grad;
     int64_t ndeep, *deep; /* local cells */
