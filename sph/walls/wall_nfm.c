@@ -400,6 +400,22 @@ INLINE double friction_weight(const struct wall_touch *t, const struct seen *i, 
     return walls > 0.5 * t->is.W ? t->is.W * fmax(0.0, fmin(pairs / walls, 2.0)) : t->is.W;
 }
 
+/* Whether a film runs along a wall so fast that its weight is nothing to it: rho u^2/2 above
+ * WEIGHTS layers of particles. What hangs or drips is slower; a jet of one particle that no wall
+ * held would leave a plate that follows it, and be hit again with rho c u. */
+INLINE bool runs_along(const struct sph *s, const struct seen *i, const double *uw, const double *n,
+                       const int dim)
+{
+    enum { WEIGHTS = 500 };
+    double square = 0.0, across = 0.0, gravity = 0.0;
+    for (int a = 0; a < dim; a++) {
+        square += (i->u[a] - uw[a]) * (i->u[a] - uw[a]);
+        across += (i->u[a] - uw[a]) * n[a];
+        gravity += s->gravity[a] * s->gravity[a];
+    }
+    return fmax(square - across * across, 0.0) >= 2.0 * WEIGHTS * sqrt(gravity) * s->dx;
+}
+
 /* One piece: pressure, volume, friction, and for ALE what runs with u - u0 [4.26-4.29]. */
 INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const struct seen *i,
                          double wave, const int dim)
@@ -417,7 +433,8 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
     const double m = ale ? i->rho * drift : 0.0;
     const double near = wave * share_of_wave(s, t);
     double P = i->p + wall_pressure(s, i, t->is.e, near, uw, t->n, dim) - 2.0 * i->damped;
-    if (i->in_air) { /* which walls do not hold: a drop under a roof falls, air comes between */
+    /* What walls do not hold: a drop under a roof falls, air comes between. */
+    if (i->in_air && !runs_along(s, i, uw, t->n, dim)) {
         P = fmax(P, 0.0);
         across = i->p > 0.0 ? across : fmin(across, 0.0);
     }
