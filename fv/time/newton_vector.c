@@ -2,23 +2,10 @@
  * it takes many vectors: in lanes, for SUNDIALS' own are compiled to add one number after the
  * other, and with one reduction for all products of a vector. SPDX-License-Identifier: BSD-3-Clause
  */
+#include "../../common/base/base.h"
 #include "newton.h"
 
 enum { PART = 1024 };
-
-static double dot_part(const double *restrict x, const double *restrict y, int64_t n)
-{
-    double lanes[SUM_LANES] = {0.0}, sum = 0.0;
-    int64_t i = 0;
-    for (; i + SUM_LANES <= n; i += SUM_LANES)
-        for (int m = 0; m < SUM_LANES; m++)
-            lanes[m] += x[i + m] * y[i + m];
-    for (; i < n; i++)
-        sum += x[i] * y[i];
-    for (int m = 0; m < SUM_LANES; m++)
-        sum += lanes[m];
-    return sum;
-}
 
 static int64_t part_of(int64_t n, int64_t from) { return n - from < PART ? n - from : PART; }
 
@@ -31,7 +18,7 @@ static int dot_many(int count, N_Vector xv, N_Vector *y, realtype *d)
         d[k] = 0.0;
     for (int64_t i = 0; i < n; i += PART)
         for (int k = 0; k < count; k++)
-            d[k] += dot_part(x + i, N_VGetArrayPointer(y[k]) + i, part_of(n, i));
+            d[k] += lanes_dot_any(x + i, N_VGetArrayPointer(y[k]) + i, part_of(n, i));
     MPI_Allreduce(MPI_IN_PLACE, d, count, MPI_DOUBLE, MPI_SUM, NV_COMM_P(xv));
     return 0;
 }
