@@ -60,17 +60,28 @@ static void integrals_of_plane(const struct sph *s, double *ratio)
     ratio[RATIOS] = 1.0;
 }
 
-/* What a plane pushes with by the crowding vector, over int W of it. Where the fluid fills all it
- * is that of layers behind it, so that those before it rest in their places: by the integral the
- * first three rest at 0.497, 1.516 and 2.516 dx, which is a tenth of a percent of Poiseuille flow.
- * Under a surface, where the shift follows the speed, water at rest is a fifth less still with
- * layers. */
+/* Whether the fluid fills all between sides of the domain: nothing else bounds it. */
+static bool fills_sides(const struct sph *s)
+{
+    const struct scene *c = &s->run->scene;
+    bool sides = s->prm.surface != SURFACE_YES && c->nbodies == 0;
+    for (int k = 0; k < c->nwalls; k++)
+        sides = sides && c->walls[k].side >= SIDE_X_MIN;
+    return sides;
+}
+
+/* What a plane pushes with by the crowding vector, over int W of it. Between sides it is that of
+ * layers behind them, so that those before them rest in their places: by the integral the first
+ * three rest at 0.497, 1.516 and 2.516 dx, which is a tenth of a percent of Poiseuille flow. Behind
+ * other faces no layers of a lattice would stand: packed before a ball the nearest particle is 0.11
+ * dx from it instead of 0.25. Under a surface, where the shift follows the speed, water at rest is
+ * a fifth less still with layers. */
 static void tabulate(const struct sph *s, double *ratio)
 {
-    if (s->prm.surface == SURFACE_YES)
-        integrals_of_plane(s, ratio);
-    else
+    if (fills_sides(s))
         wall_layers_crowding(s, RATIOS, ratio);
+    else
+        integrals_of_plane(s, ratio);
 }
 
 static void *nfm_create(struct sph *s)
