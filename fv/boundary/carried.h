@@ -56,6 +56,11 @@ struct outflows {
     double all;      /* with these */
 };
 
+/* Visits the openings whose velocity changes: o. */
+#define OUTFLOWS(s, o)                                                                             \
+    for (struct outflow *o = (s)->outflows ? (s)->outflows->of : NULL;                             \
+         o && o < (s)->outflows->of + (s)->outflows->n; o++)
+
 /* The kind of an opening of the scene. */
 enum outflow_kind carried_kind(const struct scene_wall *w);
 /* Makes s->outflows if some side's velocity changes; on all ranks alike. */

@@ -23,11 +23,6 @@
  * waves that feel it is below 1, where shallow water is right. */
 #define RETURN 2.0 /* depths: kh of waves that feel it is below 1, where it is right */
 
-/* Visits the sides of this kind: o. */
-#define OUTFLOWS(s, o)                                                                             \
-    for (struct outflow *o = (s)->outflows ? (s)->outflows->of : NULL;                             \
-         o && o < (s)->outflows->of + (s)->outflows->n; o++)
-
 /* Sums what flows out through these faces of this rank, and with the other sides' given fluxes; the
  * side's own sum is kept for the balance of imposed cells. */
 static double sum_up(struct fv *s)

@@ -21,11 +21,7 @@
 /* Of water that leaves, over the speed of its waves: none that is drawn away passes faster. */
 #define FASTEST 1.4
 
-/* Visits the openings of given discharge: o. */
-#define OUTFLOWS(s, o)                                                                             \
-    for (struct outflow *o = (s)->outflows ? (s)->outflows->of : NULL;                             \
-         o && o < (s)->outflows->of + (s)->outflows->n; o++)                                       \
-        if (o->kind != OUTFLOW_CONVECTS)
+static bool is_given(const struct outflow *o) { return o->kind != OUTFLOW_CONVECTS; }
 
 /* m^dim/s: outwards, by the case; 0: none is given. */
 static double discharge_of(const struct fv *s, int side, double t)
@@ -59,11 +55,11 @@ static void tell_shortage(struct fv *s, int side, double t)
         passing(s, side, discharge_of(s, side, t)) >= discharge_of(s, side, t))
         return;
     all->short_told[side] = true;
-    const char *const length = s->dim == 2 ? "m" : "m^2", *const flow =
-                                                              s->dim == 2 ? "m^2/s" : "m^3/s";
+    const char *const size = s->dim == 2 ? "m" : "m^2";
+    const char *const flow = s->dim == 2 ? "m^2/s" : "m^3/s";
     log_warn("t = %.4g s: the water in %s, %.3g %s, is too little for its discharge of %g %s: what "
              "runs there leaves; less discharge, or an outflow with a level",
-             t, scene_side_names[side], all->area[side], length, discharge_of(s, side, t), flow);
+             t, scene_side_names[side], all->area[side], size, discharge_of(s, side, t), flow);
 }
 
 void outflow_set_discharges(struct fv *s, double t)
@@ -85,7 +81,7 @@ void outflow_set_discharges(struct fv *s, double t)
 void outflow_count_volumes(struct fv *s, int a, const double *volume)
 {
     OUTFLOWS (s, o)
-        for (int64_t i = 0; i < o->n && o->a == a; i++)
+        for (int64_t i = 0; i < o->n && o->a == a && is_given(o); i++)
             if (o->own[i])
                 s->outflows->passed[o->side] +=
                     (o->in < 0 ? 1.0 : -1.0) * volume[o->cell[i] + o->face];
@@ -94,7 +90,7 @@ void outflow_count_volumes(struct fv *s, int a, const double *volume)
 void outflow_count_flows(struct fv *s, double dt, double (*share)(const struct fv *s, int64_t c))
 {
     OUTFLOWS (s, o)
-        for (int64_t i = 0; i < o->n; i++) {
+        for (int64_t i = 0; i < o->n && is_given(o); i++) {
             const double size = s->m ? 1.0 : carried_area(o, i);
             if (o->own[i])
                 s->outflows->passed[o->side] += (o->in < 0 ? dt : -dt) * size *
@@ -107,7 +103,12 @@ void outflow_settle(struct fv *s, double dt)
 {
     struct outflows *all = s->outflows;
     double passed[6];
-    if (!all)
+    bool any = false;
+    for (int k = 0; k < 6 && all; k++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
+        any = any || (w && w->has_discharge);
+    }
+    if (!any)
         return;
     MPI_Allreduce(all->passed, passed, 6, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < 6; k++) {

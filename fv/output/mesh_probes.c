@@ -78,10 +78,12 @@ static double level_at(struct fv *s, const double *x)
     const double top = down ? -d->min[up] : d->max[up], end = down ? -d->max[up] : d->min[up];
     const double most = 1.5 * (top - end) / ALONG;
     const double sign = down ? -1.0 : 1.0;
-    double phi[ALONG + 1];
-    if ((s->m->moves || s->partners.past[0][0]) &&
-        isnan(ground_at(s, x, up, sign * top, sign * end)))
-        return NAN;
+    double phi[ALONG + 1], ground = NAN;
+    if (s->m->moves || s->partners.past[0][0]) {
+        ground = ground_at(s, x, up, sign * top, sign * end);
+        if (isnan(ground))
+            return NAN;
+    }
     levels_along(s, x, up, down, phi);
     for (int n = 0; n <= ALONG; n++) {
         if (!(phi[n] < 0.0))
@@ -91,7 +93,7 @@ static double level_at(struct fv *s, const double *x)
         const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
         return top + (end - top) * (n - back) / ALONG;
     }
-    return sign * ground_at(s, x, up, sign * top, sign * end);
+    return sign * (isnan(ground) ? ground_at(s, x, up, sign * top, sign * end) : ground);
 }
 
 /* Velocity and distance to the surface at a position: this rank's share. */

@@ -5,17 +5,26 @@
 
 #include "../pairs/sph_pairs.h"
 
-/* int W dS over the plane at the height h, 1/m. Midpoints. */
-static double over_plane(const struct sph *s, double h)
+/* int f dS over the plane at the height h, f of the distance, within R. Midpoints. */
+static double over_plane(const struct sph *s, double h, double (*f)(const struct sph *s, double r))
 {
-    enum { POINTS = 100 }; /* 5e-5 of the whole at the wall in 3D, 1e-10 in 2D */
+    enum { POINTS = 100 }; /* of W: 5e-5 of the whole at the wall in 3D, 1e-10 in 2D */
     const double R = s->R, half = h < R ? sqrt(R * R - h * h) : 0.0;
     double sum = 0.0;
     for (int j = 0; j < POINTS; j++) {
         const double y = (j + 0.5) / POINTS * half;
-        sum += (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * kernel_w(s->dim, sqrt(h * h + y * y), R);
+        sum += (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * f(s, sqrt(h * h + y * y));
     }
     return sum * half / POINTS;
+}
+
+static double kernel(const struct sph *s, double r) { return kernel_w(s->dim, r, s->R); }
+
+/* Of the gradient whose sum the crowding vector is, (1 + (W/W(dx))^4/5) grad W: over -r. */
+static double push(const struct sph *s, double r)
+{
+    const double q = kernel(s, r) / kernel(s, s->dx);
+    return -kernel_dw_r(s->dim, r, s->R) * (1.0 + 0.2 * q * q * q * q);
 }
 
 /* sum dx^D W over the layer of a lattice at the height h, one of whose places is the foot. */
@@ -39,28 +48,11 @@ void wall_layers_rooms(const struct sph *s, int n, double *ratio)
         const double d = k * s->R / n;
         double layers = 0.0;
         for (int j = 0; j < FINE; j++)
-            behind += step * over_plane(s, d + (j + 0.5) * step);
+            behind += step * over_plane(s, d + (j + 0.5) * step, kernel);
         for (double h = d + 0.5 * s->dx; h < s->R; h += s->dx)
             layers += over_layer(s, h);
         ratio[k] = layers / (lattice * behind);
     }
-}
-
-/* Over the plane at the height h, 1/m^2: the part along it of the gradient whose sum the crowding
- * vector is, (1 + (W/W(dx))^4/5) grad W. */
-static double push_of_plane(const struct sph *s, double h)
-{
-    enum { POINTS = 400 };
-    const double R = s->R, half = h < R ? sqrt(R * R - h * h) : 0.0;
-    const double W_dx = kernel_w(s->dim, s->dx, R);
-    double sum = 0.0;
-    for (int j = 0; j < POINTS; j++) {
-        const double y = (j + 0.5) / POINTS * half, r = hypot(h, y);
-        const double q = kernel_w(s->dim, r, R) / W_dx;
-        sum -= (s->dim == 3 ? 2.0 * M_PI * y : 2.0) * h * kernel_dw_r(s->dim, r, R) *
-               (1.0 + 0.2 * q * q * q * q);
-    }
-    return sum * half / POINTS;
 }
 
 void wall_layers_crowding(const struct sph *s, int n, double *ratio)
@@ -70,7 +62,7 @@ void wall_layers_crowding(const struct sph *s, int n, double *ratio)
         const double d = k * s->R / n;
         double layers = 0.0;
         for (double h = d + 0.5 * s->dx; h < s->R; h += s->dx)
-            layers += s->dx * push_of_plane(s, h);
-        ratio[k] = layers / over_plane(s, d);
+            layers += s->dx * h * over_plane(s, h, push);
+        ratio[k] = layers / over_plane(s, d, kernel);
     }
 }
