@@ -123,7 +123,7 @@ static const struct param wall_rows[] = {
     PARAM(P, closed,   "-",   "false", 0, 0, "join the last point with the first",
           USED(WITHOUT(mesh, "a mesh is closed or not"),
                ONLY(side, ONE(SIDE_NONE), "a side of the domain has no ends"))),
-    SURFACE_ROWS(P, .uses = NULL, .uses = NULL),
+    SURFACE_ROWS(P, .uses = NULL, .uses = NULL, OF_FILE),
     CHOICE(P, fluid_side, "auto|inside|outside|sheet", "auto", "of a mesh: where the fluid is; sheet: on the side that its normals point away from; auto: where the shapes have it",
           USED(WITH(mesh, "it is of a mesh"))),
     PARAM(P, flip,     "-",   "false", 0, 0, "reverse the normals of an open mesh, which must point out of the fluid",
@@ -176,7 +176,7 @@ static const struct param shape_rows[] = {
     PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners of a polygon",
           USED(ONLY(form, ONE(SHAPE_POLYGON), "the form is not polygon"))),
     SURFACE_ROWS(P, USED(ONLY(form, ONE(SHAPE_MESH), "the form is not mesh")),
-                 USED(ONLY(form, ONE(SHAPE_POLYGON), "the form is not polygon"))),
+                 USED(ONLY(form, ONE(SHAPE_POLYGON), "the form is not polygon")), OF_FILE),
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a disc",
           USED(ONLY(form, ONE(SHAPE_DISC), "the form is not disc"))),
     PARAM(P, radius,   "m",   "0.0", 0, 1e9, "of a disc",
@@ -406,9 +406,11 @@ static void check_shapes(const struct scene *s, const struct params *p, struct f
     for (int k = 0; k < s->nbodies; k++)
         if (s->bodies[k].points.n > 0 && *s->bodies[k].surface.mesh)
             params_fault(p, f, "bodies", "body %d: give points or a mesh, not both", k + 1);
-        else if (s->bodies[k].points.n < 3 && !*s->bodies[k].surface.mesh)
-            params_fault(p, f, "bodies", "body %d: expected three points or more%s", k + 1,
-                         s->domain.dim == 3 ? ", or a mesh" : "");
+        else if (s->bodies[k].points.n + s->bodies[k].section.n < 3 &&
+                 !scene_has_triangles(s, MESH_OF_BODY, k))
+            params_fault(p, f, "bodies",
+                         "body %d: expected three points or more, a box, a radius%s", k + 1,
+                         s->domain.dim == 3 ? " or a mesh" : " or an outline");
     for (int k = 0; k < s->nshapes; k++) {
         const struct scene_shape *h = s->shapes + k;
         if (h->form == SHAPE_POLYGON && h->points.n < 3)

@@ -61,13 +61,14 @@ struct scene_contact {
     double gap;                   /* in units of dx: distance that contact keeps */
 };
 
-/* Closed polylines, clockwise: fluid on their left; in 3D closed meshes. */
 struct scene_mesh;
 /* A body: closed polylines that run clockwise, with the fluid on their left; in 3D closed
  * meshes. */
 struct scene_body {
     char name[PARAM_TEXT_SIZE];
     struct param_points points;
+    double box[2][3], radius, length; /* m: a simple form, scene_forms.h */
+    struct param_points section;      /* of a prism: what its points were */
     struct scene_surface surface;
     const struct scene_mesh *mesh; /* what its file holds; NULL: points */
     bool thin;

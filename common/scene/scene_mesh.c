@@ -9,6 +9,7 @@
 #include "../files/files.h"
 #include "exact.h"
 #include "scene_fluid.h"
+#include "scene_forms.h"
 
 /* --- who has which --- */
 
@@ -24,10 +25,27 @@ int scene_mesh_owners(const struct scene *s, enum mesh_owner owner)
     return owner == MESH_OF_WALL ? s->nwalls : owner == MESH_OF_BODY ? s->nbodies : s->nshapes;
 }
 
-void scene_mesh_key(enum mesh_owner owner, int k, char key[64])
+static enum body_form form_of(const struct scene *s, enum mesh_owner owner, int k)
+{
+    return owner == MESH_OF_BODY && s->domain.dim == 3 ? scene_form_of(s->bodies + k) : FORM_NONE;
+}
+
+void scene_mesh_key(const struct scene *s, enum mesh_owner owner, int k, char key[64])
 {
     static const char *const lists[] = {"shapes", "bodies", "walls"};
-    snprintf(key, 64, "%s.[%d].mesh", lists[owner], k);
+    static const char *const forms[] = {"mesh", "box", "radius", "radius", "points"};
+    snprintf(key, 64, "%s.[%d].%s", lists[owner], k, forms[form_of(s, owner, k)]);
+}
+
+bool scene_has_triangles(const struct scene *s, enum mesh_owner owner, int k)
+{
+    return *scene_surface_of(s, owner, k)->mesh || form_of(s, owner, k) != FORM_NONE;
+}
+
+const char *scene_mesh_source(const struct scene *s, enum mesh_owner owner, int k)
+{
+    return form_of(s, owner, k) == FORM_NONE ? scene_surface_of(s, owner, k)->mesh
+                                             : s->bodies[k].name;
 }
 
 bool scene_has_meshes(const struct scene *s)
@@ -35,7 +53,7 @@ bool scene_has_meshes(const struct scene *s)
     bool any = false;
     for (enum mesh_owner owner = MESH_OF_SHAPE; owner <= MESH_OF_WALL; owner++)
         for (int k = 0; k < scene_mesh_owners(s, owner); k++)
-            any = any || *scene_surface_of(s, owner, k)->mesh;
+            any = any || scene_has_triangles(s, owner, k);
     return any;
 }
 
@@ -44,8 +62,8 @@ void scene_meshes_refuse(const struct scene *s, enum mesh_owner owner, const str
 {
     for (int k = 0; k < scene_mesh_owners(s, owner); k++) {
         char key[64];
-        scene_mesh_key(owner, k, key);
-        if (*scene_surface_of(s, owner, k)->mesh)
+        scene_mesh_key(s, owner, k, key);
+        if (scene_has_triangles(s, owner, k))
             params_fault(p, f, key, "%s", why);
     }
 }

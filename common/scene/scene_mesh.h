@@ -39,11 +39,15 @@ struct scene_meshes {
 
 /* Whether the case names any mesh. */
 bool scene_has_meshes(const struct scene *s);
-/* The keys of the mesh of wall, body or shape k; how many of such owners the scene has; the key of
- * the file in the case. */
+/* The keys of the mesh of wall, body or shape k; how many of such owners the scene has; the key in
+ * the case of the file, or of the form. */
 const struct scene_surface *scene_surface_of(const struct scene *s, enum mesh_owner owner, int k);
 int scene_mesh_owners(const struct scene *s, enum mesh_owner owner);
-void scene_mesh_key(enum mesh_owner owner, int k, char key[64]);
+void scene_mesh_key(const struct scene *s, enum mesh_owner owner, int k, char key[64]);
+/* Whether it has triangles, from a file or as a body of simple form in 3D; their file, or the
+ * body's name, for messages. */
+bool scene_has_triangles(const struct scene *s, enum mesh_owner owner, int k);
+const char *scene_mesh_source(const struct scene *s, enum mesh_owner owner, int k);
 /* Reads and repairs all meshes of the scene into s->meshes (scene_mesh_read.c). Faults name file,
  * triangle and remedy. Collective over comm. */
 void scene_meshes_read(struct scene *s, const char *case_dir, const struct params *p, MPI_Comm comm,

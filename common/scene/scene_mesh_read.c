@@ -9,6 +9,7 @@
 #include "../geometry/geometry.h"
 #include "exact.h"
 #include "scene_fluid.h"
+#include "scene_forms.h"
 #include "scene_mesh.h"
 
 struct reading {
@@ -68,15 +69,29 @@ static bool is_near_origin(const struct trimesh *m, double *far)
     return *far <= 1e4 * diagonal(m);
 }
 
-/* On rank 0: from the file to a connected mesh; false: why. */
-static bool prepare(const struct scene_surface *is, const char *path, struct scene_mesh *m,
+/* The triangles as the file or the form has them; false: why. */
+static bool take(const struct reading *r, const struct scene_mesh *m,
+                 const struct scene_surface *is, struct trimesh *t, char *why, size_t size)
+{
+    char path[1024 + PARAM_TEXT_SIZE];
+    if (!*is->mesh) {
+        *t = scene_form_mesh(r->s->bodies + m->index);
+        return true;
+    }
+    snprintf(path, sizeof path, "%s%s%s", *is->mesh == '/' ? "" : r->case_dir,
+             *is->mesh == '/' ? "" : "/", is->mesh);
+    return trimesh_read(path, t, why, size);
+}
+
+/* On rank 0: from the file or the form to a connected mesh in its place; false: why. */
+static bool prepare(const struct reading *r, const struct scene_surface *is, struct scene_mesh *m,
                     char *why, size_t size)
 {
     struct trimesh *t = &m->mesh;
     double far;
-    if (!trimesh_read(path, t, why, size))
+    if (!take(r, m, is, t, why, size))
         return false;
-    if (!is_near_origin(t, &far)) {
+    if (*is->mesh && !is_near_origin(t, &far)) {
         snprintf(why, size,
                  "its coordinates reach %g and it is %g across: files of triangles keep 7 digits, "
                  "too few for that. Shift it to the origin before it is exported, and back by "
@@ -313,16 +328,15 @@ static void read_one(const struct reading *r, enum mesh_owner owner, int k,
                      const struct scene_surface *is)
 {
     struct scene_mesh *m = r->s->meshes->of + r->s->meshes->n;
-    char path[1024 + PARAM_TEXT_SIZE], why[640] = "";
+    const char *source = scene_mesh_source(r->s, owner, k);
+    char why[640] = "";
     *m = (struct scene_mesh){.owner = owner, .index = k};
-    scene_mesh_key(owner, k, m->key);
-    snprintf(path, sizeof path, "%s%s%s", *is->mesh == '/' ? "" : r->case_dir,
-             *is->mesh == '/' ? "" : "/", is->mesh);
-    int good = r->rank > 0 || prepare(is, path, m, why, sizeof why);
+    scene_mesh_key(r->s, owner, k, m->key);
+    int good = r->rank > 0 || prepare(r, is, m, why, sizeof why);
     MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
     MPI_Bcast(why, sizeof why, MPI_CHAR, 0, r->comm);
     if (!good) {
-        params_fault(r->p, r->f, m->key, "%s: %s", is->mesh, why);
+        params_fault(r->p, r->f, m->key, "%s: %s", source, why);
         trimesh_free(&m->mesh);
         return;
     }
@@ -333,7 +347,7 @@ static void read_one(const struct reading *r, enum mesh_owner owner, int k,
     m->reversed = counts[2];
     trimesh_broadcast(&m->mesh, r->comm);
     set_name(r->s, m, is);
-    if (!is_sound(r, m, is->mesh)) {
+    if (!is_sound(r, m, source)) {
         trimesh_free(&m->mesh);
         return;
     }
@@ -343,7 +357,7 @@ static void read_one(const struct reading *r, enum mesh_owner owner, int k,
     r->s->meshes->n++;
     if (owner == MESH_OF_BODY)
         r->s->bodies[k].mesh = m;
-    check_domain(r, m, is->mesh);
+    check_domain(r, m, source);
     if (owner == MESH_OF_WALL)
         check_pumping(r, m);
 }
@@ -359,6 +373,6 @@ void scene_meshes_read(struct scene *s, const char *case_dir, const struct param
     for (enum mesh_owner owner = MESH_OF_SHAPE; owner <= MESH_OF_WALL;
          owner++) /* walls look at shapes */
         for (int k = 0; k < scene_mesh_owners(s, owner); k++)
-            if (*scene_surface_of(s, owner, k)->mesh)
+            if (scene_has_triangles(s, owner, k))
                 read_one(&r, owner, k, scene_surface_of(s, owner, k));
 }

@@ -6,16 +6,17 @@
 
 #include "../base/base.h"
 #include "../geometry/geometry.h"
+#include "scene_forms.h"
 
-/* Corners as scene_surface places them. */
-static void place(const struct scene_surface *is, const struct outline *o, struct param_points *to)
+void scene_outline_place(const struct scene_surface *is, int n, const double (*x)[2],
+                         struct param_points *to)
 {
     const double angle = is->rotate[2] * M_PI / 180.0, c = cos(angle), s = sin(angle);
-    to->n = o->n;
-    for (int k = 0; k < o->n; k++) {
-        const double x = is->scale * o->x[k][0], y = is->scale * o->x[k][1];
-        to->x[k][0] = c * x - s * y + is->translate[0];
-        to->x[k][1] = s * x + c * y + is->translate[1];
+    to->n = n;
+    for (int k = 0; k < n; k++) {
+        const double u = is->scale * x[k][0], v = is->scale * x[k][1];
+        to->x[k][0] = c * u - s * v + is->translate[0];
+        to->x[k][1] = s * u + c * v + is->translate[1];
     }
 }
 
@@ -36,7 +37,7 @@ static bool read_one(const char *dir, const char *group, int k, const struct sce
         params_fault(p, f, key, "%s", text);
     else {
         const bool closed = o.closed;
-        place(is, &o, to);
+        scene_outline_place(is, o.n, (const double(*)[2])o.x, to);
         mem_free(o.x);
         return closed;
     }
@@ -45,6 +46,7 @@ static bool read_one(const char *dir, const char *group, int k, const struct sce
 
 void scene_outlines_read(struct scene *s, const char *dir, const struct params *p, struct faults *f)
 {
+    scene_forms_make(s, p, f);
     for (int k = 0; k < s->nwalls; k++)
         s->walls[k].closed =
             read_one(dir, "walls", k, &s->walls[k].surface, &s->walls[k].points, p, f) ||

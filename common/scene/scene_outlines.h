@@ -6,9 +6,13 @@
 #include "scene_groups.h"
 
 /* Reads the files, which stand beside the case in dir, scales, rotates and shifts their corners and
- * makes them the points of their owner. Faults go to f. Before scene_check; call on all ranks
- * alike, each reads for itself. */
+ * makes them the points of their owner; so it does with bodies of simple form (scene_forms.h).
+ * Faults go to f. Before scene_check; call on all ranks alike, each reads for itself. */
 void scene_outlines_read(struct scene *s, const char *dir, const struct params *p,
                          struct faults *f);
+
+/* Scales, rotates and shifts n corners x and makes them the points of TO. */
+void scene_outline_place(const struct scene_surface *is, int n, const double (*x)[2],
+                         struct param_points *to);
 
 #endif

@@ -15,15 +15,16 @@ struct scene_surface {
     double weld;                           /* m; 0: 1e-6 of the diagonal */
 };
 
-/* SURFACE_ROWS(T, MESH, OUTLINE): the rows for a parameter table whose struct T has a member
- * `surface'; MESH and OUTLINE: when these two keys are used, USED(..). */
+/* SURFACE_ROWS(T, MESH, OUTLINE, PLACED): the rows for a parameter table whose struct T has a
+ * member `surface'; MESH, OUTLINE: when these two keys are used, USED(..), PLACED: when scale,
+ * rotate and translate are. */
 #define SURFACE_ROW(T, m, is, unit_, dflt_, min_, max_, ...)                                       \
     {                                                                                              \
         .key = #m, .type = is, .offset = offsetof(T, surface.m), .unit = unit_, .dflt = dflt_,     \
         .min = min_, .max = max_, .help = __VA_ARGS__                                              \
     }
 #define OF_FILE USED(WITH_ANY(mesh, outline, "no mesh and no outline is given"))
-#define SURFACE_ROWS(T, MESH, OUTLINE)                                                             \
+#define SURFACE_ROWS(T, MESH, OUTLINE, PLACED)                                                     \
     SURFACE_ROW(T, mesh, PARAM_TEXT, "-", "", 0, 0,                                                \
                 "file beside the case with its triangles: STL, OBJ or PLY; sph in 3D", MESH),      \
         SURFACE_ROW(T, outline, PARAM_TEXT, "-", "", 0, 0,                                         \
@@ -33,13 +34,13 @@ struct scene_surface {
                     OUTLINE),                                                                      \
         SURFACE_ROW(T, scale, PARAM_REAL, "-", "1.0", 1e-9, 1e9,                                   \
                     "factor on the coordinates of a mesh or an outline: 0.001 for a file in mm",   \
-                    OF_FILE),                                                                      \
+                    PLACED),                                                                       \
         SURFACE_ROW(T, rotate, PARAM_REALS, "degrees", "(0.0, 0.0, 0.0)", -3600, 3600,             \
                     "then its rotation about the origin, axis times angle: (0, 0, 90) turns x "    \
                     "to y",                                                                        \
-                    OF_FILE, .numbers = 3),                                                        \
+                    PLACED, .numbers = 3),                                                         \
         SURFACE_ROW(T, translate, PARAM_REALS, "m", "(0.0, 0.0, 0.0)", -1e9, 1e9,                  \
-                    "then its shift", OF_FILE),                                                    \
+                    "then its shift", PLACED),                                                     \
         SURFACE_ROW(T, weld, PARAM_REAL, "m", "0.0", 0, 1e6,                                       \
                     "vertices of the mesh closer than this are one; 0: 1e-6 of its diagonal",      \
                     USED(WITH(mesh, "no mesh is given")))

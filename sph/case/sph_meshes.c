@@ -13,7 +13,7 @@ enum { RAYS = 20000 }; /* about so many triangles of a mesh are looked at */
 
 static const char *file_of(const struct scene *c, const struct scene_mesh *m)
 {
-    return scene_surface_of(c, m->owner, m->index)->mesh;
+    return scene_mesh_source(c, m->owner, m->index);
 }
 
 static bool is_thin(const struct scene *c, const struct scene_mesh *m)

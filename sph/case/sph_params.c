@@ -686,7 +686,8 @@ static void check_wall_model(const struct run *r, struct faults *f)
     char key[32];
     if (has_points(&r->scene) && r->scene.domain.dim == 3)
         params_fault(r->params, f, "walls",
-                     "walls and bodies of points need 2 dimensions: in space give a mesh");
+                     "walls and bodies of points need 2 dimensions: in space give a mesh, of "
+                     "bodies also a box, a radius or, with the points of a section, a length");
     else if (has_polylines(&r->scene) && given.walls == WALLS_GHOSTS)
         params_fault(r->params, f, "sph.walls",
                      "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");

@@ -35,6 +35,17 @@ for name in files points; do
     "$b/fv" fv_$name.cfg -o fv_$name >fv_$name.log 2>&1 || bad "fv $name" fv_$name.log
 done
 close_to "$(last fv_files/series.csv 'volume')" "$(last fv_points/series.csv 'volume')" 1e-9 || bad "fv: another volume from a file"
+# a box, turned, and a disc, as their points are
+scene square 'side = "y_max";' 'points = ((0.8, 0.5), (1.1, 0.5), (1.1, 0.3), (0.8, 0.3));' 'points = ((2, 0.4), (0, 0.4), (0, -0.6), (2, -0.6));'
+sed 's/points = ((0.8, 0.5), (1.1, 0.5).*free/box = ((-0.5, -1.1), (-0.3, -0.8)); rotate = (0, 0, 90); translate = (0, 0.8); free/' square.cfg >box.cfg
+for name in square box; do "$b/sph" $name.cfg -o $name >$name.log 2>&1 || bad "sph $name" $name.log; done
+for column in 'hull y' 'hull force y' 'kinetic energy'; do
+    close_to "$(last box/series.csv "$column")" "$(last square/series.csv "$column")" 1e-6 || bad "a box: another $column than its points have"
+done
+# a disc in water at rest: Archimedes (3 %)
+sed 's/points = ((0.8, 0.5).*density = 300;/radius = 0.1; translate = (1, 0.2);/; s/end = 0.1/end = 0.5/; s/dx = 0.04/dx = 0.025/' square.cfg >disc.cfg
+"$b/sph" disc.cfg -o disc >disc.log 2>&1 || bad "sph disc" disc.log
+close_to "$(number disc average_y)" 308.19 0.03 || bad "a disc bears $(number disc average_y) N/m, not 308.19"
 # refused CHANGE MESSAGE
 refused() { refused_by sph files.cfg "$1" "$2"; }
 printf 'x,y\n0,0\n1,zero\n' >wrong.csv

@@ -37,7 +37,7 @@ waves: kind sea | height 0.12 | length 1.2 | period 0.8 | depth 0.9 | direction 
     current 0.1 | closed false | zone 0.4 | peak 2.0 | repeat 50.0 | seed 3 | order 1 | evolve hos
     file nowhere.swd | spread 8.0
 bodies: name "other" | mesh "other.stl" | outline "other.csv" | scale 0.9 | rotate (0,0,20) | translate (0.05,0,0)
-    weld 5 | thin true | points ((-0.3,-0.4),(-0.3,-0.1),(0.2,-0.1),(0.2,-0.4)) | kind "no_slip" | centre (0.1,0.1)
+    box ((-0.3,-0.4),(0.2,-0.1)) | radius 0.25 | length 0.4 | weld 5 | thin true | points ((-0.3,-0.4),(-0.3,-0.1),(0.2,-0.1),(0.2,-0.4)) | kind "no_slip" | centre (0.1,0.1)
     velocity (0.1,0) | spin 0.5 | motion "nowhere.txt" | force (3,4) | free true | density 700 | mass 7 | inertia 7
     lock "y" | release 0.01 | force_rule "average" | load (3,4) | torque 5
     lines ({from=(-0.2,0.2);to=(-0.2,0.8);damping=3.0;}) | hinge {at=(0.5,0.1);} | slider {axis=(1,1);}

@@ -7,6 +7,7 @@
 #include "../../../common/base/vec3.h"
 #include "../../../common/geometry/trimesh_read.h"
 #include "../../../common/scene/scene_mesh.h"
+#include "../../../common/scene/scene_outlines.h"
 #include "mesh_files.h"
 
 static int rank;
@@ -42,6 +43,8 @@ static void read_scene(struct reading *r, const char *text)
     MPI_Barrier(MPI_COMM_WORLD);
     scene_groups(&r->scene, groups);
     r->p = params_read(MPI_COMM_WORLD, path, 0, NULL, groups, SCENE_GROUPS, others, &r->f);
+    if (r->f.n == 0)
+        scene_outlines_read(&r->scene, scratch(), r->p, &r->f);
     if (r->f.n == 0)
         scene_check(&r->scene, r->p, &r->f);
     if (r->f.n == 0)
@@ -350,6 +353,61 @@ static void one_sided_surfaces_are_refused(void **state)
     trimesh_free(&m);
 }
 
+/* Boxes, spheres, cylinders and prisms without a file have the volume, centre and moment of inertia
+ * of what they are, wherever and however turned. */
+static void simple_forms_are_exact(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "bodies: ( { box = ((0.5, 0.5, 0.5), (1.5, 1.0, 1.25)); },\n"
+        "  { radius = 0.4; translate = (2.0, 1.0, 1.5); },\n"
+        "  { radius = 0.25; length = 0.8; rotate = (0, 90, 0); translate = (3.0, 1.0, 1.0); },\n"
+        "  { points = ((0, 0), (0.6, 0), (0, 0.3)); length = 0.5; rotate = (90, 0, 0); "
+        "translate = (1.5, 1.5, 0.2); } );\n";
+    const double volume[4] = {0.375, 4.0 / 3.0 * M_PI * 0.064, M_PI * 0.0625 * 0.8, 0.045};
+    const double centre[4][3] = {
+        {1.0, 0.75, 0.875}, {2.0, 1.0, 1.5}, {3.0, 1.0, 1.0}, {1.7, 1.5, 0.3}};
+    const double along_x[4] = {0.375 / 12.0 * (0.25 + 0.5625), 0.4 * 0.16 * volume[1],
+                               0.5 * 0.0625 * volume[2], 0.0};
+    struct reading r;
+    read_scene(&r, text);
+    assert_int_equal(r.f.n, 0);
+    assert_int_equal(r.scene.meshes->n, 4);
+    for (int k = 0; k < 4; k++) {
+        const struct scene_mesh *m = scene_mesh_of(&r.scene, MESH_OF_BODY, k);
+        const struct trimesh_solid is = trimesh_solid(&m->mesh, -1);
+        assert_true(m->mesh.closed && m->fluid_side == FLUID_OUTSIDE);
+        assert_close(m->volume, volume[k], 1e-12);
+        for (int a = 0; a < 3; a++)
+            assert_close(is.centre[a], centre[k][a], 1e-12);
+        if (k < 3) /* of facets, to a percent */
+            assert_close(fabs(is.inertia[0][0]), along_x[k], (k == 0 ? 1e-12 : 0.01 * along_x[k]));
+    }
+    done(&r);
+}
+
+static void half_given_forms_are_refused(void **state)
+{
+    (void)state;
+    static const char *const wrong[][2] = {
+        {"box = ((1, 1, 1), (2, 0.5, 2));", "bodies.[0].box"},
+        {"box = ((1, 1, 1), (2, 1.5, 2)); radius = 0.3;", "bodies.[0].box"},
+        {"box = ((1, 1, 1), (2, 1.5, 2)); length = 0.3;", "bodies.[0].box"},
+        {"radius = 0.3; mesh = \"ball.stl\";", "bodies.[0].radius"},
+        {"points = ((0, 0), (1, 0)); length = 1.0;", "bodies.[0].length"},
+        {"radius = 0.3; translate = (9, 0, 0);", "bodies.[0].radius"}};
+    for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+        struct reading r;
+        char text[200];
+        snprintf(text, sizeof text, "bodies: ( { %s } );\n", wrong[k][0]);
+        read_scene(&r, text);
+        assert_int_equal(r.f.n, 1);
+        if (rank == 0)
+            assert_non_null(strstr(r.f.text, wrong[k][1]));
+        done(&r);
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -362,6 +420,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(crossings_are_seen),
         cmocka_unit_test(sizes_tell_facets_from_the_sphere),
         cmocka_unit_test(one_sided_surfaces_are_refused),
+        cmocka_unit_test(simple_forms_are_exact),
+        cmocka_unit_test(half_given_forms_are_refused),
     };
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);

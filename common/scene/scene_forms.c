@@ -1,0 +1,148 @@
+/* scene_forms.c - see scene_forms.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "scene_forms.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../geometry/geometry.h"
+#include "scene_outlines.h"
+
+enum { CORNERS = 96, SPHERE_LEVEL = 3 };
+
+static bool has_box(const struct scene_body *b)
+{
+    const double none[2][3] = {{0.0}};
+    return memcmp(b->box, none, sizeof none) != 0;
+}
+
+enum body_form scene_form_of(const struct scene_body *b)
+{
+    if (has_box(b))
+        return FORM_BOX;
+    if (b->radius > 0.0)
+        return b->length > 0.0 ? FORM_CYLINDER : FORM_ROUND;
+    return b->length > 0.0 ? FORM_PRISM : FORM_NONE;
+}
+
+/* --- faults --- */
+
+static bool is_clear(const struct scene *s, int k, const struct params *p, struct faults *f)
+{
+    const struct scene_body *b = s->bodies + k;
+    const struct scene_surface *is = &b->surface;
+    const int from = f->n;
+    char key[64];
+    snprintf(key, sizeof key, "bodies.[%d].%s", k,
+             has_box(b)        ? "box"
+             : b->radius > 0.0 ? "radius"
+                               : "length");
+    if (scene_form_of(b) == FORM_PRISM && b->points.n < 3)
+        params_fault(p, f, key, "a prism needs three points or more, of its section");
+    else if (has_box(b) && b->length > 0.0)
+        params_fault(p, f, key, "a length is given, too: a box has its corners alone");
+    else if (has_box(b) && b->radius > 0.0)
+        params_fault(p, f, key, "a radius is given, too: a body is a box or round");
+    else if ((has_box(b) || b->radius > 0.0) && b->points.n > 0)
+        params_fault(p, f, key, "points are given, too: leave one of them out");
+    else if (*is->mesh || *is->outline)
+        params_fault(p, f, key, "a %s is given, too: leave one of them out",
+                     *is->mesh ? "mesh" : "outline");
+    for (int a = 0; a < s->domain.dim && has_box(b) && f->n == from; a++)
+        if (!(b->box[1][a] > b->box[0][a]))
+            params_fault(p, f, key,
+                         "its size along %c is %g m: the first corner is the lower one in each "
+                         "direction, the second the upper one",
+                         "xyz"[a], b -> box[1][a] - b -> box[0][a]);
+    return f->n == from;
+}
+
+/* --- in the plane: corners, clockwise --- */
+
+static void rectangle(const struct scene_body *b, double (*x)[2])
+{
+    for (int i = 0; i < 4; i++) {
+        x[i][0] = b->box[i > 1][0];
+        x[i][1] = b->box[i == 1 || i == 2][1];
+    }
+}
+
+/* A polygon of the circle's area. */
+static void circle(double radius, double (*x)[2])
+{
+    const double step = 2.0 * M_PI / CORNERS, r = radius * sqrt(step / sin(step));
+    for (int i = 0; i < CORNERS; i++) {
+        x[i][0] = r * cos(step * i);
+        x[i][1] = -r * sin(step * i);
+    }
+}
+
+static void make_points(struct scene_body *b, enum body_form form)
+{
+    double x[CORNERS][2];
+    const int n = form == FORM_BOX ? 4 : CORNERS;
+    if (form == FORM_BOX)
+        rectangle(b, x);
+    else
+        circle(b->radius, x);
+    scene_outline_place(&b->surface, n, (const double(*)[2])x, &b->points);
+}
+
+void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
+{
+    for (int k = 0; k < s->nbodies; k++) {
+        struct scene_body *b = s->bodies + k;
+        const enum body_form form = scene_form_of(b);
+        if (form == FORM_NONE || !is_clear(s, k, p, f))
+            continue;
+        if (s->domain.dim == 2 && form != FORM_PRISM) {
+            make_points(b, form);
+        } else if (form == FORM_PRISM) {
+            b->section = b->points;
+            b->points.n = 0;
+        }
+    }
+}
+
+/* --- in space --- */
+
+/* The points of a prism counter-clockwise, as trimesh_prism takes them. */
+static struct trimesh prism(int n, const double (*x)[2], double length)
+{
+    double area = 0.0, turned[PARAM_POINTS_MAX][2];
+    for (int i = 0; i < n; i++) {
+        const double *a = x[i], *b = x[(i + 1) % n];
+        area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
+    }
+    for (int i = 0; i < n; i++)
+        memcpy(turned[i], x[area > 0.0 ? i : n - 1 - i], sizeof turned[i]);
+    return trimesh_prism(n, (const double(*)[2])turned, -0.5 * length, 0.5 * length);
+}
+
+static struct trimesh sphere(double radius)
+{
+    const double centre[3] = {0.0};
+    struct trimesh m = trimesh_sphere(centre, radius, SPHERE_LEVEL);
+    const double whole = 4.0 / 3.0 * M_PI * radius * radius * radius;
+    const double grow = cbrt(whole / trimesh_solid(&m, -1).volume);
+    for (int v = 0; v < m.nvertices; v++)
+        for (int a = 0; a < 3; a++)
+            m.x[v][a] *= grow;
+    return m;
+}
+
+struct trimesh scene_form_mesh(const struct scene_body *b)
+{
+    double x[CORNERS][2];
+    switch (scene_form_of(b)) {
+    case FORM_BOX:
+        return trimesh_box(b->box[0], b->box[1], 1);
+    case FORM_ROUND:
+        return sphere(b->radius);
+    case FORM_CYLINDER:
+        circle(b->radius, x);
+        return prism(CORNERS, (const double(*)[2])x, b->length);
+    default:
+        return prism(b->section.n, (const double(*)[2])b->section.x, b->length);
+    }
+}
