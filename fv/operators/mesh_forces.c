@@ -40,13 +40,31 @@ static void place_on(const struct fv *s, const struct side_face *d, double xi[3]
     mesh_map_point(s->m->block + d->part->block, s->m->dim, at, xi, x, dx);
 }
 
+/* Whether the cell holds no water. */
+static bool is_dry(const struct fv *s, int64_t c)
+{
+    return s->surface && s->surface->layer[c] != 0;
+}
+
+/* Average of the pressure over the face of the cell t further along the side, Pa. Beside a film the
+ * cell's own: cells of air have none, and ghosts come of three cells. */
+static double face_pressure(const struct fv *s, const struct side_face *d, int64_t t)
+{
+    const int64_t c = d->cell + t, in = d->in;
+    if (is_dry(s, c + in) || is_dry(s, c + 2 * in))
+        return fv_pressure(s, c);
+    return (7.0 * (fv_pressure(s, c - in) + fv_pressure(s, c)) -
+            (fv_pressure(s, c - 2 * in) + fv_pressure(s, c + in))) /
+           12.0;
+}
+
 /* Position, pressure (Pa) and velocity gradient g[q][e] = du_q/dx_e in the middle of a face. grad
  * xi comes from the cofactors of the mapping's slopes. */
 static void face_state(const struct fv *s, const struct side_face *d, double x[3], double *pressure,
                        double g[3][3])
 {
     const struct mesh *m = s->m;
-    const int64_t f = d->face, a = d->part->stride[d->a];
+    const int64_t f = d->face;
     double dx[3][3], xi[3] = {0.5, 0.5, 0.5}, slope[3][3] = {{0.0}};
     place_on(s, d, xi, x, dx);
     const double J = mesh_determinant(dx);
@@ -59,18 +77,7 @@ static void face_state(const struct fv *s, const struct side_face *d, double x[3
             for (int r = 0; r < m->dim; r++)
                 g[r][e] += slope[r][k] * dxi;
         }
-    double p[4];
-    for (int l = 0; l < 4; l++)
-        p[l] = fv_pressure(s, f + (l - 2) * a);
-    *pressure = (7.0 * (p[1] + p[2]) - (p[0] + p[3])) / 12.0;
-}
-
-/* Average of the pressure over the face at f, Pa. */
-static double face_pressure(const struct fv *s, int64_t f, int64_t a)
-{
-    return (7.0 * (fv_pressure(s, f - a) + fv_pressure(s, f)) -
-            (fv_pressure(s, f - 2 * a) + fv_pressure(s, f + a))) /
-           12.0;
+    *pressure = face_pressure(s, d, 0);
 }
 
 /* nu <G_ab dq/dxi_b> of the face, as mesh_viscous has it. Products of averages along the face are
@@ -97,16 +104,16 @@ static double viscous_flux(const struct fv *s, const struct side_face *d, const 
 }
 
 /* Share of a face that is below the level set's 0, straight between its ends; xi: middle of that
- * share, in the face's cell. Along the second tangent at Gauss points. Without a surface all of it.
- * phi is taken linear on the face, from four cells around; its mean over the two cells beside the
- * face is that at the face. */
-static double wet_share(const struct fv *s, const struct side_face *d, double xi[3])
+ * share, edge: where it ends, in the face's cell. Along the second tangent at Gauss points. Without
+ * a surface all of it. phi is taken linear on the face, from four cells around; its mean over the
+ * two cells beside the face is that at the face. */
+static double wet_share(const struct fv *s, const struct side_face *d, double xi[3], double edge[3])
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
     const double *phi = s->surface ? s->surface->phi : NULL;
     const int n = s->m->dim == 3 ? 2 : 1, along[2] = {d->a == 0, d->a == 2 ? 1 : 2};
     const int64_t c = d->cell;
-    double share = 0.0, at[2] = {0.0, 0.0}, slope[2] = {0.0, 0.0};
+    double share = 0.0, at[2] = {0.0, 0.0}, end = 0.0, slope[2] = {0.0, 0.0};
     if (!phi)
         return 1.0;
     const double middle = 0.5 * (phi[c] + phi[c - d->in]);
@@ -121,19 +128,40 @@ static double wet_share(const struct fv *s, const struct side_face *d, double xi
         share += own / n;
         at[0] += own / n * (slope[0] > 0.0 ? 0.5 * own : 1.0 - 0.5 * own);
         at[1] += own / n * across;
+        end += own / n * (slope[0] > 0.0 ? own : 1.0 - own);
     }
     for (int t = 0; t < n && share > 0.0; t++)
-        xi[along[t]] = at[t] / share;
+        edge[along[t]] = xi[along[t]] = at[t] / share;
+    if (share > 0.0)
+        edge[along[0]] = end / share;
     return share;
 }
 
-/* What its pressure lacks, Pa: that of water at rest, a partner's level, in the middle of the wet
- * share of a face. */
-static double still_on_face(const struct fv *s, const struct side_face *d, double xi[3])
+/* Of water at rest, and a partner's level, Pa. */
+static double still_at(const struct fv *s, const struct side_face *d, double xi[3])
 {
     double x[3], dx[3][3];
     place_on(s, d, xi, x, dx);
     return fv_still_pressure(s, x) + s->partners.pressure;
+}
+
+/* Pressure on the wet share of a face, p that of the flow, Pa: that of water at rest in the middle
+ * of the share comes to it. Where the cell is of air, which has no p, the water is as deep as it
+ * stands below the surface on the face; a film over all of the face has no depth. */
+static double whole_pressure(const struct fv *s, const struct side_face *d, double share, double p,
+                             double xi[3], double edge[3])
+{
+    if (!is_dry(s, d->cell))
+        return p + still_at(s, d, xi);
+    return share < 1.0 ? still_at(s, d, xi) - still_at(s, d, edge) : 0.0;
+}
+
+/* What the turning of the wall along tangent t adds to p S, from the cells beside. */
+static double pressure_slope(const struct fv *s, const struct side_face *d, int64_t t)
+{
+    return is_dry(s, d->cell) || is_dry(s, d->cell + t) || is_dry(s, d->cell - t)
+               ? 0.0
+               : face_pressure(s, d, t) - face_pressure(s, d, -t);
 }
 
 /* On a slip wall there is no friction: keeps the component of the force along S. */
@@ -158,14 +186,15 @@ void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4
 {
     const struct mesh *m = s->m;
     const double rho = s->run->scene.fluid.rho, out = d->side % 2 ? 1.0 : -1.0;
-    const int64_t f = d->face, a = d->part->stride[d->a];
-    double x[3], xi[3] = {0.5, 0.5, 0.5}, pf, g[3][3] = {{0.0}}, S2 = 0.0, force[4] = {0.0};
-    const double share = wet_share(s, d, xi);
+    const int64_t f = d->face;
+    double x[3], xi[3] = {0.5, 0.5, 0.5}, edge[3] = {0.5, 0.5, 0.5}, pf, g[3][3] = {{0.0}};
+    double S2 = 0.0, force[4] = {0.0};
+    const double share = wet_share(s, d, xi, edge);
     if (!(s->surface ? m->status[d->cell] == CELL_COMPUTED : s->free[d->cell] > 0.0) ||
         !(share > 0.0))
         return;
     face_state(s, d, x, &pf, g);
-    pf += still_on_face(s, d, xi);
+    pf = whole_pressure(s, d, share, pf, xi, edge);
     for (int e = 0; e < m->dim; e++)
         S2 += m->S[d->a][e][f] * m->S[d->a][e][f];
     for (int q = 0; q < m->dim; q++) {
@@ -174,8 +203,8 @@ void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4
             const int64_t t = d->part->stride[n];
             if (n == d->a)
                 continue;
-            force[q] -= (face_pressure(s, f + t, a) - face_pressure(s, f - t, a)) *
-                        (m->S[d->a][q][f + t] - m->S[d->a][q][f - t]) / 48.0;
+            force[q] -=
+                pressure_slope(s, d, t) * (m->S[d->a][q][f + t] - m->S[d->a][q][f - t]) / 48.0;
         }
         for (int e = 0; e < m->dim; e++) {
             double across = 0.0;

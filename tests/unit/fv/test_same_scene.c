@@ -65,6 +65,20 @@ static const struct forms scenes[] = {
      "(40, 20)", "min = (0, 0); max = (1, 0.5)", 0.3, 2850.0, 0.03},
 };
 
+/* A ring with a pool 0.3 m deep below it, and a film on all of its wall, 0.4 cells thick. */
+static const struct forms drum = {
+    "film on a drum",
+    "domain: { dim = 2; min = (-0.5, -0.5); max = (0.5, 0.5); };\n"
+    "fluid: { rho = 1000.0; nu = 1e-3; gravity = (0, -10.0); };\n"
+    "shapes: ( { form = \"disc\"; radius = 0.5; }, { form = \"disc\"; radius = 0.492; hole = true; "
+    "}, { form = \"box\"; box = ((-0.5, -0.5), (0.5, -0.2)); } );\n",
+    "(20, 96)",
+    "mapping = \"annulus\"; radius = (0.1, 0.5); j_min = \"joined\"; j_max = \"joined\"; "
+    "i_min = \"slip\"; i_max = \"wall\"",
+    0.04,
+    1982.0,
+    0.05};
+
 static struct run run;
 static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
 static char path[512];
@@ -153,6 +167,19 @@ static void closed_sides_carry_the_weight(void **state)
         }
 }
 
+/* A film along a wall that no cell of water lies under has no weight to press with, nor draws at
+ * the wall above it: the drum bears the segment of the pool, R^2 acos(d/R) - d (R^2 - d^2)^0.5. */
+static void films_press_on_nothing(void **state)
+{
+    (void)state;
+    const char *names[COLUMNS];
+    double row[COLUMNS];
+    const int n = last_row(&drum, true, row, names);
+    const double tolerance = drum.tolerance * drum.scale;
+    assert_close(value("force x [N]", n, names, row), 0.0, tolerance);
+    assert_close(value("force y [N]", n, names, row), -drum.scale, tolerance);
+}
+
 /* Fluxes of the velocity (x, 0): its divergence is 1/s everywhere. */
 static void divergence_is_a_rate(void **state)
 {
@@ -176,6 +203,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cells_and_a_block_give_one_series),
                                        cmocka_unit_test(closed_sides_carry_the_weight),
+                                       cmocka_unit_test(films_press_on_nothing),
                                        cmocka_unit_test(divergence_is_a_rate)};
     const char *dir = getenv("TEST_SCRATCH");
     MPI_Init(&argc, &argv);
