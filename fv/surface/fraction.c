@@ -37,7 +37,7 @@ const char *fraction_obstacle(const struct run *r, const struct mesh *m, double 
     if (m && m->has_fringe)
         return "blocks overlap";
     if (m && any_curved(m))
-        return "cells are not upright";
+        return "cells are not upright, or change their size where blocks join";
     if (still_leans(still))
         return "gravity leans against the lines of the cells";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;

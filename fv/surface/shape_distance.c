@@ -31,12 +31,13 @@ static bool is_wall(const struct fv *s, const double *x, int a, double side, dou
 }
 
 /* Whether a side of the water is, seen from x, a closed side of a block, which lies across axis a
- * there, with the block on the water's side of it. At the start: where blocks move to is no matter.
- */
+ * there, with the block on the water's side of it; of rooms behind the wall it is none. At the
+ * start: where blocks move to is no matter. */
 static bool is_block_wall(const struct fv *s, const struct scene_shape *h, const double *x, int a,
                           double side, double out)
 {
-    for (int k = 0; s->m && k < s->m->nblocks; k++)
+    const bool behind = out * (x[a] - side) > 0.0;
+    for (int k = 0; s->m && !behind && k < s->m->nblocks; k++)
         for (int q = 0; q < 2 * s->dim; q++) {
             const struct mesh_block *b = s->m->block + k;
             const double *lo = b->opening[q][0], *hi = b->opening[q][1];

@@ -262,6 +262,37 @@ static void openings_that_cannot_be_are_refused(void **state)
     }
 }
 
+/* Two chambers that a slot under a gate joins; the water of each is drawn flush with its walls. */
+static const char lock[] =
+    "{ name = \"l\"; min = (-1, 0.1); max = (0, 0.8); cells = (20, 14); i_min = \"slip\"; i_max = "
+    "\"slip\"; j_max = \"slip\"; j_min = \"joined\"; }, "
+    "{ name = \"ll\"; min = (-1, 0); max = (0, 0.1); cells = (20, 6); i_min = \"slip\"; i_max = "
+    "\"joined\"; j_min = \"slip\"; j_max = \"joined\"; }, "
+    "{ name = \"s\"; min = (0, 0); max = (0.1, 0.1); cells = (6, 6); i_min = \"joined\"; i_max = "
+    "\"joined\"; " SLIP_J "}, "
+    "{ name = \"rl\"; min = (0.1, 0); max = (1, 0.1); cells = (20, 6); i_max = \"slip\"; i_min = "
+    "\"joined\"; j_min = \"slip\"; j_max = \"joined\"; }, "
+    "{ name = \"r\"; min = (0.1, 0.1); max = (1, 0.8); cells = (20, 14); i_max = \"slip\"; i_min = "
+    "\"slip\"; j_max = \"slip\"; j_min = \"joined\"; }";
+
+/* Water that ends at a wall does not go on in the room behind it. */
+static void chambers_keep_their_levels(void **state)
+{
+    (void)state;
+    static const double boxes[3][4] = {
+        {-1.0, 0.0, 0.0, 0.6}, {0.0, 0.0, 0.1, 0.1}, {0.1, 0.0, 1.0, 0.2}};
+    struct mesh_case c;
+    mesh_case_read(&c, MPI_COMM_WORLD, lock, (const char *const[]){HEAVY, REST, NULL});
+    for (int k = 0; k < 3; k++)
+        c.run.scene.shapes[c.run.scene.nshapes++] = (struct scene_shape){
+            .form = SHAPE_BOX, .box = {{boxes[k][0], boxes[k][1]}, {boxes[k][2], boxes[k][3]}}};
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    assert_close(surface_volume(s), 0.6 + 0.01 + 0.18, 2e-3);
+    mesh_case_end(&c, &s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_stays),
@@ -270,7 +301,8 @@ int main(int argc, char **argv)
                                        cmocka_unit_test(water_between_inclined_walls_swings),
                                        cmocka_unit_test(ranks_agree),
                                        cmocka_unit_test(restart_is_exact),
-                                       cmocka_unit_test(openings_that_cannot_be_are_refused)};
+                                       cmocka_unit_test(openings_that_cannot_be_are_refused),
+                                       cmocka_unit_test(chambers_keep_their_levels)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
