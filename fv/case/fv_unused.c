@@ -225,17 +225,16 @@ bool mesh_spin_fits(const void *run, const void *block)
 /* --- what no row can say --- */
 
 /* Bodies of fv stand still but for blocks that move, on which a gauge may sit; in a coupled job it
- * is sph's. */
+ * is sph's. Whether the block moves its mesh knows (mesh_scene.c). */
 static void check_probes(const struct run *r, struct faults *f)
 {
     for (int k = 0; k < r->scene.nprobes && !r->coupled; k++) {
-        bool moves = false;
+        bool known = false;
         char key[64];
         for (int b = 0; b < mesh_given_count; b++)
-            moves = moves || (strcmp(mesh_given[b].name, r->scene.probes[k].body) == 0 &&
-                              mesh_given[b].motion.n > 0);
+            known = known || strcmp(mesh_given[b].name, r->scene.probes[k].body) == 0;
         snprintf(key, sizeof key, "probes.[%d].body", k);
-        params_unused(r->params, f, key, moves,
+        params_unused(r->params, f, key, known,
                       "no block of that name moves: bodies of fv stand still");
     }
 }

@@ -2,6 +2,7 @@
  * anything runs. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
@@ -312,8 +313,23 @@ static bool is_covered(const struct run *r, const struct mesh *m, const struct o
     return false;
 }
 
+/* That the blocks to which gauges are fixed move, by their own motion or with one they are joined
+ * to. */
+static void check_bodies(const struct run *r, struct faults *f, const struct mesh *m)
+{
+    for (int k = 0; k < r->scene.nprobes && !r->coupled; k++)
+        for (int b = 0; b < m->nblocks; b++) {
+            char key[32];
+            snprintf(key, sizeof key, "probes.[%d].body", k);
+            if (strcmp(m->block[b].prm->name, r->scene.probes[k].body) == 0)
+                params_unused(r->params, f, key, m->block[b].motion != NULL,
+                              "no block of that name moves");
+        }
+}
+
 static void check_probes(const struct run *r, struct faults *f, const struct mesh *m)
 {
+    check_bodies(r, f, m);
     if (r->scene.nprobes == 0)
         return;
     struct overset *o = overset_search(r, m);

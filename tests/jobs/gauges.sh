@@ -147,6 +147,10 @@ not_told() {
 }
 not_told lift.cfg 's/0.2); body = "box"/0.2); body = "bax"/' "probes.\[0\].body: with: no body .bax' moves" sph
 not_told swing.cfg 's/body = "cylinder"/body = "outer"/' 'probes.\[0\].body: is not used: no block of that name moves' fv
+# of two half rings the one that has the motion takes the other along, and its gauges
+sed -e 's/name = "cylinder"; mapping = "annulus";/& arc = (0, 180);/' -e 's/amplitude = -0.7957747; period = 5.0; } ); }/&, { name = "half"; mapping = "annulus"; arc = (180, 360); radius = (0.5, 1.75); stretch = (1.5, 0); cells = (20, 24); i_min = "wall"; j_min = "joined"; j_max = "joined"; }/' \
+    -e 's/cells = (20, 48)/cells = (20, 24)/' -e 's/at = (0.51, 0); body = "cylinder"/at = (0.02, -0.51); body = "half"/' swing.cfg >halves.cfg
+"$b/fv" halves.cfg --check >halves.txt 2>&1 || bad "a gauge on a block that is joined to one that moves is refused" halves.txt
 not_told lift.cfg 's/^sph/gauges: ( { name = "g"; probes = "level level"; period = 1; } );\n&/' 'gauges that move with a body' sph
 # A level gauge that a tank has left behind reads nothing, one over dry ground the height of the ground, not of the domain's end
 cat >leaves.cfg <<'END'
