@@ -126,6 +126,18 @@ double wall_level(const struct scene_wall *w, double t)
     return w->levels && w->levels->n > 0 ? value_at(w->levels, t) : w->level;
 }
 
+/* Lines between rows: the steepest span begins or ends at a row. */
+double wall_level_change(const struct scene_wall *w, double span)
+{
+    double most = 0.0;
+    for (int k = 0; w->levels && k < w->levels->n; k++) {
+        const double t = w->levels->rows[COLUMNS * k], now = w->levels->rows[COLUMNS * k + 1];
+        most = fmax(most, fmax(fabs(value_at(w->levels, t + span) - now),
+                               fabs(now - value_at(w->levels, t - span))));
+    }
+    return most;
+}
+
 double wall_discharge(const struct scene_wall *w, double t)
 {
     return w->discharges && w->discharges->n > 0 ? value_at(w->discharges, t) : w->discharge;

@@ -18,6 +18,8 @@ void wall_histories_read(struct scene *s, struct motion_files *files);
 void wall_histories_check(const struct scene *s, const struct params *p, struct faults *f);
 /* Level of the water in an opening with has_level at time t, s; m against gravity. */
 double wall_level(const struct scene_wall *w, double t);
+/* m: by how much it changes at most within span, s; 0 without a file. */
+double wall_level_change(const struct scene_wall *w, double span);
 /* Discharge through an opening with has_discharge at time t, s; m^dim/s, >= 0. */
 double wall_discharge(const struct scene_wall *w, double t);
 /* Finds what stands at the start in outflows under a free surface that are given nothing: stands,

@@ -2,7 +2,10 @@
  * pressure of water at rest,
  *   p/rho = g (L - L_0) + c (u - U) - min(u_f, 0)^2/2 (+ min(u, 0)^2/2 at inlets),
  * L the level outside, L_0 that of the run, c the speed of long waves, u the mean velocity outwards
- * of the opening's water, U its mean over the last TRANSITS transits, u_f that of the face.
+ * of the opening's water, U its mean over the last TRANSITS transits, u_f that of the face:
+ *   dU/dt = (u - U)/T + du_b/dt,   u_b = -(basin/opening) dL/dt,
+ * u_b the velocity that a tide in L fills a basin with. Without it U is T du/dt behind, and the
+ * basin swings by 2 (w L_x/c)^2 of the tide too far.
  * levels_set makes p before a stage, levels_fluxes applies it to U, so that the solve has psi = 0
  * on the face, and levels_ghosts or levels_gradient to psi's gradients.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -42,6 +45,13 @@ void levels_free(struct levels **l)
 }
 
 bool levels_set_any(const struct fv *s) { return s->levels && s->levels->p; }
+
+/* m/s^2: gravity across closed sides. */
+static double weight(const struct fv *s)
+{
+    const double *g = s->gravity.hydrostatic;
+    return hypot(hypot(g[0], g[1]), g[2]);
+}
 
 /* m/s: velocity outwards through a face, by its projected flux. */
 static double velocity_out(const struct fv *s, const struct outflow *o, int64_t i)
@@ -91,6 +101,20 @@ static void start_own(const struct fv *s)
     }
 }
 
+/* What the files of levels say of a transit, by the depth of their first level over the bottom. */
+static void start_tide(const struct fv *s, const struct scene_wall *w, int k)
+{
+    struct levels *l = s->levels;
+    const struct scene_domain *d = &s->run->scene.domain;
+    double low, high;
+    scene_heights(&s->run->scene, &low, &high);
+    const double depth = wall_level(w, -INFINITY) - low;
+    if (!w->levels || !(depth > 0.0))
+        return;
+    l->tide[k] = 0.5 * (d->max[k / 2] - d->min[k / 2]) / sqrt(weight(s) * depth);
+    l->surge[k] = wall_level_change(w, l->tide[k]);
+}
+
 /* In the order in which later ones overrule: the run's level, walls of the scene, blocks' own
  * outflows, given levels. */
 void levels_start(struct fv *s)
@@ -109,6 +133,7 @@ void levels_start(struct fv *s)
             continue;
         l->inlet[side] = w->has_level && w->kind == WALL_INFLOW;
         l->falls[side] = w->falls;
+        start_tide(s, w, side);
         if (w->lower)
             l->level[side] = w->stands;
     }
@@ -130,16 +155,31 @@ static double memory_of(const struct fv *s, int k)
                             : 0.0;
 }
 
+/* m/s: u_b at time t, by the level's mean rise over half a transit before and after it: it has no
+ * steps where the file's lines meet. Nothing foresees a surge: where the rise changes by two thirds
+ * of the file's steepest there is no u_b. */
+static double basin_velocity(const struct fv *s, int k, double t)
+{
+    const struct levels *l = s->levels;
+    const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
+    const double span = l->tide[k], now = wall_level(w, t), before = now - wall_level(w, t - span),
+                 after = wall_level(w, t + span) - now;
+    const double bend = l->surge[k] > 0.0 ? fabs(after - before) / l->surge[k] : 0.0;
+    return -l->basin[k] * fmax(0.0, fmin(1.0, 2.0 - 3.0 * bend)) * (before + after) / (2.0 * span);
+}
+
 /* U relaxes towards u within T; without waves it is u. */
 void levels_begin(struct fv *s, double dt)
 {
+    struct levels *l = s->levels;
     if (!levels_set_any(s))
         return;
     mean_velocities(s);
     for (int k = 0; k < LEVEL_GROUPS; k++) {
         const double T = memory_of(s, k);
-        s->levels->past[k] +=
-            (s->levels->mean[k] - s->levels->past[k]) * (T > 0.0 ? -expm1(-dt / T) : 1.0);
+        l->past[k] += (l->mean[k] - l->past[k]) * (T > 0.0 ? -expm1(-dt / T) : 1.0);
+        if (l->tide[k] > 0.0 && T > 0.0)
+            l->past[k] += basin_velocity(s, k, s->t + dt) - basin_velocity(s, k, s->t);
     }
 }
 
@@ -183,8 +223,7 @@ static double set_on(const struct fv *s, const struct outflow *o, int64_t i)
 {
     const struct levels *l = s->levels;
     const int k = o->side;
-    const double g = hypot(hypot(s->gravity.hydrostatic[0], s->gravity.hydrostatic[1]),
-                           s->gravity.hydrostatic[2]);
+    const double g = weight(s);
     const double u = fmin(velocity_out(s, o, i), 0.0), all = fmin(l->mean[k], 0.0);
     if (l->falls[k])
         return -at_rest(s, o, i) - 0.5 * u * u;

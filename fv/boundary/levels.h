@@ -3,8 +3,9 @@
  * faster than its head allows (Bernoulli; the directional do-nothing condition of Braack & Mucha
  * 2014), so that water that runs back brings no more energy than it had. Waves that reach an
  * opening leave: g (eta - L) = c (u - U), c = sqrt(g H), U the mean velocity of the last two
- * transits of the domain. Where no water stands outside, water falls out with p = 0 on the faces.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * transits of the domain. Where L follows a file U goes on with the flow that fills and empties the
+ * basin: it would be behind by two transits, and a tide swing too far. Where no water stands
+ * outside, water falls out with p = 0 on the faces. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_LEVELS_H
 #define FV_LEVELS_H
 
@@ -25,6 +26,11 @@ struct levels {
     bool inlet[LEVEL_GROUPS];   /* the level is that in the opening, not that far outside */
     bool falls[LEVEL_GROUPS];   /* nothing stands outside: p = 0 on the faces */
     double waves[LEVEL_GROUPS]; /* m/s: c */
+    double tide[LEVEL_GROUPS];  /* s: over which the rise of a level from a file is taken, half a
+                                 * transit; 0: no file */
+    double surge[LEVEL_GROUPS]; /* m: by how much that level changes at most within it */
+    double basin[LEVEL_GROUPS]; /* -: of those, plan area of the water that stands as high as in the
+                                 * opening, over the area of all openings of given level */
     double mean[LEVEL_GROUPS];  /* m/s: velocity outwards of its water now */
     double past[LEVEL_GROUPS];  /* m/s: U */
     double kept[LEVEL_GROUPS];  /* m/s: U when a step began that may be taken back */

@@ -144,6 +144,37 @@ double surface_level_volume(const struct fv *s, double *area)
     return sums[0];
 }
 
+/* Upward part of the lower face of c along a, m^(dim-1). */
+static double upward_area(const struct fv *s, int64_t c, int a)
+{
+    double sum = 0.0;
+    for (int q = 0; q < s->dim; q++) {
+        const double S = s->m ? s->m->S[a][q][c] : q == a ? grid_face_area(&s->grid, c, a) : 0.0;
+        sum -= S * s->gravity.hydrostatic[q] / s->surface->g;
+    }
+    return sum;
+}
+
+/* Of the faces between wet and dry cells what looks up less what looks down: that is exact. */
+double surface_plan(const struct fv *s, double level, double within)
+{
+    const struct surface *f = s->surface;
+    double sum = 0.0;
+    for (int a = 0; a < s->dim && f->g > 0.0; a++)
+        for (int64_t i = 0; i < f->ncut[a]; i++) {
+            const struct cut *x = f->cut[a] + i;
+            int at[3];
+            const struct part *p = grid_part(&s->grid, x->wet, at);
+            bool own = grid_is_computed(&s->grid, x->wet);
+            for (int q = 0; q < s->dim; q++)
+                own = own && at[q] >= 0 && at[q] < p->n[q];
+            if (own && fabs(s->gravity.level + x->height / f->g - level) <= within)
+                sum += x->up * upward_area(s, x->face, a);
+        }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
+    return sum;
+}
+
 double surface_volume_scale(const struct fv *s)
 {
     const struct scene_domain *d = &s->run->scene.domain;

@@ -121,6 +121,9 @@ void surface_keep_volume(struct fv *s);
 void surface_note_returned(struct fv *s, double volume);
 /* Volume of water without a partner's part, m^dim, over all ranks. Collective. */
 double surface_volume(const struct fv *s);
+/* m^(dim-1): plan area of the surface where it stands at most `within' above or below a level, m.
+ * Collective. */
+double surface_plan(const struct fv *s, double level, double within);
 /* The same below phi = 0; *area: its derivative with respect to a shift of phi, < 0, m^(dim-1). */
 double surface_level_volume(const struct fv *s, double *area);
 /* The volume by which losses are judged, m^dim: what was there and has come in, at least a

@@ -114,6 +114,20 @@ static void set_outflows(struct fv *s)
     all->level_free = s->surface->cuts > 0;
 }
 
+/* Water that stands by a quarter of the opening's depth higher or lower is another pool's, behind a
+ * weir; wet: areas of the openings. */
+static void measure_basins(struct fv *s, const double wet[LEVEL_GROUPS])
+{
+    struct levels *l = s->levels;
+    double all = 0.0;
+    for (int k = 0; k < LEVEL_GROUPS; k++)
+        all += wet[k];
+    for (int k = 0; k < 6; k++)
+        if (l->tide[k] > 0.0)
+            l->basin[k] =
+                surface_plan(s, l->level[k], 0.25 * wet[k] / width_of(s, k)) / fmax(all, 1e-300);
+}
+
 static void set_openings(struct fv *s)
 {
     double wet[LEVEL_GROUPS] = {0.0};
@@ -125,6 +139,7 @@ static void set_openings(struct fv *s)
     MPI_Allreduce(MPI_IN_PLACE, wet, LEVEL_GROUPS, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int side = 0; side < 6; side++)
         s->levels->waves[side] = sqrt(s->surface->g * wet[side] / width_of(s, side));
+    measure_basins(s, wet);
 }
 
 void surface_outline_moved(struct fv *s, double before)
