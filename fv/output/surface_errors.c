@@ -115,12 +115,10 @@ static double reach_on_blocks(const struct fv *s, int a)
     return most;
 }
 
-/* The largest coordinate along a that water has reached, m; cells with water next to them in that
- * direction are skipped. Collective. */
-double surface_reach(const struct fv *s, int a)
+/* The same of uniform cells and layers; those with water next to them in that direction are
+ * skipped. */
+static double reach_on_cells(const struct fv *s, int a)
 {
-    if (s->m)
-        return reach_on_blocks(s, a);
     const struct block *b = &s->b;
     const double *phi = s->surface->phi;
     double most = -INFINITY, x[3];
@@ -137,6 +135,12 @@ double surface_reach(const struct fv *s, int a)
     }
     MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
     return most;
+}
+
+/* The foot of a tongue, which is found from its slope, is no further than the domain. */
+double surface_reach(const struct fv *s, int a)
+{
+    return fmin(s->m ? reach_on_blocks(s, a) : reach_on_cells(s, a), s->run->scene.domain.max[a]);
 }
 
 static double enstrophy(const struct fv *s)
