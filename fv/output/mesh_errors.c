@@ -13,6 +13,7 @@
 
 #include "../../common/base/base.h"
 #include "../../common/run/run.h"
+#include "../../common/scene/scene.h"
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
 
@@ -31,11 +32,24 @@ bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, c
     return false;
 }
 
+/* What is read: a field, NULL: the pressure; with heights what it is more than these, to which that
+ * of the place is added: exact for a level surface, whatever the cells. */
+struct block_reading {
+    const double *field, *heights;
+    double height;
+};
+
+static double term(const struct fv *s, const struct block_reading *of, int64_t place)
+{
+    const double q = of->field ? of->field[place] : fv_pressure(s, place);
+    return of->heights ? q - of->heights[place] + of->height : q;
+}
+
 /* This rank's share of the value at x by the block with the smallest cell there; wanted: width of
- * the stencil, 0: 4 cells, or 2 where these are not computed; q NULL: pressure. The sum over ranks
- * is the value, 0 if no block has it. */
-double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
-                     const double *q)
+ * the stencil, 0: 4 cells, or 2 where these are not computed. The sum over ranks is the value, 0 if
+ * no block has it. */
+static double read_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
+                      const struct block_reading *of)
 {
     const struct mesh *m = s->m;
     double value = 0.0, finest = INFINITY;
@@ -62,12 +76,26 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
                 continue;
             mesh_owner(m, block, at, &rank, &place);
             if (rank == m->rank)
-                sum += w[n] * (q ? q[place] : fv_pressure(s, place));
+                sum += w[n] * term(s, of, place);
         }
         finest = v;
         value = sum;
     }
     return value;
+}
+
+double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
+                     const double *q)
+{
+    return read_at(s, o, x, wanted, &(struct block_reading){.field = q});
+}
+
+double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x)
+{
+    const bool falls = s->surface->g > 0.0;
+    const struct block_reading phi = {s->surface->phi, falls ? s->surface->mesh->height : NULL,
+                                      scene_height(&s->run->scene, x)};
+    return read_at(s, o, x, 2, &phi);
 }
 
 /* Position of the centre of rotation and angles of each block with a motion of its own. */

@@ -10,6 +10,8 @@
  * pressure. width 2: linear, 4: cubic from averages, 0: that where it can, else linear. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
                      const double *q);
+/* The same of the distance to the surface, linear in what it is more than the height. */
+double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x);
 
 /* mesh_errors.c */
 void mesh_describe(const struct run *r, const struct fv_params *prm);

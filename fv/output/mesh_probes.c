@@ -37,7 +37,7 @@ static void levels_along(struct fv *s, const double *at, int up, bool down, doub
     for (int n = 0; n <= ALONG; n++) {
         double x[3] = {at[0], at[1], at[2]};
         x[up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
-        phi[n] = mesh_value_at(s, s->output->search, x, 2, s->surface->phi);
+        phi[n] = mesh_phi_at(s, s->output->search, x);
     }
     MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
@@ -101,7 +101,7 @@ static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUE
 {
     for (int a = 0; a < s->dim; a++)
         here[a] = mesh_value_at(s, s->output->search, x, s->surface ? 2 : 0, s->u[a]);
-    here[3] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : 0.0;
+    here[3] = s->surface ? mesh_phi_at(s, s->output->search, x) : 0.0;
 }
 
 bool mesh_is_out(const struct fv *s, const double *x)
@@ -114,7 +114,7 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
     const int width = s->surface ? 2 : 0;
     for (int a = 0; a < nq; a++)
         here[a] = mesh_value_at(s, s->output->search, x, width, q[a]);
-    here[nq] = s->surface ? mesh_value_at(s, s->output->search, x, 2, s->surface->phi) : -1.0;
+    here[nq] = s->surface ? mesh_phi_at(s, s->output->search, x) : -1.0;
 }
 
 /* The samples are summed over ranks here, so that only rank 0 returns the result. */

@@ -182,12 +182,39 @@ static void levels_on_blocks(void **state)
     }
 }
 
+/* Between curved cells, too, water at rest stands as high as it was given. */
+static void rings_tell_the_level(void **state)
+{
+    (void)state;
+    struct mesh_case c;
+    double value[2];
+    mesh_case_read(&c, MPI_COMM_WORLD,
+                   "{ mapping = \"annulus\"; radius = (0.3, 0.8); arc = (180, 360); cells = (10, "
+                   "30); i_min = \"slip\"; i_max = \"slip\"; j_min = \"slip\"; j_max = \"slip\"; }",
+                   (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"",
+                                         "fluid.nu=0", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] =
+        (struct scene_shape){.form = SHAPE_BELOW, .level = -0.25};
+    const double x[2] = {0.431, -0.52};
+    for (int k = 0; k < 2; k++)
+        c.run.scene.probes[c.run.scene.nprobes++] =
+            (struct scene_probe){.kind = PROBE_LEVEL, .at = {x[k], -0.4, 0.0}};
+    fv_params_check(&c.run, &c.faults);
+    assert_int_equal(params_report(&c.faults), 0);
+    struct fv *s = fv_create(&c.run, NULL);
+    fv_probe(s, value);
+    assert_close(value[0], -0.25, 1e-9);
+    assert_close(value[1], -0.25, 1e-9);
+    mesh_case_end(&c, &s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_and_layers), cmocka_unit_test(beside_a_box),
-        cmocka_unit_test(under_a_surface),  cmocka_unit_test(between_water_and_air),
-        cmocka_unit_test(stretched_blocks), cmocka_unit_test(levels_on_blocks)};
+        cmocka_unit_test(cells_and_layers),    cmocka_unit_test(beside_a_box),
+        cmocka_unit_test(under_a_surface),     cmocka_unit_test(between_water_and_air),
+        cmocka_unit_test(stretched_blocks),    cmocka_unit_test(levels_on_blocks),
+        cmocka_unit_test(rings_tell_the_level)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
