@@ -110,7 +110,8 @@ static void check_block(const struct run *r, struct faults *f, int k)
     if (b->mapping == MAPPING_ANNULUS && !(b->arc[1] > b->arc[0]))
         mesh_fault(r, f, mesh_given + k, "arc", "expected first < last");
     if (b->mapping == MAPPING_ANNULUS && fabs(b->arc[1] - b->arc[0] - 360.0) < 1e-9 &&
-        (b->j_min == MESH_OVERLAP || b->j_max == MESH_OVERLAP))
+        (b->j_min == MESH_OVERLAP || b->j_max == MESH_OVERLAP || b->j_min == MESH_PERIODIC ||
+         b->j_max == MESH_PERIODIC))
         mesh_fault(r, f, mesh_given + k, "j_min",
                    "the ends of a full ring lie on each other: j_min and j_max = \"joined\"");
     bool stretched = false;
