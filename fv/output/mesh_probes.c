@@ -49,23 +49,28 @@ static bool covers_at(const struct fv *s, const double *at, int up, double heigh
     return mesh_covers(s, s->output->search, x);
 }
 
+/* Place along gravity where cells begin, between one where none are and one where some are. */
+static double edge_between(const struct fv *s, const double *at, int up, double out, double in)
+{
+    enum { HALVINGS = 24 };
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = 0.5 * (out + in);
+        *(covers_at(s, at, up, middle) ? &in : &out) = middle;
+    }
+    return in;
+}
+
 /* Place along gravity of the lowest cells over x, the ground of a dry column, from top to end; NAN:
  * there are none, as where a tank has moved away or a partner's part is. */
 static double ground_at(const struct fv *s, const double *at, int up, double top, double end)
 {
-    enum { HALVINGS = 24 };
     const double part = (top - end) / ALONG;
     int n = 0;
     while (n <= ALONG && !covers_at(s, at, up, end + n * part))
         n++;
     if (n == 0 || n > ALONG)
         return n == 0 ? end : NAN;
-    double out = end + (n - 1) * part, in = end + n * part;
-    for (int k = 0; k < HALVINGS; k++) {
-        const double middle = 0.5 * (out + in);
-        *(covers_at(s, at, up, middle) ? &in : &out) = middle;
-    }
-    return in;
+    return edge_between(s, at, up, end + (n - 1) * part, end + n * part);
 }
 
 /* Height against gravity, as keys of levels are, of the highest water over x, linear between
@@ -90,6 +95,10 @@ static double level_at(struct fv *s, const double *x)
             continue;
         /* 0 before it is the surface itself, or no cell: then phi need not be near 0 here */
         const bool falls = n > 0 && (phi[n - 1] > 0.0 || (phi[n - 1] == 0.0 && -phi[n] < most));
+        const double place = top + (end - top) * n / ALONG;
+        if (n > 0 && !falls) /* below a roof */
+            return sign *
+                   edge_between(s, x, up, sign * (place + (top - end) / ALONG), sign * place);
         const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
         return top + (end - top) * (n - back) / ALONG;
     }
