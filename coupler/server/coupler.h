@@ -121,9 +121,10 @@ struct coupler {
     struct solver solver[HANDSHAKE_PROGRAMS];
     int nlinks;
     struct partner_link link[LIMIT_LINKS];
-    /* time: coupling step k of n spans k/n to (k+1)/n of the way from t_start to t_end */
-    double t_start, t_end;
-    int64_t nwindows, window, first_window; /* window: under way */
+    /* time: equal coupling steps, of which the `base'-th begins at t_base, and the nwindows-th
+     * would begin at t_end; 0 and t_start but where a restart has divided the rest anew */
+    double t_start, t_base, t_end;
+    int64_t base, nwindows, window, first_window; /* window: under way */
     int action;
     bool stopping, over;
     int code;
@@ -168,6 +169,8 @@ void plan_describe(const struct coupler *c);
 /* window.c: coupling steps in integers, so that all programs agree on times to the bit. Divides the
  * span into equal steps; problems are added to text. */
 void window_divide(struct coupler *c, char *text);
+/* s from the last output, or from the start, to t_base. */
+double window_since(const struct coupler *c);
 /* Time at which coupling step k starts, s. */
 double window_start(const struct coupler *c, int64_t k);
 /* Sends the next coupling step, or the end, to all solvers. */

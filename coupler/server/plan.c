@@ -381,9 +381,14 @@ void plan_describe(const struct coupler *c)
         log_say("  %-20s %s -> %s  %d x %s, %s", f->name, c->solver[l->source].name,
                 c->solver[l->target].name, f->ncomp, f->unit, way_of(l, how));
     }
-    const double span = c->t_end - c->t_start, every = c->scene.output.every;
-    const double off = coupling_steps_off(c->nwindows, span, every);
-    log_say("  %lld coupling steps of %.6g s", (long long)c->nwindows, span / (double)c->nwindows);
+    const double span = c->t_end - c->t_base, every = c->scene.output.every;
+    const int64_t n = c->nwindows - c->base;
+    const double off = coupling_steps_off(n, span, window_since(c), every);
+    log_say("  %lld coupling steps of %.6g s", (long long)n, span / (double)n);
+    if (c->base > 0)
+        log_say("  divided anew from t = %.6g s on: there is no end of a coupling step of the "
+                "whole run there (another time.end, output.every or other wishes of the programs)",
+                c->t_base);
     if (off > 0.0)
         log_say("  output.every = %g s is no whole number of them: each output comes at the end of "
                 "the coupling step next to it, up to %.2g s off",

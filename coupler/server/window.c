@@ -1,5 +1,8 @@
 /* window.c - integer time. All coupling steps of a job are equal and known by number: coupling step
- * k spans k/n to (k+1)/n of the job's time, and all programs get the same two doubles.
+ * k spans k/n to (k+1)/n of the job's time, and all programs get the same two doubles. A restart
+ * goes on in the steps of the job where its time is the start of one, so that its results are the
+ * same to the last bit; with another end, other outputs or other wishes of the programs what is
+ * left is divided anew, and numbered on.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
@@ -13,29 +16,55 @@ static const double same_time = 1e-9; /* relative */
 
 double window_start(const struct coupler *c, int64_t k)
 {
-    const double span = c->t_end - c->t_start;
-    return k == c->nwindows ? c->t_end : c->t_start + span * (double)k / (double)c->nwindows;
+    const double span = c->t_end - c->t_base;
+    return k == c->nwindows
+               ? c->t_end
+               : c->t_base + span * (double)(k - c->base) / (double)(c->nwindows - c->base);
 }
 
-/* The fewest coupling steps, none longer than dt, that serve the outputs and the end. */
-static void divide(struct coupler *c, double dt, char *text)
+double window_since(const struct coupler *c)
 {
-    const double span = c->t_end - c->t_start;
+    const double every = c->scene.output.every, t = c->t_base - c->t_start;
+    return every > 0.0 ? fmax(t - every * floor(t / every * (1.0 + same_time)), 0.0) : 0.0;
+}
+
+/* From step k at t on the fewest coupling steps, none longer than dt, that serve the outputs and
+ * the end. */
+static void divide(struct coupler *c, double dt, int64_t k, double t, char *text)
+{
+    c->base = k;
+    c->t_base = t;
+    c->nwindows = k + 1;
     if (!(dt > 0.0)) {
         problem(text, "a program asks for coupling steps of %g s", dt);
         return;
     }
-    const int64_t n = coupling_steps_number(span, c->scene.output.every, dt);
+    const double span = c->t_end - t;
+    const int64_t n = coupling_steps_number(span, window_since(c), c->scene.output.every, dt);
     if (n > 0)
-        c->nwindows = n;
+        c->nwindows = k + n;
     else
         problem(text, "coupling steps of %g s are too short for a run of %g s", dt, span);
 }
 
 static bool at(const struct coupler *c, int64_t window, double t)
 {
-    const double dt = (c->t_end - c->t_start) / (double)c->nwindows;
+    const double dt = (c->t_end - c->t_base) / (double)(c->nwindows - c->base);
     return fabs(window_start(c, window) - t) <= 1e-6 * dt + same_time * fabs(c->t_end);
+}
+
+/* The step that begins at the time of a restart; a restart file is written at the end of its step
+ * or counts the steps done: time tells which. None does where the case or a program asks for other
+ * steps now. */
+static int64_t resume(struct coupler *c, double dt, char *text)
+{
+    const struct solver *first = &c->solver[0];
+    const int64_t start = first->restart_window > 0 ? first->restart_window : 0;
+    if (first->restart_window < 0 || at(c, start, first->t))
+        return start;
+    if (!at(c, start + 1, first->t) && first->t > c->t_start && first->t < c->t_end)
+        divide(c, dt, start + 1, first->t, text);
+    return start + 1;
 }
 
 /* The shortest wish counts, of the case and of all programs. On all ranks, from the same
@@ -48,13 +77,8 @@ void window_divide(struct coupler *c, char *text)
     c->t_end = c->scene.time.end;
     for (int i = 0; i < c->nsolvers; i++)
         dt = fmin(dt, c->solver[i].dt_longest);
-    c->nwindows = 1;
-    divide(c, dt, text);
-    /* a restart file is written at the end of its window or counts the windows done: time tells
-     * which */
-    int64_t start = first->restart_window > 0 ? first->restart_window : 0;
-    if (first->restart_window >= 0 && !at(c, start, first->t) && at(c, start + 1, first->t))
-        start++;
+    divide(c, dt, 0, c->t_start, text);
+    const int64_t start = resume(c, dt, text);
     for (int i = 0; i < c->nsolvers; i++)
         if (!at(c, start, c->solver[i].t))
             problem(text,
@@ -76,8 +100,9 @@ static int next_action(struct coupler *c)
 {
     const double t1 = window_start(c, c->window + 1), now = wall_time();
     int action = CPL_RUN;
-    if (c->stopping || coupling_steps_output(c->nwindows, c->window + 1, c->t_end - c->t_start,
-                                             c->scene.output.every))
+    if (c->stopping ||
+        coupling_steps_output(c->nwindows - c->base, c->window + 1 - c->base, c->t_end - c->t_base,
+                              window_since(c), c->scene.output.every))
         action |= CPL_OUTPUT;
     if (c->stopping)
         action |= CPL_SAVE;

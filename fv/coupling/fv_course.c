@@ -333,24 +333,35 @@ static bool load(const struct fv *s, const struct course *c, struct h5 *f, const
              : h5_read_real(f, name, c->n, ncomp, to);
 }
 
+/* Trends of a run that smooths; those of one that did not, for its coupling steps were others, are
+ * the last change of the pressure. */
+static bool load_trends(const struct fv *s, struct course *c, struct h5 *f, const struct layout *l)
+{
+    const bool smoothed = h5_share(f, "rate") >= 0;
+    for (int64_t i = 0; i < c->n && !smoothed && c->levels > 1; i++) {
+        const int64_t at = i * c->width + c->dim;
+        c->rate[i] = (c->q[0][at] - c->q[1][at]) / (c->t[0] - c->t[1]);
+    }
+    return !smoothed || (load(s, c, f, l, "rate", 1, c->rate) &&
+                         (!c->scatter || load(s, c, f, l, "scatter", 1, c->scatter)));
+}
+
 /* A trial is never saved: the next coupling step begins with one. */
 bool course_load(const struct fv *s, struct course *c, struct h5 *f)
 {
     const bool same = layout_same_ranks(f, s->run->size);
     struct layout *l = same ? NULL : layout_load(f, "course");
     double clock[COURSE_LEVELS + 1];
-    bool good = (same || l) && h5_read_same(f, "levels", COURSE_LEVELS + 1, clock) &&
-                (!c->rate || load(s, c, f, l, "rate", 1, c->rate)) &&
-                (!c->scatter || load(s, c, f, l, "scatter", 1, c->scatter));
+    bool good = (same || l) && h5_read_same(f, "levels", COURSE_LEVELS + 1, clock);
     for (int m = 0; good && m < COURSE_LEVELS; m++) {
         good = load(s, c, f, l, names[m], c->width, c->q[m]);
         c->t[m] = clock[m];
     }
+    if (good) {
+        c->levels = (int)clock[COURSE_LEVELS];
+        c->t_tried = -INFINITY;
+        good = !c->rate || load_trends(s, c, f, l);
+    }
     layout_free(&l);
-    if (!good)
-        return false;
-    c->levels = (int)clock[COURSE_LEVELS];
-
-    c->t_tried = -INFINITY;
-    return true;
+    return good;
 }

@@ -172,7 +172,7 @@ static int memory_for(double gain)
 /* Coupling steps are equal and serve the outputs: they are shorter than what was asked for. */
 static double tiled(const struct scene *c, double T)
 {
-    const int64_t n = coupling_steps_number(c->time.end, c->output.every, T);
+    const int64_t n = coupling_steps_number(c->time.end, 0.0, c->output.every, T);
     return n > 0 ? c->time.end / (double)n : T;
 }
 

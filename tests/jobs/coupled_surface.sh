@@ -133,6 +133,18 @@ below "$(number wave water_missing)" 1e-3 || bad "wave: $(number wave water_miss
 close_to "$(number wave2 velocity_l2)" "$(number wave velocity_l2)" 1e-6 ||
     bad "wave on 2:2:2: velocity error $(number wave2 velocity_l2), on one rank each $(number wave velocity_l2)"
 same_bits wave half || bad "a restarted run gives other bits: $(tail -n 2 diff.txt)"
+# what is left is divided anew where the end and the outputs are others now: outputs come at their times
+# shellcheck disable=SC2086
+{
+    job other 1:1:1 standing_wave_crossing $wave -p time.end=0.25
+    job other 1:1:1 standing_wave_crossing $wave --restart -p time.end=0.45 -p output.every=0.1
+}
+[ $code = 2 ] && bad "a restart with another end and other outputs is refused" other.txt
+close_to "$(last other/series.csv t)" 0.45 1e-9 || bad "another end: the job ended at $(last other/series.csv t) s, not 0.45"
+below "$(number other velocity_l2)" 0.06 || bad "another end: velocity error $(number other velocity_l2), wanted at most 0.06"
+for p in sph fv; do # 0, 0.25, 0.3, 0.4, 0.45
+    [ "$(ls other/${p}_0*.h5 | wc -l)" = 5 ] || bad "another end: $p has $(ls other/${p}_0*.h5 | wc -l) snapshots, wanted 5"
+done
 
 # water over a box on the floor, from wall to wall: sound in it finds no side that lets it go (before windows followed it
 # the velocity error was 3.4 at t = 1, with exit code 0)
