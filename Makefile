@@ -90,7 +90,9 @@ $(mocks): $(B)/tests/%: $(B)/o/tests/jobs/%.o $(B)/libcpl.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
 $(B)/o/coupler/examples/%.o: CFLAGS += -Icoupler
-$(B)/tests/heat: $(B)/o/coupler/examples/heat.o $(B)/public/libcpl.a # as an outsider would
+examples = $(B)/examples/heat $(B)/examples/spring
+examples: $(examples)
+$(examples): $(B)/examples/%: $(B)/o/coupler/examples/%.o $(B)/public/libcpl.a # as an outsider would
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
@@ -111,7 +113,7 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 # the tests' own lines take little of their time, and more than half of the compiler's if it is to make them fast
 $(B)/o/tests/unit/%.o: CFLAGS += -O0 -g1
 units: $(filter $(B)/tests/test_% $(B)/tests/toy%,$(tests_bin))
-tests: all $(tests_bin) $(mocks) $(B)/tests/heat $(preloaded) $(B)/tests/properties_scene
+tests: all $(tests_bin) $(mocks) $(examples) $(preloaded) $(B)/tests/properties_scene
 # (a pointer that overflows is one past memory, too)
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -g1 -march=native -fno-math-errno" \
@@ -189,4 +191,4 @@ deb: all
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .SECONDARY:
-.PHONY: install uninstall deb all tests units asan deps demo check test-fast properties report stability bench clean
+.PHONY: examples install uninstall deb all tests units asan deps demo check test-fast properties report stability bench clean

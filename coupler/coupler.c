@@ -314,6 +314,16 @@ static int couple(struct coupler *c, struct faults *faults)
     return code;
 }
 
+static void describe_bodies(const struct coupler *c)
+{
+    for (int k = 0; k < c->scene.nbodies; k++) {
+        const struct scene_body *b = c->scene.bodies + k;
+        log_say("  sph.%s.force (N, N m), sph.%s.motion (m, rad, m/s, rad/s)%s%s%s", b->name,
+                b->name, scene_body_partnered(b) ? "; a partner gives " : "",
+                scene_body_partnered(b) ? b->name : "", scene_body_partnered(b) ? ".motion" : "");
+    }
+}
+
 /* How sph and fv meet, by the case that they share. */
 static void describe_scene(const struct coupler *c)
 {
@@ -331,6 +341,18 @@ static void describe_scene(const struct coupler *c)
     log_say(
         "  sph.velocity (m/s), sph.pressure (Pa) of particles of the free zone and the transition");
     log_say("  fv.velocity (m/s), fv.pressure (Pa) of cells, everywhere but in sph's free zone");
+    describe_bodies(c);
+}
+
+/* A case of one solver: a job with programs that run beside it. */
+static void describe_one(const struct coupler *c)
+{
+    log_say("%s alone, unless other programs take part (cases/run --with)",
+            c->scene.has_sph ? "sph" : "fv");
+    if (c->scene.has_sph && c->scene.nbodies > 0)
+        log_say("they may take, as means over or at the end of each coupling step:");
+    if (c->scene.has_sph)
+        describe_bodies(c);
 }
 
 static void describe(const struct coupler *c)
@@ -342,7 +364,7 @@ static void describe(const struct coupler *c)
     else if (c->scene.has_sph && c->scene.has_fv)
         describe_scene(c);
     else if (c->job.shared)
-        log_say("not a coupled job: it has group %s only", c->scene.has_sph ? "sph" : "fv");
+        describe_one(c);
     else
         log_say("programs: any; they declare their fields when they start");
 }

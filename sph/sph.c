@@ -59,6 +59,9 @@ static double pairs_of_particle(const struct run *r)
     return r->scene.domain.dim == 2 ? M_PI * R * R : 4.0 / 3.0 * M_PI * R * R * R;
 }
 
+/* The flow goes on in fv; other programs of a job may move bodies alone. */
+static bool has_partner_flow(const struct run *r) { return r->coupled && r->scene.has_fv; }
+
 /* Bytes of a particle: rows, lines, surface and places of the list, with room to grow; entries of
  * the list, 1.1 times what the support holds, and what pads them. */
 static double bytes_per_particle(const struct run *r)
@@ -136,7 +139,7 @@ static void describe_scene(const struct run *r)
     if (wave_stream_wanted(r, prm))
         log_say("behind the zones before open sides: the wave on its current with its pressure and "
                 "level, behind a beach the mean flow");
-    else if (!r->coupled && prm->surface == SURFACE_YES)
+    else if (!has_partner_flow(r) && prm->surface == SURFACE_YES)
         openings_describe(&r->scene);
     scene_waves_describe(&r->scene);
     paddles_describe(r, prm);
@@ -247,9 +250,9 @@ static void describe(const struct run *r)
         forecast_say("sph", r->scene.domain.dim, all * pairs_of_particle(r), steps);
     else
         log_say("run time: not known, as there is no water at the start");
-    if (r->coupled)
+    if (has_partner_flow(r))
         windows_describe(r, prm);
-    if (r->coupled)
+    if (has_partner_flow(r))
         coupling_warn(r, prm);
     warn_of(r);
 }
@@ -275,26 +278,31 @@ static bool has_gap(const struct run *r)
 
 static void *create(struct run *r, struct h5 *f)
 {
+    if (!body_coupling_possible(r))
+        return NULL;
     solids_deal(r);
     int n = sph_columns(r, sph_params_of(r), columns);
-    for (int k = 0; k < OVERLAP_COLUMNS && r->coupled; k++)
+    for (int k = 0; k < OVERLAP_COLUMNS && has_partner_flow(r); k++)
         columns[n++] = overlap_columns[k];
     for (int k = 0; k < LEVEL_COLUMNS && has_gap(r); k++)
         columns[n++] = level_gap_columns[k];
     sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);
-    if (s && r->coupled)
+    if (s && has_partner_flow(r))
         sph_coupling_create(s);
-    if (s && f && r->coupled)
+    if (s && f && has_partner_flow(r))
         overlap_load(s->zones->watched, f);
+    if (s && r->coupled)
+        body_coupling_create(s);
     return s;
 }
 
 static void destroy(void *state)
 {
     struct sph *s = state;
-    if (s->run->coupled)
+    if (has_partner_flow(s->run))
         sph_coupling_free(s);
+    body_coupling_free(s);
     sph_free(&s);
 }
 
@@ -314,7 +322,7 @@ static double step(void *state, double t_stop, struct diagnosis *d)
 static void complete(struct run *r)
 {
     struct scene *c = &r->scene;
-    if (r->coupled || sph_params_of(r)->surface != SURFACE_YES)
+    if (has_partner_flow(r) || sph_params_of(r)->surface != SURFACE_YES)
         return;
     openings_resolve(c);
     for (int k = 0; k < c->nwalls; k++)
@@ -324,7 +332,7 @@ static void complete(struct run *r)
 static void check(const struct run *r, struct faults *f)
 {
     sph_params_check(r, f);
-    if (f->n == 0 && r->coupled)
+    if (f->n == 0 && has_partner_flow(r))
         coupling_check(r, sph_params_of(r), f);
     if (f->n == 0) {
         const double n = lattice(r) + regions_particles(r, sph_params_of(r));
@@ -333,22 +341,38 @@ static void check(const struct run *r, struct faults *f)
     }
 }
 
-static void offer(struct run *r) { coupling_offer(r, sph_params_of(r)); }
+static void offer(struct run *r)
+{
+    if (has_partner_flow(r))
+        coupling_offer(r, sph_params_of(r));
+}
 
 static double longest_window(void *state)
 {
     const struct sph *s = state;
-    return windows_choose(s->run, &s->prm).T;
+    return has_partner_flow(s->run) ? windows_choose(s->run, &s->prm).T : body_coupling_window(s);
 }
 
 /* A new partition first: the patch is taken for each rank's part. By numbers alone: costs are known
  * where a snapshot has made a list, and not after a restart. */
 static void window_begin(void *state, double t0, double t1)
 {
-    for (struct sph *q = state; q; q = q->finer)
-        q->lists.ready = false;
-    domain_balance(state, 0.1);
-    sph_coupling_window_begin(state, t0, t1);
+    struct sph *s = state;
+    if (has_partner_flow(s->run)) {
+        for (struct sph *q = s; q; q = q->finer)
+            q->lists.ready = false;
+        domain_balance(s, 0.1);
+        sph_coupling_window_begin(s, t0, t1);
+    }
+    body_coupling_begin(s, t0, t1);
+}
+
+static void window_end(void *state, double t1)
+{
+    struct sph *s = state;
+    if (has_partner_flow(s->run))
+        sph_coupling_window_end(s, t1);
+    body_coupling_end(s, t1);
 }
 
 static void progress(void *state, char *line, int size)
@@ -365,12 +389,13 @@ static void progress(void *state, char *line, int size)
 static void row(void *state, double *values)
 {
     struct sph *s = state;
-    const int own = sph_program.ncolumns - OVERLAP_COLUMNS - (gap(s) ? LEVEL_COLUMNS : 0);
+    const int compared = watched(s) ? OVERLAP_COLUMNS : 0,
+              own = sph_program.ncolumns - compared - (gap(s) ? LEVEL_COLUMNS : 0);
     sph_row(s, values);
     if (watched(s))
         overlap_row(watched(s), values + own);
     if (gap(s))
-        level_gap_row(s, values + own + OVERLAP_COLUMNS);
+        level_gap_row(s, values + own + compared);
 }
 
 static void finish(void *state)
@@ -411,7 +436,7 @@ static struct program sph_program = {.name = "sph",
                                      .step = step,
                                      .longest_window = longest_window,
                                      .window_begin = window_begin,
-                                     .window_end = sph_coupling_window_end,
+                                     .window_end = window_end,
                                      .tell = tell,
                                      .columns = columns,
                                      .row = row,

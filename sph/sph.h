@@ -138,6 +138,8 @@ struct sph {
     /* Whether it is this level that flows at x; NULL: there is one level. refinement.h */
     bool (*flows_at)(const struct sph *s, const double *x);
     struct guards *guards;
+    struct body_coupling
+        *body_coupling; /* of a coupled job with bodies; NULL: none; coarsest level */
     struct mixed *mixed;
     double background; /* Pa: background pressure of this stage [2.105], added to every pair's */
     struct list_state lists;

@@ -36,12 +36,20 @@ struct body_steer {
     double d, v, a; /* m or rad, and its rates */
 };
 
+/* What another program says of the coupling step under way: displacement along or rotation about
+ * axis a, the sum over k of c[a][k] (t - at)^k. */
+struct body_course {
+    double at;              /* s */
+    double c[BODY_AXES][4]; /* m/s^k or rad/s^k */
+};
+
 /* All terms of a body. Plain data, nothing to free. */
 struct body_drive {
     int dim, nterms, columns; /* columns of files: 4 in 2D, 7 in 3D */
     struct body_term term[MOTIONS_MAX];
     double constant[BODY_AXES]; /* m/s, rad/s: constant velocity of the driven degrees of freedom */
-    const struct body_steer *steer; /* borrowed; NULL: none */
+    const struct body_steer *steer;   /* borrowed; NULL: none */
+    const struct body_course *course; /* the same */
 };
 
 /* Sets *v from the terms alone; terms and files are borrowed for as long as *v is used. */

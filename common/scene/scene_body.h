@@ -10,7 +10,13 @@
 #include "../params/params.h"
 #include "scene_surface.h"
 
-enum motion_kind { MOTION_FILE, MOTION_HARMONIC, MOTION_POLYNOMIAL, MOTION_WAVES };
+enum motion_kind {
+    MOTION_FILE,
+    MOTION_HARMONIC,
+    MOTION_POLYNOMIAL,
+    MOTION_WAVES,
+    MOTION_PARTNER /* another program of the job says where the body is */
+};
 enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
 enum force_rule { FORCE_CONSERVING, FORCE_AVERAGE };
 enum { MOTIONS_MAX = 32, LINES_MAX = 8, BODY_NEVER = 1000000000 };
@@ -110,6 +116,8 @@ extern const struct param_list scene_motion_list; /* of a struct scene_motions *
 
 /* Whether the body ever moves: it is free, or has a velocity or terms of motion. */
 bool scene_body_moves(const struct scene_body *b);
+/* Whether another program of the job moves the body. */
+bool scene_body_partnered(const struct scene_body *b);
 /* The contact as the case gives it, else with the defaults of the keys. */
 struct scene_contact scene_contact_of(const struct scene_body *b);
 /* Bits 1 << enum body_axis of the words in lock, separated by blanks or commas; -1: a word is none

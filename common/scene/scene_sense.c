@@ -44,6 +44,8 @@ void scene_check_motion(const struct scene_motions *all, const char *list, int k
         snprintf(key, sizeof key, "%s.[%d].motion.[%d].kind", list, k, i);
         if (all->of[i].kind == MOTION_WAVES)
             params_fault(p, f, key, "only the motion of a body makes waves");
+        if (all->of[i].kind == MOTION_PARTNER)
+            params_fault(p, f, key, "a partner moves bodies alone: give another kind of motion");
     }
 }
 

@@ -14,6 +14,7 @@
 #include "../particles/sph_particles.h"
 #include "../rigid/sph_rigid.h"
 #include "../walls/sph_walls.h"
+#include "body_courses.h"
 #include "paddles.h"
 
 /* --- the start --- */
@@ -61,6 +62,7 @@ void bodies_create(struct sph *s)
     if (!w)
         return;
     paddles_create(s);
+    body_courses_create(s);
     for (int k = 0; k < w->nbodies; k++)
         w->forces.reference[k] = body_reference(s, k);
     for (int k = 0; k < w->nbodies; k++)
@@ -243,7 +245,7 @@ void bodies_finish(struct sph *s, struct diagnosis *d)
         struct body *b = s->walls->bodies + k;
         if (b->free)
             body_finish(b);
-        if (b->free || b->paddle)
+        if (b->free || b->paddle || b->course)
             judge(s, b, d);
     }
 }

@@ -107,6 +107,17 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
     char key[KEY], rest[32];
     snprintf(rest, sizeof rest, ".motion.[%d]", i);
     key_of(key, k, rest);
+    if (m->kind == MOTION_PARTNER) {
+        if (b->is->free)
+            params_fault(r->params, f, key,
+                         "a partner moves all of a body, forces move this one: leave out free and "
+                         "mass, or the partner");
+        if (used->walls != WALLS_NFM)
+            params_fault(r->params, f, key,
+                         "these walls (sph.walls) report no forces, which a partner needs: take "
+                         "normal flux walls (nfm)");
+        return;
+    }
     if (!params_given(r->params, key) && m->kind == MOTION_FILE) {
         snprintf(rest, sizeof rest, ".motion");
         key_of(key, k, rest);

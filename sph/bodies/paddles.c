@@ -60,7 +60,7 @@ void paddles_check(const struct run *r, const struct sph_params *prm, struct fau
         if (!a)
             continue;
         snprintf(key, sizeof key, "bodies.[%d].motion", k);
-        if (r->coupled)
+        if (r->coupled && r->scene.has_fv)
             params_fault(r->params, f, key,
                          "in a coupled job fv does not know where a paddle goes that absorbs "
                          "(absorb): leave that out");

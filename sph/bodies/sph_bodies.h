@@ -6,6 +6,7 @@
 #include "bodies.h"
 #include "body_backs.h"
 #include "body_check.h"
+#include "body_courses.h"
 #include "paddles.h"
 
 #endif

@@ -203,6 +203,7 @@ void sph_free(struct sph **s)
     zones_free(&(*s)->zones);
     wave_zones_free(&(*s)->wave_zones);
     paddles_free(*s);
+    body_courses_free(*s);
     walls_free(&(*s)->walls);
     sph_surface_free(&(*s)->surface);
     fit_free(&(*s)->total.signal_fit);

@@ -30,6 +30,7 @@ struct sph_link {
     double *x, *u, *p, *w, *ones;
     int64_t *id;
     int capacity;
+    bool compared;                    /* the length of the coupling steps with what sph wished */
     struct scene_reference reference; /* what the particles' pressure leaves out */
 };
 
@@ -205,8 +206,11 @@ static void take_surface(struct sph *s, double T)
 void sph_coupling_window_begin(void *state, double t0, double t1)
 {
     struct sph *s = state;
-    const struct sph_link *k = s->zones->ctx;
+    struct sph_link *k = s->zones->ctx;
     double lo[3], hi[3];
+    if (!k->compared)
+        windows_compare(s->run, &s->prm, t1 - t0);
+    k->compared = true;
     zones_counted_box(s->run, &s->prm, s->zones->way, s->zones->counted[0], s->zones->counted[1]);
     domain_bounds(s->domain, lo, hi);
     for (int a = 0; a < 3; a++) {

@@ -3,6 +3,7 @@
 #ifndef SPH_COUPLING_DOOR_H
 #define SPH_COUPLING_DOOR_H
 
+#include "body_coupling.h"
 #include "overlap.h"
 #include "sph_link.h"
 #include "windows.h"

@@ -306,6 +306,20 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
     advise(r, prm, &w);
 }
 
+void windows_compare(const struct run *r, const struct sph_params *prm, double T)
+{
+    const struct windows w = windows_choose(r, prm);
+    const double gain = w.mass / (prm->c0 * T),
+                 left = w.memory > 1 ? gain * windows_smoothed(w.memory) : gain;
+    const int memory = memory_for(gain);
+    if (T < 0.999 * tiled(&r->scene, w.T) && memory > w.memory)
+        log_warn("another program wishes coupling steps of %.3g s, sph %.3g s: the gain of the "
+                 "coupling loop is %.2g with them, %.2g is left: coupling.memory = %d smooths it "
+                 "away%s",
+                 T, w.T, gain, left, memory,
+                 gain > gain_most ? "; a wider coupling.overlap lowers it" : "");
+}
+
 /* Three faults: T too long for extrapolation, a loop that is unstable even when smoothed, and
  * smoothing that takes as long as a wave. */
 void windows_check(const struct run *r, const struct sph_params *prm, struct faults *f)

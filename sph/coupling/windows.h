@@ -31,6 +31,9 @@ double windows_smoothed(int memory);
 double windows_c0(const struct run *r, const struct sph_params *prm);
 /* Logs the choice in a line, with warnings. */
 void windows_describe(const struct run *r, const struct sph_params *prm);
+/* Warns where the coupling steps, T s, are shorter than chosen, for another program wished them so,
+ * and the loop wants more smoothing then. */
+void windows_compare(const struct run *r, const struct sph_params *prm, double T);
 /* Adds faults of coupling.steps and coupling.memory. */
 void windows_check(const struct run *r, const struct sph_params *prm, struct faults *f);
 

@@ -407,6 +407,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     if (s->walls && s->walls->any_free)
         bodies_save(s, f);
     paddles_save(s, f);
+    body_courses_save(s, f);
 }
 
 /* Each rank reads its share of the file; domain_load sends particles to their owners afterwards.
@@ -536,7 +537,7 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "forces on walls";
     if (s->walls && !bodies_load(s, f))
         return "free bodies";
-    if (!paddles_load(s, f))
+    if (!paddles_load(s, f) || !body_courses_load(s, f))
         return "paddles";
     return NULL;
 }

@@ -54,9 +54,10 @@ struct body {
     int first, n;     /* 2D: its segments in struct walls */
     struct body_drive drive;
     struct scene_contact contact;
-    struct body_free *free; /* NULL: driven */
-    struct paddle *paddle;  /* NULL: it does not absorb waves */
-    struct body_motion now; /* its motion at the time of the last body_move */
+    struct body_free *free;     /* NULL: driven */
+    struct paddle *paddle;      /* NULL: it does not absorb waves */
+    struct body_course *course; /* that a partner gives; NULL: none moves it */
+    struct body_motion now;     /* its motion at the time of the last body_move */
 };
 
 /* Mass, centre, m, and inertia about it as the case has them. body_mass_of returns false if they

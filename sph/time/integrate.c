@@ -421,7 +421,7 @@ double integrate_step(struct sph *s, double t_stop, struct diagnosis *d)
     const double wall = wall_time(), cpu = cpu_time(), lost = s->total.lost;
     /* A coupled run cuts anew between windows only: within one, a rank holds the patch of its part.
      */
-    if (!s->run->coupled && s->run->step % BALANCE_EVERY == 0) {
+    if (!(s->run->coupled && s->run->scene.has_fv) && s->run->step % BALANCE_EVERY == 0) {
         integrate_prepare(s); /* the list tells what a particle costs */
         domain_balance(s, 0.03);
     }

@@ -66,8 +66,8 @@ static bool is_slit(const struct scene *c, const struct sph_params *prm)
 static bool is_closed(const struct run *r, const struct sph_params *prm)
 {
     const bool known = prm->walls == WALLS_NFM && !apr_params_of(r);
-    return !r->coupled && prm->outer == OUTER_NONE && (!sph_watch_moves(&r->scene) || known) &&
-           !is_slit(&r->scene, prm);
+    return !(r->coupled && r->scene.has_fv) && prm->outer == OUTER_NONE &&
+           (!sph_watch_moves(&r->scene) || known) && !is_slit(&r->scene, prm);
 }
 
 /* The advice where particles form pairs, by what the case uses already. */

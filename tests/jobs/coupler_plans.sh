@@ -278,7 +278,7 @@ awk '{ v[NR] = $1 } END { exit !(NR >= 4 && 4 * (v[NR] - v[int(NR / 2)]) <= 512)
 
 # the plain example: the same as one program with the whole wall; its error is Euler's
 # shellcheck disable=SC2086
-$mpi -np 1 "$b/tests/heat" left h 40 : -np 1 "$b/coupler" "$root/coupler/examples/heat.cfg" -o h --force : -np 1 "$b/tests/heat" right h 40 >text 2>&1 ||
+$mpi -np 1 "$b/examples/heat" left h 40 : -np 1 "$b/coupler" "$root/coupler/examples/heat.cfg" -o h --force : -np 1 "$b/examples/heat" right h 40 >text 2>&1 ||
     bad "coupler/examples/heat: exit $?"
 # T decays as exp(-pi^2 t): by Taylor the scheme's rate is off by pi^4 h^2/24, at t = 0.1 by 1.2e-5 K
 awk '/is off by/ { n++; if (!($(NF - 1) <= 2e-5)) n = -9 } END { exit n != 2 }' text || bad "coupler/examples/heat: error"

@@ -1,0 +1,25 @@
+/* body_courses.h - bodies that another program of the job moves (motion of kind partner): where
+ * they are in the coupling step under way, as polynomials in time. All ranks hold all of them; all
+ * levels of refinement share them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_BODY_COURSES_H
+#define SPH_BODY_COURSES_H
+
+#include "../sph.h"
+
+struct h5;
+
+/* Makes those of the bodies of s->walls, at rest where the case has them; a finer level shares
+ * those of the coarser one. body_courses_free frees them. */
+void body_courses_create(struct sph *s);
+void body_courses_free(struct sph *s);
+/* Lets body k go from where it is at t0 to the displacement and rotation vector to[0..5], m and
+ * rad, with the velocities to[6..11], at t1, s: a cubic in each, so that nothing jumps. */
+void body_course_set(struct sph *s, int k, double t0, double t1, const double to[12]);
+/* Place and velocities of body k at t, s, as in body_course_set. */
+void body_course_at(const struct sph *s, int k, double t, double at[12]);
+void body_courses_save(const struct sph *s, struct h5 *f);
+/* false: the file has none that fit. */
+bool body_courses_load(struct sph *s, struct h5 *f);
+
+#endif

@@ -1,0 +1,182 @@
+/* body_coupling.c - see body_coupling.h. The force is the impulse of the fluid over the coupling
+ * step divided by its length, so that a partner that integrates it loses no momentum; the motion
+ * that a partner gives is read at the end of the step, by its own extrapolation from the start, and
+ * taken up by then (body_courses.h). Rank 0 holds the points. SPDX-License-Identifier: BSD-3-Clause
+ */
+#include "body_coupling.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../common/base/base.h"
+#include "../../common/params/params.h"
+#include "../../coupler/cpl.h"
+#include "../bodies/sph_bodies.h"
+#include "../particles/sph_particles.h"
+#include "../walls/sph_walls.h"
+
+enum { PLACE = 2 * BODY_AXES };
+
+struct body_coupling {
+    struct cpl *c;
+    int set;
+    int force[BODIES_MAX], motion[BODIES_MAX], moved[BODIES_MAX]; /* moved: -1: by no partner */
+    struct force before[BODIES_MAX];                              /* N s: at t0 */
+    double t0;
+};
+
+static bool any_partnered(const struct run *r)
+{
+    bool any = false;
+    for (int k = 0; k < r->scene.nbodies; k++)
+        any = any || scene_body_partnered(r->scene.bodies + k);
+    return any;
+}
+
+bool body_coupling_possible(const struct run *r)
+{
+    struct faults f = {0};
+    for (int k = 0; k < r->scene.nbodies && !r->coupled; k++) {
+        char key[64];
+        snprintf(key, sizeof key, "bodies.[%d].motion", k);
+        if (scene_body_partnered(r->scene.bodies + k))
+            params_fault(r->params, &f, key,
+                         "a partner is to move body `%s', but no other program takes part in this "
+                         "job: start it with cases/run CASE --with 'PROGRAM ...'",
+                         r->scene.bodies[k].name);
+    }
+    return params_report(&f) == 0;
+}
+
+static void check(const struct body_coupling *k, int code)
+{
+    if (code == CPL_EPARTNER || code == CPL_EINPUT) {
+        signals_handled(); /* cpl_fail says it */
+        cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
+    }
+    if (code)
+        abort_run("coupling: %s", cpl_strerror(k->c));
+}
+
+/* "sph.flap.force"; without the program: "flap.motion". Blanks of a name become underscores. */
+static const char *field_of(const struct run *r, const char *program, int body, const char *what)
+{
+    static char text[CPL_NAME];
+    const int n = snprintf(text, sizeof text, "%s%s%s.%s", program, *program ? "." : "",
+                           r->scene.bodies[body].name, what);
+    if (n >= (int)sizeof text)
+        fail_with(RUN_INPUT,
+                  "bodies.[%d].name: `%s' is too long for a field of a coupled job: at "
+                  "most %d letters",
+                  body, r->scene.bodies[body].name,
+                  CPL_NAME - 9 - (int)strlen(*program ? program : "sph"));
+    for (char *c = text; *c; c++)
+        *c = *c == ' ' ? '_' : *c;
+    return text;
+}
+
+void body_coupling_create(struct sph *s)
+{
+    static const double origin[3] = {0.0, 0.0, 0.0}, one = 1.0;
+    const struct run *r = s->run;
+    const int mine = r->rank == 0, n = s->walls ? s->walls->nbodies : 0;
+    const int64_t id = 0;
+    char set[CPL_NAME];
+    if (n == 0)
+        return;
+    struct body_coupling *k = s->body_coupling = NEW(struct body_coupling, 1);
+    k->c = r->partner_ctx;
+    snprintf(set, sizeof set, "%.50s.bodies", r->name);
+    check(k, cpl_points(k->c, set, s->dim, 1.0, &k->set));
+    for (int b = 0; b < n; b++) {
+        check(k, cpl_field(k->c, k->set, field_of(r, r->name, b, "force"), "N", BODY_AXES,
+                           CPL_PUT | CPL_OPTIONAL, 0, k->force + b));
+        check(k, cpl_field(k->c, k->set, field_of(r, r->name, b, "motion"), "m", PLACE,
+                           CPL_PUT | CPL_OPTIONAL, 0, k->motion + b));
+        k->moved[b] = -1;
+        if (s->walls->bodies[b].course)
+            check(k, cpl_field(k->c, k->set, field_of(r, "", b, "motion"), "m", PLACE, CPL_GET,
+                               CPL_NEAREST, k->moved + b));
+    }
+    check(k, cpl_move(k->c, k->set, mine, origin, &id, &one));
+}
+
+void body_coupling_free(struct sph *s) { mem_free(s->body_coupling); }
+
+/* Nominal steps, so that one of them fits although flow and bodies shorten it a little. */
+static const double of_step = 0.9;
+
+double body_coupling_window(const struct sph *s)
+{
+    return any_partnered(s->run) ? of_step * sph_params_dt(&s->prm, s->nu, s->c0, NULL) : INFINITY;
+}
+
+/* A body begins where the case has it: what a partner says of another place would be a jump. */
+static void judge_start(const struct sph *s, int b, const double *at)
+{
+    const double far = vec3_length(at) + s->walls->bodies[b].reach * vec3_length(at + 3);
+    if (far > 0.1 * s->dx)
+        fail_with(RUN_INPUT,
+                  "bodies.[%d].motion: its partner begins %.3g m from where the case has body "
+                  "`%s' (a tenth of sph.dx, %.3g m, is allowed): displacements count from there",
+                  b, far, s->run->scene.bodies[b].name, 0.1 * s->dx);
+}
+
+static void take_motion(struct sph *s, int b, double t0, double t1)
+{
+    const struct body_coupling *k = s->body_coupling;
+    const int mine = s->run->rank == 0;
+    unsigned char there = 1;
+    double at[PLACE + 1] = {0.0};
+    for (int end = 0; end < 2; end++) {
+        const double t = end ? t1 : t0;
+        if (end == 0 && (s->run->step > 0 || s->run->restart))
+            continue; /* it is where it has come to */
+        check(k, cpl_get_at(k->c, k->moved[b], CPL_START, t, mine, at, mine ? &there : NULL));
+        at[PLACE] = there;
+        MPI_Bcast(at, PLACE + 1, MPI_DOUBLE, 0, s->run->comm);
+        if (at[PLACE] < 1.0)
+            fail_with(RUN_INPUT, "%s: its partner's point must lie at the origin",
+                      field_of(s->run, "", b, "motion"));
+        if (end == 0) {
+            judge_start(s, b, at);
+            for (int a = 0; a < BODY_AXES; a++)
+                s->walls->bodies[b].course->c[a][1] = at[BODY_AXES + a];
+        }
+    }
+    body_course_set(s, b, t0, t1, at);
+}
+
+void body_coupling_begin(struct sph *s, double t0, double t1)
+{
+    struct body_coupling *k = s->body_coupling;
+    if (!k)
+        return;
+    k->t0 = t0;
+    memcpy(k->before, s->walls->forces.impulse, sizeof k->before);
+    for (int b = 0; b < s->walls->nbodies; b++)
+        if (k->moved[b] >= 0)
+            take_motion(s, b, t0, t1);
+}
+
+void body_coupling_end(struct sph *s, double t1)
+{
+    const struct body_coupling *k = s->body_coupling;
+    const int mine = s->run->rank == 0;
+    for (int b = 0; k && b < s->walls->nbodies; b++) {
+        const struct force *now = s->walls->forces.impulse + b, *old = k->before + b;
+        const struct body_motion *m = &s->walls->bodies[b].now;
+        double force[BODY_AXES], place[PLACE];
+        for (int a = 0; a < 3; a++) {
+            force[a] = (now->F[a] - old->F[a]) / (t1 - k->t0);
+            force[3 + a] = (now->M[a] - old->M[a]) / (t1 - k->t0);
+        }
+        memcpy(place, m->x, sizeof m->x);
+        memcpy(place + 3, m->r, sizeof m->r);
+        memcpy(place + 6, m->u, sizeof m->u);
+        memcpy(place + 9, m->omega, sizeof m->omega);
+        check(k, cpl_put(k->c, k->force[b], t1, mine, force, NULL));
+        check(k, cpl_put(k->c, k->motion[b], t1, mine, place, NULL));
+    }
+}
