@@ -62,8 +62,11 @@ static int64_t resume(struct coupler *c, double dt, char *text)
     const int64_t start = first->restart_window > 0 ? first->restart_window : 0;
     if (first->restart_window < 0 || at(c, start, first->t))
         return start;
-    if (!at(c, start + 1, first->t) && first->t > c->t_start && first->t < c->t_end)
-        divide(c, dt, start + 1, first->t, text);
+    if (at(c, start + 1, first->t))
+        return start + 1;
+    if (!(first->t > c->t_start && first->t < c->t_end))
+        return start;
+    divide(c, dt, start + 1, first->t, text);
     return start + 1;
 }
 
