@@ -15,6 +15,9 @@ period() { awk -F, -v m="$2" 'NF == 4 && $1 + 0 > 0 { x = $2 - m; if (n++ && x *
     END { print (k > 1 ? 2 * (z - first) / (k - 1) : "none") }' "$1"; }
 # pi a^2 rho (b^2 + a^2)/(b^2 - a^2) = 173.5 kg/m: with 200 kg and 14 745 N/m a period of 1 s, with 50 kg 8823 N/m. Sound
 # crosses the tank in a tenth of it, so that a second order of that, 1 %, is left, and one for 8 particles in a radius
+began=$(date +%s)
+timeout -k 5 300 "$root/cases/run" "$root/coupler/examples/spring.cfg" -n 1 -o brief --force -p time.end=0.02 --with "$b/examples/spring brief cylinder 200 14745 0.02 173" 2>&1 | cat >brief.txt
+[ $(($(date +%s) - began)) -lt 30 ] || bad "a job of a moment with another program took $(($(date +%s) - began)) s"
 for of in "200 14745" "50 8823"; do
     d=swing${of% *}
     spring $d 1 "$root/coupler/examples/spring.cfg" "cylinder $of 0.02 173" -p time.end=1.4
