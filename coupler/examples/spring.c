@@ -1,11 +1,15 @@
 /* spring.c - a program that moves a body of sph: a mass on a spring along x, pushed by the water.
- *   cases/run coupler/examples/spring.cfg -o DIR --with 'build/examples/spring DIR BODY MASS
- * STIFFNESS STRETCH ADDED' MASS kg, STIFFNESS N/m (2D: per metre), STRETCH m: where the spring has
- * no force, from the start; ADDED kg: the water's mass that moves with it, roughly. The body has
- * moved by its old acceleration a while the force F was measured, so that F holds the reaction to
- * that: (MASS + ADDED) a' = F + ADDED a - STIFFNESS (x - STRETCH). With a' = a it is Newton's law
- * for any ADDED; the steps shrink an error by |ADDED - A|/(MASS + ADDED), A being the true added
- * mass, and with ADDED = 0 a body lighter than A would not come to rest.
+ *
+ *   spring DIR BODY MASS STIFFNESS STRETCH ADDED, beside sph and coupler (coupler/README.md)
+ *
+ * MASS kg, STIFFNESS N/m (2D: per metre), STRETCH m: where the spring has no force, from the start;
+ * ADDED kg: the water's mass that moves with it, roughly. While the force F was measured the body
+ * had its old acceleration a, so that F holds the reaction to that:
+ *
+ *   (MASS + ADDED) a' = F + ADDED a - STIFFNESS (x - STRETCH)
+ *
+ * With a' = a it is Newton's law for any ADDED. An error dies out if ADDED is above (3 A - MASS)/4,
+ * A being the true added mass: rather too large than too small.
  *
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
