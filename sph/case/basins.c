@@ -676,6 +676,27 @@ void basins_rooms(const struct basins *b, int *wet, int *dry)
     *dry = b->dry;
 }
 
+double basins_suction(const struct basins *b, double *where)
+{
+    double most = 0.0;
+    for (int c = 0; c < b->columns; c++)
+        for (int r = b->start[c]; r < b->start[c + 1]; r++) {
+            const struct basin_run *run = b->runs + r;
+            int ic[3];
+            double x[3];
+            if (!run->roofed || run->dropped || isnan(run->level))
+                continue;
+            cell_in(b, c, top_cell(b, run), ic);
+            lattice_centre(b->l, ic, b->s->dim, x);
+            const double over = scene_height(&b->s->run->scene, x) + 0.5 * b->l->dx - run->level;
+            if (over > most) {
+                most = over;
+                memcpy(where, x, sizeof x);
+            }
+        }
+    return most;
+}
+
 int basins_pockets(const struct basins *b, int64_t *cells, double *where)
 {
     *cells = b->lost;

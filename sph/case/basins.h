@@ -17,6 +17,9 @@ void basins_clear(const struct basins *b, struct lattice *l);
 void basins_rooms(const struct basins *b, int *wet, int *dry);
 /* Number of pockets, with their *cells in all and the position of one, m. */
 int basins_pockets(const struct basins *b, int64_t *cells, double *where);
+/* How far the water under roofs stands above its level at most, m: there it hangs by suction;
+ * where: the place. 0: nowhere. */
+double basins_suction(const struct basins *b, double *where);
 /* Height against gravity where p = 0 for the water of this cell, m; NAN: it falls freely. */
 double basins_level(const struct basins *b, int64_t cell);
 

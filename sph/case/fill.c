@@ -280,6 +280,20 @@ static void say_pockets(const struct basins *b)
                 n, (long long)cells, x[0], x[1]);
 }
 
+/* Under a free surface the fluid bears no tension: a siphon breaks where air would hold it up. */
+static void warn_of_suction(const struct sph *s, const struct basins *b)
+{
+    double x[3], still[3];
+    const double over = basins_suction(b, x);
+    if (s->surface && !(s->run->scene.initial.level < LEVEL_TOP) && over > 2.0 * s->dx)
+        log_warn(
+            "the water below the roof at (%g, %g, %g) m stands %.3g m above the level of what it "
+            "is connected with, at %.3g Pa: it hangs by suction, as in a siphon, which air "
+            "would hold up to 10 m; a free surface here bears none, the water breaks off and "
+            "falls. Draw it no higher than that level, or fill all to it",
+            x[0], x[1], x[2], over, -s->rho0 * weight_of(s, still) * over);
+}
+
 /* A tank whose lines run the wrong way, or a body around the fluid, leave hardly any. */
 static void warn_of_taken(const struct sph *s, const struct look *k)
 {
@@ -328,6 +342,7 @@ struct fill *fill_lattice(struct sph *s)
     if (parted)
         say_rooms(b);
     say_pockets(b);
+    warn_of_suction(s, b);
     basins_clear(b, l);
     if (parted)
         rims_check(s, l);

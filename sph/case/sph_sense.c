@@ -413,7 +413,7 @@ void sph_passage_warn(const char *where, double width, double dx)
     log_warn(
         "%s, %.2g particles across: of a flow through there some %.0f %% are missing; sph.dx = "
         "%.2g m has ten particles there, and 10 %%",
-        where, n, fmin(90.0, 1000.0 / (n * n)), width / SPH_PASSAGE);
+        where, n, fmin(90.0, 1000.0 / (n * n)), digits_below(width / SPH_PASSAGE, 2));
 }
 
 void sph_sense_check(const struct run *r, const struct sph_params *given,

@@ -6,8 +6,9 @@
 
 #include "../particles/sph_particles.h"
 
-/* Particles across a passage below which more than 10 % of a flow are missing. */
-#define SPH_PASSAGE 10.0
+/* Particles across a passage below which more than 10 % of a flow are missing; but for the last
+ * digits of a width. */
+#define SPH_PASSAGE (10.0 * (1.0 - 1e-6))
 
 /* Warns that between what `where' names, `width', m, apart, a part of the flow is missing: water
  * leaves a tank through a slot of n particles, a plate as thick as it is wide, with 0.32, 0.66,

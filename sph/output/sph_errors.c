@@ -386,9 +386,9 @@ static void summarise_drifts(const struct sph *s)
         const double expected = exact_kinetic(s);
         energy = (sums[SUM_KINETIC] - expected) / expected;
     } else {
-        const double start = s->start.energy - s->start.mass * lowest_potential(s);
-        energy =
-            (sums[SUM_ENERGY] - s->start.energy) / fmax(fabs(start), 0.5 * s->start.mass * U * U);
+        const double least = lowest_potential(s), start = s->start.energy - s->start.mass * least;
+        const double now = sums[SUM_ENERGY] - sums[SUM_MASS] * least;
+        energy = (now - start) / fmax(fabs(start), 0.5 * s->start.mass * U * U);
     }
     summary_real(to, "drift.mass", sums[SUM_MASS] / s->start.mass - 1.0);
     summary_real(to, "drift.energy", energy);

@@ -226,7 +226,12 @@ static void summarise_balance(const struct sph *s)
 {
     const struct wall_forces *f = &s->walls->forces;
     double sums[SUM_COUNT], defect2 = 0.0, scale = s->start.mass * s->run->scene.initial.U;
-    double lost = s->total.lost;
+    double lost = 0.0;
+    for (const struct sph *q = s; q; q = q->finer) {
+        lost += q->total.lost;
+        for (int side = 0; side < 6; side++)
+            lost += q->total.fallen[side];
+    }
     MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     if (s->zones || s->central > 0.0 || lost > 0.0)
         return;
