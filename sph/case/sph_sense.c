@@ -107,6 +107,70 @@ static void check_currents(const struct run *r, const struct sph_params *used, s
                      "focused groups are fv's");
 }
 
+/* Whether the line from p to q has a part that lies in a side of a 3D domain, further than `near'
+ * from the side's own edges. */
+static bool runs_within(const struct scene_domain *d, int side, const double *p, const double *q,
+                        double near)
+{
+    double from = 0.0, to = 1.0;
+    for (int t = 0; t < 3; t++) {
+        const double lo = d->min[t] + near - p[t], hi = d->max[t] - near - p[t];
+        const double way = q[t] - p[t];
+        if (t == side / 2)
+            continue;
+        if (way == 0.0 && (lo > 0.0 || hi < 0.0))
+            return false;
+        if (way != 0.0) {
+            from = fmax(from, fmin(lo / way, hi / way));
+            to = fmin(to, fmax(lo / way, hi / way));
+        }
+    }
+    return from < to;
+}
+
+/* The same of a triangle of a mesh, cut by the plane of the side. */
+static bool crosses_side(const struct scene_domain *d, int side, const struct trimesh *m, int k,
+                         double near)
+{
+    const int a = side / 2;
+    const double at = side % 2 ? d->max[a] : d->min[a];
+    double cut[3][3];
+    int n = 0;
+    for (int e = 0; e < 3; e++) {
+        const double *x = m->x[m->vertex[k][e]], *y = m->x[m->vertex[k][(e + 1) % 3]];
+        if ((x[a] < at) == (y[a] < at))
+            continue;
+        for (int t = 0; t < 3; t++)
+            cut[n][t] = x[t] + (at - x[a]) / (y[a] - x[a]) * (y[t] - x[t]);
+        n++;
+    }
+    return n == 2 && runs_within(d, side, cut[0], cut[1], near);
+}
+
+/* In 3D a parabola spans the whole side, which is no profile of an opening that meshes cut out. */
+static void check_profile(const struct run *r, const struct sph_params *used, int wall,
+                          struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    const struct scene_wall *w = c->walls + wall;
+    char key[64];
+    snprintf(key, sizeof key, "walls.[%d].profile", wall);
+    if (w->kind != WALL_INFLOW || w->profile != PROFILE_PARABOLIC || !c->meshes)
+        return;
+    for (int k = 0; k < c->meshes->n; k++) {
+        const struct scene_mesh *m = c->meshes->of + k;
+        for (int t = 0; m->owner != MESH_OF_SHAPE && t < m->mesh.ntriangles; t++) {
+            if (!crosses_side(&c->domain, w->side - SIDE_X_MIN, &m->mesh, t, 0.5 * used->dx))
+                continue;
+            params_fault(r->params, f, key,
+                         "parabolic in 3D spans the whole side, through which mesh %s cuts: take "
+                         "the uniform profile, with the mean velocity",
+                         m->name);
+            return;
+        }
+    }
+}
+
 static void check_openings(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
@@ -114,6 +178,8 @@ static void check_openings(const struct run *r, const struct sph_params *used, s
     for (int k = 0; k < c->nwalls; k++)
         if (surface && scene_wall_opens(c->walls + k))
             check_level(r, k, f);
+    for (int k = 0; k < c->nwalls && c->domain.dim == 3 && !surface; k++)
+        check_profile(r, used, k, f);
     for (int side = 0; side < 2 * c->domain.dim && !surface; side++)
         check_outlet(r, side, f);
     for (int a = 0; a < c->domain.dim && !surface; a++)

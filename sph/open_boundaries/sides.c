@@ -8,6 +8,7 @@
 #include "sides.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -32,6 +33,8 @@ struct opening_side {
     bool round[2];               /* periodic along it */
     double leaves;               /* -: share of what flows through it that flows out */
     int first;                   /* of its bins in the table */
+    int ncuts;                   /* 2D, a parabolic profile: */
+    double *cut;                 /* m: where walls meet the side, in order: the ends of openings */
 };
 
 struct sides {
@@ -234,9 +237,62 @@ static void find_shares(struct sides *d)
     }
 }
 
+static int by_size(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void add_cut(struct opening_side *of, double x, double apart)
+{
+    bool known = false;
+    for (int k = 0; k < of->ncuts; k++)
+        known = known || fabs(of->cut[k] - x) < apart;
+    if (!known)
+        of->cut[of->ncuts++] = x;
+}
+
+/* 2D: where lines and bodies meet the side, and its ends; along a period the openings go on across
+ * it. */
+static void find_cuts(const struct sph *s, int side, struct opening_side *of)
+{
+    const int a = side / 2, t = of->tangent[0], n = s->walls ? s->walls->nsegments : 0;
+    const double at = side % 2 ? s->hi[a] : s->lo[a], length = s->hi[t] - s->lo[t];
+    const double near = 1e-6 * s->dx;
+    of->cut = NEW(double, 2 * (size_t)n + 4);
+    for (int k = 0; k < n; k++) {
+        const struct segment *w = s->walls->segments + k;
+        const double da = w->a[a] - at, db = w->b[a] - at;
+        if (fmin(da, db) > near || fmax(da, db) < -near)
+            continue;
+        const bool along = fabs(da - db) <= near;
+        const double f = along ? 0.0 : fmax(0.0, fmin(da / (da - db), 1.0));
+        const double x[2] = {w->a[t] + f * (w->b[t] - w->a[t]), w->b[t]};
+        for (int end = 0; end <= along; end++)
+            if (x[end] > s->lo[t] + near && x[end] < s->hi[t] - near)
+                add_cut(of, x[end], near);
+    }
+    if (!s->periodic[t]) {
+        of->cut[of->ncuts++] = s->lo[t];
+        of->cut[of->ncuts++] = s->hi[t];
+    }
+    qsort(of->cut, (size_t)of->ncuts, sizeof *of->cut, by_size);
+    if (s->periodic[t] && of->ncuts > 0) {
+        const double first = of->cut[0], last = of->cut[of->ncuts - 1];
+        memmove(of->cut + 1, of->cut, (size_t)of->ncuts * sizeof *of->cut);
+        of->cut[0] = last - length;
+        of->ncuts++;
+        of->cut[of->ncuts++] = first + length;
+    }
+}
+
 static void look_inside(struct sph *s)
 {
     struct sides *d = s->zones->ctx;
+    for (int side = 0; side < 2 * s->dim; side++) /* once: walls are made after the zones */
+        if (s->dim == 2 && d->of[side].is && d->of[side].is->profile == PROFILE_PARABOLIC &&
+            !d->of[side].cut)
+            find_cuts(s, side, d->of + side);
     if (d->levels)
         side_levels_update(s, d->levels);
     else
@@ -265,15 +321,28 @@ static void look_inside(struct sph *s)
     find_planes(d);
 }
 
-/* 4 z (1 - z) along the bounded tangents. */
+/* 4 z (1 - z), z in [0, 1] from lo to hi. */
+static double parabola(double x, double lo, double hi)
+{
+    const double z = fmax(0.0, fmin((x - lo) / (hi - lo), 1.0));
+    return 4.0 * z * (1.0 - z);
+}
+
+/* Along the bounded tangents; in 2D over each opening that walls cut out of the side. */
 static double profile(const struct sph *s, const struct opening_side *of, const double *x)
 {
     double f = 1.0;
+    if (of->is->profile != PROFILE_PARABOLIC)
+        return 1.0;
+    if (s->dim == 2 && of->ncuts > 1) {
+        int k = 1;
+        while (k < of->ncuts - 1 && of->cut[k] < x[of->tangent[0]])
+            k++;
+        return parabola(x[of->tangent[0]], of->cut[k - 1], of->cut[k]);
+    }
     for (int k = 0; k < s->dim - 1; k++) {
         const int a = of->tangent[k];
-        const double z = (x[a] - s->lo[a]) / (s->hi[a] - s->lo[a]);
-        if (of->is->profile == PROFILE_PARABOLIC && !s->periodic[a])
-            f *= 4.0 * fmax(0.0, fmin(1.0, z)) * (1.0 - fmax(0.0, fmin(1.0, z)));
+        f *= s->periodic[a] ? 1.0 : parabola(x[a], s->lo[a], s->hi[a]);
     }
     return f;
 }
@@ -382,6 +451,8 @@ static void free_sides(struct zones *z)
     struct sides *d = z->ctx;
     mem_free(d->table);
     mem_free(d->planes);
+    for (int side = 0; side < 6; side++)
+        mem_free(d->of[side].cut);
     side_levels_free(&d->levels);
     mem_free(d);
 }

@@ -55,4 +55,36 @@ near "$(number still x_min)" 0 1 || bad "water at rest comes in: $(number still 
 close_to "$(mean bore up 0.35 0.8)" 0.2528 0.02 || bad "bore: $(mean bore up 0.35 0.8) m for 0.2528" bore.txt
 "$b/sph" level.cfg --check | grep -q 'x_max: water 0.2 m high outside' || bad "--check does not say what the outflow does"
 
+# an inlet that a block cuts in two: a parabola in each opening, of two thirds of its largest velocity
+cat >two.cfg <<'END'
+format = 1;
+time:    { end = 2; };
+fluid:   { nu = 0.002; };
+domain:  { max = (1.2, 1); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.4, 0); profile = "parabolic"; }, { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; },
+           { kind = "no_slip"; points = ((0, 0.6), (1.2, 0.6), (1.2, 0.4), (0, 0.4)); } );
+probes:  ( { name = "low"; kind = "discharge"; at = (0.6, 0); to = (0.6, 0.4); }, { name = "high"; kind = "discharge"; at = (0.6, 0.6); to = (0.6, 1); } );
+sph:     { dx = 0.025; };
+output:  { snapshots = false; };
+END
+timeout -k 5 60 "$b/sph" two.cfg -o two --force >two.txt 2>&1 || bad "two inlets: exit code $?" two.txt
+for name in low high; do # m^2/s, within what gauges of discharge err by
+    close_to "$(mean two $name 1 2)" 0.10667 0.03 || bad "$name of two inlets: $(mean two $name 1 2) m^2/s for 0.1067" two.txt
+done
+# in 3D a parabola spans the whole side, and is refused where a mesh cuts that
+stl '-0.2 0.4 -0.2' '1.4 0.6 1.2' >wall.stl
+cat >two3.cfg <<'END'
+format = 1;
+time:    { end = 0.1; };
+fluid:   { nu = 0.002; };
+domain:  { dim = 3; max = (1.2, 1, 1); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.4, 0, 0); profile = "parabolic"; }, { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; }, { side = "z_max"; }, { mesh = "wall.stl"; } );
+sph:     { dx = 0.05; };
+END
+refused_by sph two3.cfg '' 'walls.\[0\].profile: parabolic in 3D spans the whole side'
+sed 's/profile = "parabolic";//' two3.cfg >whole3.cfg
+start sph whole3.txt whole3.cfg --check || bad "a uniform inlet that a mesh cuts is refused" whole3.txt
+
 exit $failed
