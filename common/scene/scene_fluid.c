@@ -280,21 +280,22 @@ static bool is_enclosed(const struct scene *s, int k)
     return any;
 }
 
-/* Whether both ends of a line lie on one side of the domain, or beyond it. */
-static bool hangs_from_side(const struct scene *s, const struct line *l)
+/* The side of the domain on which, or beyond which, both ends of a line lie; -1: none. */
+static int side_of_ends(const struct scene *s, const struct line *l)
 {
-    bool any = false;
+    int side = -1;
     for (int a = 0; a < 2; a++) {
         const double lo = s->domain.min[a], hi = s->domain.max[a], near = 1e-6 * (hi - lo);
         const double from = l->x[0][a], to = l->x[l->n - 1][a];
-        any = any || fmax(from, to) < lo + near || fmin(from, to) > hi - near;
+        side = fmax(from, to) < lo + near ? 2 * a : side;
+        side = fmin(from, to) > hi - near ? 2 * a + 1 : side;
     }
-    return any;
+    return side;
 }
 
-/* Whether the water that line k would hold, between itself and the side from which it hangs, is
- * hardly a tenth of the water around it. */
-static bool holds_little(const struct scene *s, int k)
+/* The water that line k would hold, between itself and the side from which it hangs, over all water
+ * of the shapes. */
+static double share_held(const struct scene *s, int k)
 {
     enum { ACROSS = 200 };
     const struct exact e = exact_create(s);
@@ -306,17 +307,22 @@ static bool holds_little(const struct scene *s, int k)
                              lo[1] + (i / ACROSS + 0.5) / ACROSS * (hi[1] - lo[1]), 0.0};
         n[line_inside(&l, x)] += wet(s, &e, x);
     }
-    return n[1] < 0.1 * n[0];
+    return (double)n[1] / fmax(1.0, n[0] + n[1]);
 }
 
 /* An open line with water on both sides that hangs from a side of the domain, between other walls,
- * is a baffle and not the only tank: what is inside it is solid. */
-static bool is_baffle_inside_out(const struct scene *s, int k)
+ * is a baffle and not the only tank: what is inside it is solid. On the floor, where it is a roof
+ * over what it would hold, it is a dyke as long as most of the water is around it. */
+static bool is_baffle_inside_out(const struct scene *s, int k, const double share[2])
 {
     const struct line open = line_of(&s->walls[k].points, false);
     const struct line shut = line_of(&s->walls[k].points, true);
-    return open.n > 2 && line_area(&shut) > 0.0 && hangs_from_side(s, &open) && is_enclosed(s, k) &&
-           holds_little(s, k);
+    const int side = side_of_ends(s, &open);
+    if (open.n < 3 || !(line_area(&shut) > 0.0) || side < 0 || !is_enclosed(s, k))
+        return false;
+    const double down = s->fluid.gravity[side / 2] * (side % 2 ? 1.0 : -1.0);
+    const bool stands = down > 0.0 && share[1] > 0.5 * share[0];
+    return share_held(s, k) < (stands ? 0.5 : 1.0 / 11.0); /* a tenth of what is around it */
 }
 
 /* An open line is turned when hardly half as much of it has fluid on its left as on its right:
@@ -331,7 +337,7 @@ static bool is_reversed(const struct scene *s, int k)
     double share[2];
     sides_of(s, &l, share);
     if (!w->closed)
-        return share[0] < 0.5 * share[1] || is_baffle_inside_out(s, k);
+        return share[0] < 0.5 * share[1] || is_baffle_inside_out(s, k, share);
     if (share[0] > 0.01 && share[1] > 0.01)
         return line_area(&l) > 0.0 && is_enclosed(s, k);
     return share[0] < share[1];

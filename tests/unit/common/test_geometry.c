@@ -260,6 +260,37 @@ static void baffles_have_their_fluid_outside(void **state)
             }
 }
 
+/* A dyke on the floor, whose share of the water a level draws into it, too; a hood that most of the
+ * water is under stays as it is drawn, and so does the dyke where nothing says what is down. */
+static void dykes_have_their_fluid_outside(void **state)
+{
+    (void)state;
+    static const double dyke[][2] = {{3, -11}, {1, 1}, {-1, 1}, {-3, -11}};
+    static const double hood[][2] = {{8, -11}, {8, -1}, {-8, -1}, {-8, -11}};
+    static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
+    for (int trial = 0; trial < 60; trial++)
+        for (int reversed = 0; reversed < 2; reversed++)
+            for (int side = 0; side < 4; side++) {
+                struct placing p = anywhere();
+                struct scene s;
+                p.angle = side * 0.5 * M_PI;
+                scene_at(&s, &p, sea, 4);
+                s.fluid.gravity[0] = trial % 3 == 2 ? 0.0 : 9.81 * sin(p.angle);
+                s.fluid.gravity[1] = trial % 3 == 2 ? 0.0 : -9.81 * cos(p.angle);
+                s.nwalls = 2;
+                s.walls[0].points = placed(&p, trial % 3 == 1 ? hood : dyke, 4);
+                s.walls[1].side = SIDE_X_MIN;
+                if (reversed)
+                    points_reverse(&s.walls[0].points);
+                scene_orient(&s);
+                const struct line l = line_of(&s.walls[0].points, true);
+                if (trial % 3 > 0)
+                    assert_false(s.walls[0].turned);
+                else
+                    assert_true(line_area(&l) < 0.0);
+            }
+}
+
 static void bodies_have_their_fluid_outside(void **state)
 {
     (void)state;
@@ -290,6 +321,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(walls_that_run_the_wrong_way_are_turned),
         cmocka_unit_test(walls_with_water_on_both_sides_stay),
         cmocka_unit_test(baffles_have_their_fluid_outside),
+        cmocka_unit_test(dykes_have_their_fluid_outside),
         cmocka_unit_test(bodies_have_their_fluid_outside),
     };
     MPI_Init(&argc, &argv);
