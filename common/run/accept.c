@@ -110,6 +110,83 @@ static const char *column_of(const struct scene_accept *a)
     return *a->column ? a->column : a->what;
 }
 
+/* Whether a key of the summary, after its group, begins with a name, spaces being underscores. */
+static bool begins_with(const char *key, const char *name)
+{
+    const size_t n = strlen(name);
+    for (size_t i = 0; i < n; i++)
+        if (key[i] != (name[i] == ' ' ? '_' : name[i]))
+            return false;
+    return key[n] == '.';
+}
+
+static bool names_body(const struct scene *s, const char *key)
+{
+    bool any = false;
+    for (int k = 0; k < s->nbodies; k++)
+        any = any || begins_with(key, s->bodies[k].name);
+    return any;
+}
+
+static bool names_gauges(const struct scene *s, const char *key)
+{
+    bool any = false;
+    for (int k = 0; k < s->ngauges; k++)
+        any = any || begins_with(key, s->gauges[k].name);
+    return any;
+}
+
+static bool names_probe(const struct scene *s, const char *key)
+{
+    bool any = false;
+    for (int k = 0; k < s->nprobes; k++)
+        any = any || begins_with(key, s->probes[k].name);
+    return any;
+}
+
+static bool names_section(const struct scene *s, const char *key)
+{
+    bool any = false;
+    for (int k = 0; k < s->nprobes; k++)
+        any = any || (s->probes[k].kind == PROBE_DISCHARGE && begins_with(key, s->probes[k].name));
+    return any;
+}
+
+static bool is_probe(const struct scene *s, const char *what)
+{
+    bool any = false;
+    for (int k = 0; k < s->nprobes; k++)
+        any = any || strcmp(what, s->probes[k].name) == 0;
+    return any;
+}
+
+/* A number of the summary is made at the end, but whose it is stands in the case. */
+static void check_number(const struct scene *s, int k, const struct params *p, struct faults *f)
+{
+    static const struct {
+        const char *group, *of;
+        bool (*names)(const struct scene *s, const char *key);
+    } groups[] = {{"body.", "body", names_body},
+                  {"discharge.", "gauge of kind discharge", names_section},
+                  {"height.", "gauge", names_probe},
+                  {"reflection.", "group of gauges", names_gauges}};
+    const char *what = s->accept[k].what;
+    char key[64];
+    snprintf(key, sizeof key, "accept.[%d].what", k);
+    if (is_probe(s, what))
+        params_fault(p, f, key,
+                     "%s is a gauge, a column of series.csv: give a reference to compare it with, "
+                     "or name a number of summary.json",
+                     what);
+    what += strncmp(what, "sph.", 4) == 0 ? 4 : strncmp(what, "fv.", 3) == 0 ? 3 : 0;
+    for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
+        const size_t n = strlen(groups[g].group);
+        if (strncmp(what, groups[g].group, n) == 0 && !groups[g].names(s, what + n))
+            params_fault(p, f, key, "summary.json will have no %s: no %s of the case has that name",
+                         what, groups[g].of);
+    }
+}
+
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
                   struct faults *f)
 {
@@ -117,8 +194,10 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
         const struct scene_accept *a = s->accept + k;
         char key[64], path[1024 + PARAM_TEXT_SIZE];
         snprintf(key, sizeof key, "accept.[%d].reference", k);
-        if (!*a->reference)
+        if (!*a->reference) {
+            check_number(s, k, p, f);
             continue;
+        }
         snprintf(path, sizeof path, "%s/%s", case_dir, a->reference);
         struct table *t = table_read(path);
         if (!t)
@@ -139,12 +218,31 @@ static bool is_column(const char *column, const char *name)
            (column[n] == '\0' || strncmp(column + n, " [", 2) == 0);
 }
 
+/* A gauge whose column another has the name of: who reads series.csv finds the first of them. */
+static void check_gauges(const struct scene *s, const struct params *p, int n,
+                         const char *const *columns, struct faults *f)
+{
+    for (int k = 0; k < s->nprobes; k++) {
+        int alike = 0;
+        char key[64];
+        for (int i = 0; i < n; i++)
+            alike += is_column(columns[i], s->probes[k].name);
+        snprintf(key, sizeof key, "probes.[%d].name", k);
+        if (alike > 1)
+            params_fault(p, f, key,
+                         "%s: series.csv has a column of this name already: give the "
+                         "gauge another",
+                         s->probes[k].name);
+    }
+}
+
 /* Also finds the name of a column that is nearest to the one asked for, for the message.
  * hint_nearest keeps a pointer to the best word, and `name' is written anew for each column: the
  * word is copied when it leads, and only its distance is kept. */
 void accept_check_columns(const struct scene *s, const struct params *p, int n,
                           const char *const *columns, struct faults *f)
 {
+    check_gauges(s, p, n, columns, f);
     for (int k = 0; k < s->naccept; k++) {
         const struct scene_accept *a = s->accept + k;
         struct hint_nearest near = hint_nearest_start(a->what);

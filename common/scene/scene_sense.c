@@ -109,6 +109,19 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
             across);
 }
 
+/* Of an inflow that nothing is given of. Sides of blocks may take the initial velocity instead. */
+static void check_inflow(const struct scene *s, const struct params *p, struct faults *f, int k)
+{
+    const struct scene_wall *w = s->walls + k;
+    char key[64];
+    snprintf(key, sizeof key, "walls.[%d].velocity", k);
+    if (w->kind == WALL_INFLOW && w->side != SIDE_NONE && !w->has_level && !w->has_discharge &&
+        vec3_length(w->velocity) == 0.0 && !params_given(p, "blocks"))
+        params_fault(p, f, key,
+                     "an inflow of 0 m/s lets nothing in: give it a velocity into the domain%s",
+                     scene_has_surface(s) ? ", a discharge or a level" : "");
+}
+
 static void check_openings(const struct scene *s, const struct params *p, struct faults *f)
 {
     int in = -1;
@@ -132,6 +145,8 @@ static void check_walls(const struct scene *s, const struct params *p, struct fa
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].kind == WALL_NO_SLIP)
             check_pumping(s, p, f, k);
+    for (int k = 0; k < s->nwalls; k++)
+        check_inflow(s, p, f, k);
     check_openings(s, p, f);
 }
 
@@ -271,6 +286,11 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
                 params_fault(p, f, key, "%s is inside body %s: put it on its surface", g->name,
                              s->bodies[b].name);
         }
+        if (strcmp(g->name, "t") == 0 || strcmp(g->name, "dt") == 0)
+            params_fault(p, f, key,
+                         "%s: series.csv has a column of this name already: give the "
+                         "gauge another",
+                         g->name);
         for (int m = 0; m < k; m++)
             if (strcmp(g->name, s->probes[m].name) == 0)
                 params_fault(p, f, key, "%s: a gauge of this name is there already", g->name);

@@ -307,6 +307,12 @@ with tank 's/level = 0.5/level = 0.5; box = ((0, 0), (1, 1))/' 'shapes.\[0\].box
 with channel 's/"outflow"/"outflow"; carried = true/' 'walls.\[1\].carried: is not used: ' sph
 with channel 's/"outflow"/"outflow"; velocity = (1, 0)/' 'walls.\[1\].velocity: is not used: ' sph
 with channel 's/kind = "inflow"/kind = "inflow"; pressure = 3.0/' 'walls.\[0\].pressure: is not used: ' sph
+with channel 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"/' 'walls.\[0\].velocity: an inflow of 0 m/s lets nothing in' sph
+# gauges with the name of another column, criteria of what is not there
+with tank 's/name = "p"/name = "t"/' 'probes.\[0\].*: t: series.csv has a column of this name' sph --check
+with tank 's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/' 'accept.\[0\].what: p is a gauge, .*give a reference' sph --check
+with tank 's/^sph:/accept: ( { what = "body.c.mass"; tolerance = 1.0; } );\n&/' 'accept.\[0\].what: summary.json will have no body.c.mass: no body' sph --check
+with tank 's/^sph:/accept: ( { what = "discharge.p.volume"; tolerance = 1.0; } );\n&/' 'accept.\[0\].what: .* no gauge of kind discharge' sph --check
 # lines
 with tank 's/(1.2, 0.4), (1.2, 0.2)/(1.2, 0.2), (1.2, 0.4)/' 'case.cfg:8: bodies.\[0\].points: at (1, 0.3) m: crosses' sph
 with tank 's/(1.2, 0.4),/(1.2, 0.4), (1.2, 0.4),/' 'bodies.\[0\].points: at (1.2, 0.4) m: .*twice' sph
@@ -642,6 +648,16 @@ if [ $? = 2 ] && grep -q 'accept.*no column kinetic enrgy: did you mean kinetic 
 else
     failed=$((failed + 1))
     echo "FAIL: accept.what that no series has"
+    tail -n 5 out.txt
+fi
+# the columns of a program, too
+sed 's/name = "p"/name = "mass"/' tank.cfg >case.cfg
+"$b/sph" case.cfg -o alike >out.txt 2>&1 </dev/null
+if [ $? = 2 ] && grep -q 'probes.\[0\].name: mass: series.csv has a column of this name' out.txt; then
+    passed=$((passed + 1))
+else
+    failed=$((failed + 1))
+    echo "FAIL: a gauge with the name of another column"
     tail -n 5 out.txt
 fi
 # a coupled job: what all three programs find is printed once; -o is one folder; ranks of a solver alone are one number
