@@ -1,5 +1,5 @@
 #!/bin/sh
-# Water that hangs by suction is told at the start, a U-tube of ten particles an arm is not warned of; figures of a
+# Water that hangs by suction, or that a line cuts off, is told at the start, a U-tube of ten particles an arm is not warned of; figures of a
 # run that water leaves do not depend on where the origin is, and hold no balance that nobody has booked.
 # SPDX-License-Identifier: BSD-3-Clause
 . "$(dirname "$0")/lib.sh"
@@ -26,6 +26,25 @@ grep -q '^warning: .* stands 0.3 m above the level .*suction' siphon.txt || bad 
 tube utube '{ points = ((0.2, 0.2), (0.2, 0.9), (1, 0.9), (1, 0.2)); }' \
     '{ form = "box"; box = ((0, 0), (0.2, 0.5)); }, { form = "box"; box = ((0.2, 0), (1, 0.2)); }, { form = "box"; box = ((1, 0), (1.2, 0.4)); }'
 grep -q '^warning' utube.txt && bad "a U-tube of ten particles is warned of" utube.txt
+
+# a partition that is a line leaves out the water on its right; a beach does not, whose water lies under it
+for line in '(0.2, 1), (0.2, 0)' '(0.7, 0), (1.2, 0.6)'; do
+    cat >parted.cfg <<END
+format = 1;
+time:   { end = 0.001; };
+fluid:  { gravity = (0, -9.81); };
+domain: { max = (1.2, 1); };
+walls:  ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { points = ($line); } );
+shapes: ( { form = "below"; level = 0.4; } );
+sph:    { dx = 0.02; };
+output: { snapshots = false; };
+END
+    start sph parted.txt parted.cfg -o parted --force || bad "parted: exit code $?" parted.txt
+    case $line in
+    *"1), (0.2"*) grep -q '^warning: lines among the walls leave out 1[5-7] %' parted.txt || bad "a partition: no word" parted.txt ;;
+    *) grep -q 'leave out' parted.txt && bad "a beach is taken for a partition" parted.txt ;;
+    esac
+done
 
 # a column that falls out over an edge, and the same 3 m lower
 for low in 0 -3; do
