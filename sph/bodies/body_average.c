@@ -116,6 +116,14 @@ static double carried_pressure(const struct sph *s, const double *q, const doubl
     return s->surface ? fmax(p + rho * more, fmin(p, 0.0)) : p + rho * more;
 }
 
+static bool is_hidden(const struct sph *s, const struct average_node *d, const double *x)
+{
+    double y[2];
+    for (int a = 0; d->joint && a < 2; a++)
+        y[a] = d->x[a] - 1e-3 * s->dx * d->n[a];
+    return d->joint && wall_joint_hides(d->joint, x, y);
+}
+
 /* Particle i, or its image, at x. */
 static void ask_particle(const struct sph *s, int i, const double *x, struct average_node *d)
 {
@@ -132,7 +140,7 @@ static void ask_particle(const struct sph *s, int i, const double *x, struct ave
         away += e[a] * d->n[a];
         un += (u[a] - d->u[a]) * d->n[a];
     }
-    if (away <= 0.0) /* not from the other side of a thin body */
+    if (d->around ? is_hidden(s, d, x) : away <= 0.0) /* not from the other side of a thin body */
         return;
     const double W = q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
     d->said.W += W;

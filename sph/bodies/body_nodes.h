@@ -17,6 +17,8 @@ enum { SAID = sizeof(struct said) / sizeof(double) };
 struct average_node {
     double x[3], n[3], u[3], du[3], area; /* area: 2D length */
     bool no_slip;
+    bool around;                    /* particles behind the plane of the surface count, too, */
+    const struct wall_joint *joint; /* but for those that it hides; NULL: it hides none; borrowed */
     struct said said;
 };
 

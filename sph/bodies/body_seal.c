@@ -1,7 +1,16 @@
-/* body_seal.c - a free body that has rested on something since the start: no particle fits between,
- * yet real faces are rough and water seeps in. So what is dry there and stands closely before what
- * the body rests on gets the pressure of the wet surface around, as of water at rest, and what it
- * rests on the opposite. SPDX-License-Identifier: BSD-3-Clause */
+/* body_seal.c - solids that touch: a free body that has rested on something since the start, and,
+ * found by body_wedge.c, bodies that stay where they are. No particle is in the last spacings of a
+ * wedge or slit between them, yet real faces are rough and water seeps in.
+ *
+ * Of a uniform pressure p a face gets 2 p W_y at its place y from the particles' wall terms, W_y
+ * the kernel sum there. Alone in the fluid a body b has W_y = 1 - b_y (b_y: the kernel's part
+ * behind its own faces), and its surface gets p n, for the integral of (1 - 2 b_y) n over it is 0.
+ * So beside another solid it lacks 2 p (1 - b_y - W_y) n where the kernel reaches behind that one:
+ * what the other keeps out and what no particle is there for. It gets that, and the other the
+ * opposite, with p of the particles around y, or, where these are less than half of what there is
+ * room for, as far as they are missing the pressure of water at rest that has the pressure of the
+ * wet surface around. Between faces that no sharp wedge or slit parts wall_gap.c does the same by
+ * particles. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_seal.h"
 
 #include <math.h>
@@ -11,101 +20,186 @@
 #include "bodies.h"
 #include "body_touch.h"
 
-static const double wet_plane = 0.2, close_by = 1.25, around = 3.0; /* -, dx, dx */
+static const double enough = 0.5, open_share = 0.02; /* - */
+static const double close_by = 3.0;                  /* dx */
 
-static bool rests_on(const struct walls *w, int body, int other)
+const struct sph *seal_level(const struct sph *s, const double *x)
 {
-    const bool first = other < 0 || !w->bodies[other].free || body < other;
-    const int a = first ? body : other, b = first ? other : body;
-    return isfinite(w->start_gap[a][b < 0 ? BODIES_MAX : b]);
+    const struct sph *at = s;
+    for (const struct sph *q = s->finer; q; q = q->finer)
+        if (!q->flows_at || q->flows_at(q, x))
+            at = q;
+    return at;
 }
 
-double seal_wetness(const struct seal_point *p) { return fmin(p->is->said.W / p->full, 1.0); }
-
-/* The point of a node; false: far from all that the body rests on. */
-static bool classify(const struct sph *s, int body, const struct average_node *d,
-                     struct seal_point *to)
+/* Shares of the kernel at a node, a little way into the fluid. false: the others are out of reach,
+ * or lie on it. */
+static bool measure(const struct sph *s, int body, struct seal_point *to)
 {
     const struct walls *w = s->walls;
-    double least = INFINITY, facing = 0.0;
+    const struct sph *at = seal_level(s, to->is.x);
+    double x[3] = {0.0, 0.0, 0.0}, out[3], most = 0.0;
+    bool dry = false;
+    for (int a = 0; a < s->dim; a++)
+        x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
+    to->lack = 1.0 - wall_share(at, body, x);
+    to->room = to->lack;
+    to->narrow = false;
     for (int k = -1; k < w->nbodies; k++) {
-        double out[3];
-        if (k == body || (k >= 0 && !w->bodies[k].free && !w->bodies[body].free) ||
-            !rests_on(w, body, k))
+        const double share = k == body ? 0.0 : wall_share(at, k, x);
+        to->room -= share;
+        if (share > 0.0 && walls_sealed(s, body, k) && (k < 0 || k > body))
+            wall_share_weight(at, k, to->is.x, to->is.n, to->weight);
+        if (k == body || !walls_sealed(s, body, k) || (k >= 0 && k < body)) {
+            to->lack -= share;
             continue;
-        const double r = touch_distance(w, s->dim, k, d->x, around * s->dx, out);
-        if (r >= least)
-            continue;
-        least = r;
-        to->other = k;
-        facing = vec3_dot(out, d->n);
+        }
+        if (share > most) {
+            most = share;
+            to->other = k;
+        }
+        const double r = touch_distance(w, s->dim, k, to->is.x, close_by * at->dx, out);
+        dry = dry || r < walls_shut(w, body, k) * at->dx;
+        to->narrow = to->narrow || (isfinite(r) && vec3_dot(out, to->is.n) > 0.1);
     }
-    to->is = d;
-    to->full = wet_plane;
-    to->sealed = least < close_by * s->dx && facing > 0.1 ? 1.0 - seal_wetness(to) : 0.0;
-    return isfinite(least);
+    to->rim = most < open_share;
+    return most > 1e-6 && !dry;
+}
+
+/* How much a point goes by what is around it itself: the pressure of rows between two faces errs by
+ * some per cent, that of the rim does not; but far from it the water in a slit flows. */
+static void find_far(const struct sph *s, struct seal_point *of, int n)
+{
+    for (int k = 0; k < n; k++) {
+        const double R = seal_level(s, of[k].is.x)->R;
+        double least = INFINITY, e[3];
+        for (int m = 0; m < n; m++)
+            if (of[m].rim) {
+                vec3_from(of[k].is.x, of[m].is.x, e);
+                least = fmin(least, vec3_length(e));
+            }
+        of[k].far = fmax(0.0, fmin(least / R - 2.0, 1.0));
+    }
+}
+
+int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n)
+{
+    struct nodes nodes = body_nodes_lay(s, body);
+    struct seal_point *to = *of;
+    const int first = n;
+    GROW(to, n, n + nodes.n);
+    for (int k = 0; k < nodes.n; k++) {
+        to[n] = (struct seal_point){.is = nodes.node[k], .body = body};
+        to[n].is.around = true;
+        n += measure(s, body, to + n);
+    }
+    find_far(s, to + first, n - first);
+    mem_free(nodes.node);
+    *of = to;
+    return n;
+}
+
+/* Share of the water at a point that particles are there for, 0 to 1. */
+static double wetness(const struct seal_point *p, const struct average_node *d)
+{
+    return fmin(d->said.W / fmax(enough * p->room, 1e-6), 1.0);
+}
+
+static double pressure_at(const struct seal_point *p, const struct average_node *d)
+{
+    const double slack = 0.1 * p->room, W = d->said.W;
+    const double by = p->room + fmax(W - p->room - slack, 0.0) + fmin(W - p->room + slack, 0.0);
+    return d->said.P / fmax(by, fmax(enough * p->room, 1e-6));
 }
 
 /* Pressure of water at rest that has the pressures of the rim, those nearer with more weight; where
  * the rim stands in air there is none. */
-static double seeping_pressure(const struct sph *s, const struct seal_point *of, int n,
-                               const double *x)
+static double seeping_pressure(const struct sph *s, const struct seal_point *of,
+                               const struct nodes *at, const double *x)
 {
     double sum = 0.0, weight = 0.0;
-    for (int k = 0; k < n; k++) {
-        const struct average_node *d = of[k].is;
+    for (int k = 0; k < at->n; k++) {
+        const struct average_node *d = at->node + k;
+        const double wet = wetness(of + k, d);
         double e[3] = {x[0] - d->x[0], x[1] - d->x[1], 0.0};
         e[2] = s->dim == 3 ? x[2] - d->x[2] : 0.0;
-        if (of[k].sealed > 0.0)
+        if (!of[k].rim)
             continue;
         const double r = vec3_length(e) + 0.25 * s->dx, W = d->area / pow(r, 2.0 * s->dim - 2.0);
-        const double p = d->said.P / fmax(d->said.W, of[k].full);
-        sum += W * (p + seal_wetness(of + k) * s->rho0 * vec3_dot(s->gravity, e));
+        sum += W * (pressure_at(of + k, d) + wet * s->rho0 * vec3_dot(s->gravity, e));
         weight += W;
     }
     return weight > 0.0 ? sum / weight : 0.0;
 }
 
-void seal_points_press(struct sph *s, int body, const struct seal_point *of, int n)
+static void press(struct sph *s, const struct seal_point *of, const struct nodes *at, int k)
 {
-    for (int k = 0; k < n; k++) {
-        const struct average_node *d = of[k].is;
-        double f[3], back[3];
-        if (of[k].sealed == 0.0)
-            continue;
-        const double p = of[k].sealed * seeping_pressure(s, of, n, d->x);
-        for (int a = 0; a < 3; a++) {
-            f[a] = p * d->area * d->n[a];
-            back[a] = -f[a];
-        }
-        forces_add(s, body, d->x, f);
-        forces_add(s, of[k].other, d->x, back);
+    const struct average_node *d = at->node + k;
+    const double own = of[k].rim ? 1.0 : of[k].far, dry = 1.0 - own * wetness(of + k, d);
+    double p = own * pressure_at(of + k, d), f[3], back[3];
+    if (dry > 0.0 && !of[k].rim)
+        p += dry * seeping_pressure(s, of, at, d->x);
+    for (int a = 0; a < 3; a++) {
+        f[a] = d->area * (2.0 * (of[k].lack * p - d->said.P) * d->n[a] + s->rho0 * of[k].weight[a]);
+        back[a] = -f[a];
     }
+    forces_add(s, of[k].body, d->x, f);
+    forces_add(s, of[k].other, d->x, back);
 }
 
-static void add_seal(struct sph *s, int body)
+/* The nearest of those whose faces it may be on. */
+static const struct wall_joint *joint_at(const struct sph *s, const double *x)
 {
-    struct nodes nodes = body_nodes_lay(s, body);
-    struct seal_point *of = NEW(struct seal_point, nodes.n);
-    int n = 0;
-    body_nodes_ask(s, &nodes);
-    for (int k = 0; k < nodes.n; k++)
-        n += classify(s, body, nodes.node + k, of + n);
-    if (s->run->rank == 0)
-        seal_points_press(s, body, of, n);
-    mem_free(of);
-    mem_free(nodes.node);
+    const struct wall_joints *j = s->walls->joints;
+    const struct wall_joint *nearest = NULL;
+    double least = 2.0 * s->R;
+    for (int k = 0; j && k < j->n; k++) {
+        const double r = hypot(x[0] - j->of[k].x[0], x[1] - j->of[k].x[1]);
+        if (r < least) {
+            least = r;
+            nearest = j->of + k;
+        }
+    }
+    return nearest;
+}
+
+void seal_points_press(struct sph *s, const struct seal_point *of, int n)
+{
+    struct nodes at = {.n = n, .node = NEW(struct average_node, n)};
+    for (int k = 0; k < n; k++) {
+        at.node[k] = of[k].is;
+        at.node[k].joint = joint_at(s, of[k].is.x);
+    }
+    body_nodes_ask(s, &at);
+    for (int k = 0; k < n && s->run->rank == 0; k++)
+        press(s, of, &at, k);
+    mem_free(at.node);
+}
+
+bool seals_mark(struct walls *w, int body)
+{
+    bool any = false;
+    for (int k = body; k <= BODIES_MAX; k++) {
+        const bool first = k == BODIES_MAX || !w->bodies[k].free || w->bodies[body].free;
+        const double gap = first ? w->start_gap[body][k] : w->start_gap[k][body];
+        const bool other = k == BODIES_MAX || (k < w->nbodies && k != body);
+        if (!other || !(w->bodies[body].free || (k < w->nbodies && w->bodies[k].free)))
+            continue;
+        w->sealed[body][k] = w->sealed[k][body] = isfinite(gap);
+        any = any || isfinite(gap);
+    }
+    return any;
 }
 
 void body_seals_add(struct sph *s)
 {
-    const struct walls *w = s->walls;
-    for (int k = 0; w && k < w->nbodies; k++) {
-        bool any = false;
-        for (int m = -1; m < w->nbodies && w->bodies[k].free; m++)
-            any = any || (m != k && rests_on(w, k, m));
-        if (any)
-            add_seal(s, k);
+    struct walls *w = s->walls;
+    for (int k = 0; w && w->any_free && k < w->nbodies; k++) {
+        struct seal_point *of = NULL;
+        const int n = seals_mark(w, k) ? seal_points_add(s, k, &of, 0) : 0;
+        if (n > 0)
+            seal_points_press(s, of, n);
+        mem_free(of);
     }
     if (w)
         body_wedges_add(s);

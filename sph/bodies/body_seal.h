@@ -1,24 +1,33 @@
-/* body_seal.h - water where solids stand so close, or in so sharp a wedge, that no particle gets
- * there: it is wet all the same, and its pressure is that of the water around.
+/* body_seal.h - what the faces of two solids owe each other that stand so close, or in so sharp a
+ * wedge, that no particle gets between: see body_seal.c.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BODY_SEAL_H
 #define SPH_BODY_SEAL_H
 
 #include "body_nodes.h"
 
-/* A point of a body's surface close before what it rests on, or stands beside. */
+/* A point of a body's surface whose kernel reaches behind the faces of another solid. */
 struct seal_point {
-    const struct average_node *is;
-    int other;     /* body, -1: walls at rest */
-    double full;   /* -: said.W where the water is whole */
-    double sealed; /* -: part of the pressure that no particle gives; 0: of the wet rim */
+    struct average_node is;
+    int body, other;  /* the body; body or -1: walls at rest */
+    bool narrow;      /* the other faces it, closer than a few spacings */
+    bool rim;         /* the other hardly matters there */
+    double far;       /* -: 0 near the rim, 1 far from it */
+    double lack;      /* -: the kernel's part that is not behind the body */
+    double room;      /* -: of that, the part before both */
+    double weight[3]; /* m^2/s^2: wall_share_weight */
 };
 
-/* Share of the water at a point that particles are there for, 0 to 1. */
-double seal_wetness(const struct seal_point *p);
-/* Presses the points of a body that are sealed with what the others say, and what is before them
- * with the opposite. On rank 0. */
-void seal_points_press(struct sph *s, int body, const struct seal_point *of, int n);
+/* Level of refinement that flows at x. */
+const struct sph *seal_level(const struct sph *s, const double *x);
+/* Marks what free bodies rest on since the start as sealed; returns whether that is anything of
+ * this body. */
+bool seals_mark(struct walls *w, int body);
+/* The points of a body that face others with which it is sealed (walls->sealed), of two bodies
+ * those of the first alone; appended to *of[n], owned by the caller; returns the new n. */
+int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n);
+/* Presses the points [n] of one body, and their others with the opposite. Collective. */
+void seal_points_press(struct sph *s, const struct seal_point *of, int n);
 
 /* body_wedge.c: what body_seals_add has to add in a stage for bodies that stay where they are.
  * Needs prim. Collective. */

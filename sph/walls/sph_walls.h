@@ -6,6 +6,8 @@
 #include "forces.h"
 #include "wall_cover.h"
 #include "wall_ends.h"
+#include "wall_joint.h"
+#include "wall_share.h"
 #include "wall_thin.h"
 #include "walls.h"
 

@@ -121,7 +121,8 @@ static void exchange_at(const struct sph *s, struct wall_list *l, int k, int j, 
     const double factor = 0.5 * part * share_of_face(t, gamma) / fmax(gamma, least_gamma);
     for (int m = 0; m < n && factor > 0.0; m++, o++) {
         double f, back[3];
-        if (o->body == t->body || share[m] == 0.0 || is_thin(s, o))
+        if (o->body == t->body || share[m] == 0.0 || is_thin(s, o) ||
+            walls_sealed(s, t->body, o->body))
             continue;
         f = factor * share[m] * of_angle(s, t, o);
         for (int a = 0; a < s->dim; a++) {

@@ -205,6 +205,7 @@ static void build(const struct sph *s, struct wall_list *l)
     l->n = 0;
     l->ncuts = 0;
     wall_joints_find(s, &l->joints);
+    s->walls->joints = &l->joints;
     wall_list_room(l, 0);
     for (int i = 0; i < s->p.n; i++) {
         const double *x = prim_line(&s->p, i);
@@ -345,10 +346,12 @@ static int owner_of(const struct walls *w, const struct wall_touch *t, int dim)
 /* Whether one is the back of the other, which lies on it. */
 static bool lies_on(const struct sph *s, const struct wall_touch *t, const struct wall_touch *o)
 {
+    const int of = owner_of(s->walls, t, s->dim), on = owner_of(s->walls, o, s->dim);
+    const double near = (walls_sealed(s, of, on) ? walls_shut(s->walls, of, on) : 0.1) * s->dx;
     double turn = 0.0;
     for (int a = 0; a < s->dim; a++)
         turn += t->n[a] * o->n[a];
-    return o->height > 0.0 && turn < -0.99 && fabs(t->height + o->height) < 0.1 * s->dx;
+    return o->height > 0.0 && turn < -0.99 && fabs(t->height + o->height) < near;
 }
 
 /* A face that stands on that of another owner is seen from behind by the fluid beside it, and the

@@ -97,7 +97,8 @@ struct wall_forces {
     bool credited, known;                 /* the model reports forces; a step has been completed */
 };
 
-struct wedge_point;
+struct seal_point;
+struct wall_joints;
 /* All walls of a run; made by walls_create. */
 struct walls {
     int nsegments;
@@ -128,8 +129,12 @@ struct walls {
                                                      at rest; 0: apart */
     double start_gap[BODIES_MAX][BODIES_MAX + 1]; /* m: contact of a pair that has not parted since
                                                      the start begins here; INFINITY: it has */
+    /* Of two owners, last walls at rest: what their faces owe each other is body_seal.c's, not
+     * wall_gap.c's. */
+    bool sealed[BODIES_MAX + 1][BODIES_MAX + 1];
+    const struct wall_joints *joints; /* of the present list of the model; NULL: it has none */
     int nwedges;
-    struct wedge_point *wedge; /* body_wedge.c: where bodies that stay stand too close for water */
+    struct seal_point *wedge; /* body_wedge.c: where bodies that stay stand too close for water */
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */
@@ -209,6 +214,19 @@ void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const 
  * none. Of two equally near ones it is the one whose side is known. */
 struct tree_foot wall_meshes_nearest(const struct walls *w, const double *x, double reach,
                                      int *mesh);
+/* Whether body_seal.c knows what the faces of two owners owe each other, on all levels. */
+static inline bool walls_sealed(const struct sph *s, int a, int b)
+{
+    while (s->coarser)
+        s = s->coarser;
+    return s->walls->sealed[a < 0 ? BODIES_MAX : a][b < 0 ? BODIES_MAX : b];
+}
+/* dx: faces of two sealed owners closer than this are dry; of a free body, which may be lifted or
+ * pressed in by its weight, none are. */
+static inline double walls_shut(const struct walls *w, int a, int b)
+{
+    return (a >= 0 && w->bodies[a].free) || (b >= 0 && w->bodies[b].free) ? -INFINITY : 0.001;
+}
 /* Coordinate of the centre of a body now, m. */
 static inline double body_centre(const struct body *b, int axis)
 {

@@ -322,13 +322,58 @@ def polygon_floor(rng):
     return s
 
 
+def leant(rng, n, r, walls):
+    """Corners of a regular polygon about its middle, turned so that it stands on a corner: no face makes less than
+    4.4 degrees with any of these directions (1: a floor, 2: a side, too)."""
+    least = math.radians(4.4)
+    for _ in range(1000):
+        turn = rng.uniform(0, 2 * math.pi / n)
+        faces = [(turn + 2 * math.pi * (k + 0.5) / n + 0.5 * math.pi) % (math.pi / walls) for k in range(n)]
+        if all(least <= f <= math.pi / walls - least for f in faces):
+            break
+    else:
+        turn = 0.5 * math.pi
+    return [(r * math.cos(turn - 2 * math.pi * k / n), r * math.sin(turn - 2 * math.pi * k / n)) for k in range(n)]
+
+
+def stand(s, name, points, x, y):
+    """A polygon whose middle (None: whose lowest, leftmost corner) comes to x and y."""
+    dx = -min(p[0] for p in points) if x is None else x
+    dy = -min(p[1] for p in points) if y is None else y
+    points = [(a + dx, b + dy) for a, b in points]
+    n = len(points)
+    area = abs(0.5 * sum(points[i][0] * points[(i + 1) % n][1] - points[(i + 1) % n][0] * points[i][1] for i in range(n)))
+    s.bodies.append({"name": name, "points": points, "more": ""})
+    p = 1000 * G * (s.level - dy) * (max(q[1] for q in points) - min(q[1] for q in points))
+    s.laws.setdefault("solids", []).append((name, area, [p, p]))
+    return points
+
+
 def wedge_floor(rng):
-    """A corner of a triangle or a square stands on the floor, with wedges of 40 to 70 degrees beside it."""
+    """A corner of a body stands on the floor, the side, or in the corner of both, with wedges of 4 to 70 degrees."""
     s = tank2(rng, "sides", wide=(32, 40), deep=(20, 26))
-    n = rng.choice([3, 4])
-    r, turn = rng.uniform(4.5, 6) * s.dx, math.radians(rng.uniform(-5, 5))
-    s.polygon("b", (0.5 * s.hi[0], r * math.cos(turn)), r, n, turn - 0.5 * math.pi)
-    s.gauges([0.25 * (s.hi[0] - 2 * r)])
+    n, r, where = rng.choice([3, 4, 5, 6, 40]), rng.uniform(4.5, 6) * s.dx, rng.choice(["floor", "floor", "side", "corner"])
+    if n in (4, 40) and where == "corner":  # stands on a face, or on both
+        where = "side"
+    points = leant(rng, n, r, 2 if where == "corner" else 1)
+    if where == "side":
+        points = [(y, -x) for x, y in points]
+    stand(s, "b", points, 0.5 * s.hi[0] if where == "floor" else None, 0.5 * s.depth if where == "side" else None)
+    s.gauges([s.hi[0] - 5 * s.dx])
+    return s
+
+
+def wedge_body(rng):
+    """A corner of a body stands on the face of another that stands free in the water."""
+    s = tank2(rng, "sides", wide=(32, 40), deep=(24, 28))
+    n, r = rng.choice([3, 4, 5, 6, 40]), rng.uniform(4.5, 5) * s.dx
+    w, y = rng.uniform(8, 12) * s.dx, 5 * s.dx
+    x = 0.5 * (s.hi[0] - w)
+    s.block("c", [x, y], [x + w, y + 5 * s.dx])
+    points = leant(rng, n, r, 1)
+    low = min(points, key=lambda p: p[1])
+    stand(s, "b", points, x + 0.5 * w - low[0], y + 5 * s.dx - low[1])
+    s.gauges([s.hi[0] - 5 * s.dx])
     return s
 
 
@@ -699,7 +744,8 @@ PAIRS = [
     ("body-period", "body x period", 2, body_period),
     ("body-body", "body x body", 2, body_body),
     ("polygon-floor", "body with edges at any angle x floor", 2, polygon_floor),
-    ("wedge-floor", "corner of a body on the floor, with wedges of water beside it", 0, wedge_floor),
+    ("wedge-floor", "corner of a body on the floor, a side or both, with wedges of water beside it", 0, wedge_floor),
+    ("wedge-body", "corner of a body on another", 0, wedge_body),
     ("body-surface", "body x free surface", 1, body_surface),
     ("body-lid", "top of a body x free surface", 1, body_lid),
     ("body-edge", "body x level edge", 1, body_level_edge),

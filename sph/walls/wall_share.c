@@ -1,0 +1,114 @@
+/* wall_share.c - see wall_share.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "wall_share.h"
+
+#include <math.h>
+
+#include "../../common/base/base.h"
+#include "facet.h"
+#include "wall_moments.h"
+
+static double share_of_segments(const struct sph *s, int body, const double *x)
+{
+    const struct walls *w = s->walls;
+    double sum = 0.0;
+    for (int k = 0; k < w->nsegments; k++) {
+        const struct segment *g = w->segments + k;
+        const double d[2] = {(g->a[0] - x[0]) / s->R, (g->a[1] - x[1]) / s->R};
+        const double height = g->n[0] * d[0] + g->n[1] * d[1];
+        const double from = g->t[0] * d[0] + g->t[1] * d[1];
+        if (g->body == body && fabs(height) < 1.0)
+            sum -= wall_moments(height, from, from + g->length / s->R).gamma;
+    }
+    return sum;
+}
+
+static double share_of_mesh(const struct wall_mesh *m, double R, const double *x)
+{
+    double own[3], lo[3], hi[3];
+    struct wall_integrals sum = {0};
+    struct facet_batch batch; /* 20 KB: not cleared */
+    batch.n = 0;
+    wall_mesh_to_own(m, x, own);
+    for (int a = 0; a < 3; a++) {
+        lo[a] = own[a] - R;
+        hi[a] = own[a] + R;
+    }
+    const int n = tree_box(m->tree, lo, hi, 0, NULL);
+    int *near = NEW(int, n + 1);
+    struct facet *facet = NEW(struct facet, n + 1);
+    tree_box(m->tree, lo, hi, n, near);
+    for (int k = 0; k < n; k++) {
+        const int *v = m->mesh.vertex[near[k]];
+        facet[k] = facet_of(m->mesh.x[v[0]], m->mesh.x[v[1]], m->mesh.x[v[2]]);
+        facet_ask(&batch, facet + k, own, R, &sum);
+    }
+    facet_finish(&batch);
+    mem_free(near);
+    mem_free(facet);
+    return -sum.gamma;
+}
+
+/* --- the weight --- */
+
+/* Of a place q, in R, from a node: 1/R int_r^R W s ds R^2, whose slope is - W times the way, */
+static double ring_of(double q) { return q < 1.0 ? wall_ring(q) : 0.0; }
+
+/* and of that over s once more, whose divergence of the slope is W. */
+static double potential_of(double q)
+{
+    const double q2 = q * q, q4 = q2 * q2;
+    if (q >= 1.0)
+        return 0.0;
+    return 7.0 / M_PI *
+           (-log(q) / 14.0 - (1.0 - q2) / 4.0 + 0.625 * (1.0 - q4) - 0.8 * (1.0 - q4 * q) +
+            (1.0 - q4 * q2) * 2.5 / 6.0 - (1.0 - q4 * q2 * q) * 4.0 / 49.0);
+}
+
+/* Integrals of both along a line at the height h from the node, from its foot to the place `to', in
+ * R; by points that crowd at the foot, where the second has a logarithm. */
+static void add_to(double h, double to, double sign, double sums[2])
+{
+    enum { POINTS = 5 };
+    static const double at[POINTS] = {0.0469100770306680, 0.2307653449471585, 0.5,
+                                      0.7692346550528415, 0.9530899229693320};
+    static const double gauss[POINTS] = {0.1184634425280945, 0.2393143352496832, 0.2844444444444444,
+                                         0.2393143352496832, 0.1184634425280945};
+    const double reach = sqrt(fmax(1.0 - h * h, 0.0)), end = fmax(-reach, fmin(to, reach));
+    for (int half = 0; half < 2; half++)
+        for (int k = 0; k < POINTS; k++) {
+            const double u = 0.5 * (half + at[k]), q = hypot(h, end * u * u);
+            const double weight = sign * gauss[k] * u * end;
+            sums[0] += weight * ring_of(q);
+            sums[1] += weight * potential_of(fmax(q, 1e-9));
+        }
+}
+
+void wall_share_weight(const struct sph *s, int body, const double *x, const double *n,
+                       double out[3])
+{
+    const struct walls *w = s->walls;
+    for (int k = 0; k < w->nsegments && s->dim == 2; k++) {
+        const struct segment *g = w->segments + k;
+        const double d[2] = {(g->a[0] - x[0]) / s->R, (g->a[1] - x[1]) / s->R};
+        const double height = g->n[0] * d[0] + g->n[1] * d[1];
+        const double from = g->t[0] * d[0] + g->t[1] * d[1];
+        double sums[2] = {0.0, 0.0};
+        if (g->body != body || fabs(height) >= 1.0)
+            continue;
+        add_to(height, from + g->length / s->R, 1.0, sums);
+        add_to(height, from, -1.0, sums);
+        const double down = g->n[0] * s->gravity[0] + g->n[1] * s->gravity[1];
+        const double turn = g->n[0] * n[0] + g->n[1] * n[1];
+        for (int a = 0; a < 2; a++)
+            out[a] += s->R * (n[a] * down * sums[0] - turn * s->gravity[a] * sums[1]);
+    }
+}
+
+double wall_share(const struct sph *s, int body, const double *x)
+{
+    double sum = s->dim == 2 ? share_of_segments(s, body, x) : 0.0;
+    for (int k = 0; k < s->walls->nmeshes; k++)
+        if (s->walls->meshes[k].body == body && !s->walls->meshes[k].thin)
+            sum += share_of_mesh(s->walls->meshes + k, s->R, x);
+    return sum < -1e-6 ? sum + 1.0 : sum;
+}
