@@ -21,7 +21,7 @@
 #include "body_touch.h"
 
 static const double enough = 0.5, open_share = 0.02; /* - */
-static const double close_by = 3.0;                  /* dx */
+static const double close_by = 3.0, flat = 0.9995;   /* dx; -: faces that lie on each other */
 
 const struct sph *seal_level(const struct sph *s, const double *x)
 {
@@ -59,7 +59,7 @@ static bool measure(const struct sph *s, int body, struct seal_point *to)
             to->other = k;
         }
         const double r = touch_distance(w, s->dim, k, to->is.x, close_by * at->dx, out);
-        dry = dry || r < walls_shut(w, body, k) * at->dx;
+        dry = dry || (r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat);
         to->narrow = to->narrow || (isfinite(r) && vec3_dot(out, to->is.n) > 0.1);
     }
     to->rim = most < open_share;

@@ -54,14 +54,6 @@ static int find_rays(const struct walls *w, const double *x, double near, struct
     return n;
 }
 
-static bool has_piece(const struct wall_joint *j, int piece)
-{
-    for (int k = 0; k < j->nfaces; k++)
-        if (j->face[k].piece == piece)
-            return true;
-    return false;
-}
-
 static void add_face(const struct walls *w, struct wall_joint *j, int piece, int fluid, double from,
                      double to)
 {
@@ -87,23 +79,55 @@ static int next_piece(const struct walls *w, int piece, bool on, double near)
     return -1;
 }
 
+/* Walks along the walls from a ray on: a piece with the part of it that lies ahead. */
+struct walk {
+    int piece;
+    double from, to, ahead; /* m along the piece; length so far, with this part */
+};
+
+static struct walk walk_from(const struct ray *r)
+{
+    return (struct walk){r->piece, r->from, r->to, r->to - r->from};
+}
+
+static void walk_on(const struct walls *w, struct walk *at, bool on, double near)
+{
+    at->piece = next_piece(w, at->piece, on, near);
+    at->from = 0.0;
+    at->to = at->piece >= 0 ? w->segments[at->piece].length : 0.0;
+    at->ahead += at->to;
+}
+
+/* How far the faces of a fluid go along a wall from a ray on, m: half of the way round a solid, for
+ * from there on they are those of the fluid on its other side. */
+static double half_way(const struct walls *w, const struct wall_joint *j, const struct ray *r,
+                       double near)
+{
+    struct walk at = walk_from(r);
+    for (int k = 0; k < w->nsegments && at.piece >= 0; k++) {
+        const struct segment *g = w->segments + at.piece;
+        double along;
+        if (k > 0 && distance_to(g, j->x, &along) < near)
+            return 0.5 * (at.ahead - g->length + (r->on ? along : g->length - along));
+        walk_on(w, &at, r->on, near);
+    }
+    return INFINITY;
+}
+
 /* The faces of a fluid from a ray on. */
 static void follow_ray(const struct walls *w, struct wall_joint *j, const struct ray *r, int fluid,
                        double near, double reach)
 {
-    double from = r->from, to = r->to;
-    int piece = r->piece;
-    while (piece >= 0 && j->nfaces < JOINT_FACES) {
-        const struct segment *g = w->segments + piece;
-        const double *end = r->on ? g->b : g->a;
-        add_face(w, j, piece, fluid, from, to);
-        if (hypot(end[0] - j->x[0], end[1] - j->x[1]) > reach)
+    const double most = half_way(w, j, r, near);
+    struct walk at = walk_from(r);
+    while (at.piece >= 0 && j->nfaces < JOINT_FACES) {
+        const struct segment *g = w->segments + at.piece;
+        const double *end = r->on ? g->b : g->a, over = fmax(0.0, at.ahead - most);
+        add_face(w, j, at.piece, fluid, at.from + (r->on ? 0.0 : over),
+                 at.to - (r->on ? over : 0.0));
+        if (over > 0.0 || hypot(end[0] - j->x[0], end[1] - j->x[1]) > reach)
             return;
-        piece = next_piece(w, piece, r->on, near);
-        if (piece >= 0 && has_piece(j, piece))
-            return;
-        from = 0.0;
-        to = piece >= 0 ? w->segments[piece].length : 0.0;
+        walk_on(w, &at, r->on, near);
     }
 }
 

@@ -15,7 +15,7 @@ struct joint_face {
     double from, to;   /* m along the segment */
 };
 
-enum { JOINT_FACES = 32, JOINT_MEETS = 4 };
+enum { JOINT_FACES = 128, JOINT_MEETS = 4 };
 
 /* One such point with the faces that leave it, fluid by fluid. Round a small body two fluids may
  * meet again, where the faces of one go on as those of the other. */
