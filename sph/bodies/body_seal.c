@@ -112,12 +112,18 @@ static double pressure_at(const struct seal_point *p, const struct average_node 
     return d->said.P / fmax(by, fmax(enough * p->room, 1e-6));
 }
 
-/* Pressure of water at rest that has the pressures of the rim, those nearer with more weight; where
- * the rim stands in air there is none. */
-static double seeping_pressure(const struct sph *s, const struct seal_point *of,
-                               const struct nodes *at, const double *x)
+/* The water at a place: pressure, and how wet it is there, from 0 in air to 1. */
+struct seep {
+    double p, wet; /* Pa; - */
+};
+
+/* At rest, with the pressures of the rim, those nearer with more weight; where the rim stands in
+ * air there is none. */
+static struct seep seep_from_rim(const struct sph *s, const struct seal_point *of,
+                                 const struct nodes *at, const double *x)
 {
-    double sum = 0.0, weight = 0.0;
+    struct seep sum = {0.0, 0.0};
+    double weight = 0.0;
     for (int k = 0; k < at->n; k++) {
         const struct average_node *d = at->node + k;
         const double wet = wetness(of + k, d);
@@ -126,21 +132,27 @@ static double seeping_pressure(const struct sph *s, const struct seal_point *of,
         if (!of[k].rim)
             continue;
         const double r = vec3_length(e) + 0.25 * s->dx, W = d->area / pow(r, 2.0 * s->dim - 2.0);
-        sum += W * (pressure_at(of + k, d) + wet * s->rho0 * vec3_dot(s->gravity, e));
+        sum.p += W * (pressure_at(of + k, d) + wet * s->rho0 * vec3_dot(s->gravity, e));
+        sum.wet += W * wet;
         weight += W;
     }
-    return weight > 0.0 ? sum / weight : 0.0;
+    return weight > 0.0 ? (struct seep){sum.p / weight, sum.wet / weight} : sum;
 }
 
 static void press(struct sph *s, const struct seal_point *of, const struct nodes *at, int k)
 {
     const struct average_node *d = at->node + k;
-    const double own = of[k].rim ? 1.0 : of[k].far, dry = 1.0 - own * wetness(of + k, d);
-    double p = own * pressure_at(of + k, d), f[3], back[3];
-    if (dry > 0.0 && !of[k].rim)
-        p += dry * seeping_pressure(s, of, at, d->x);
+    const double own = of[k].rim ? 1.0 : of[k].far, wet = wetness(of + k, d), dry = 1.0 - own * wet;
+    struct seep is = {own * pressure_at(of + k, d), own * wet};
+    double f[3], back[3];
+    if (dry > 0.0 && !of[k].rim) {
+        const struct seep rim = seep_from_rim(s, of, at, d->x);
+        is.p += dry * rim.p;
+        is.wet += dry * rim.wet;
+    }
     for (int a = 0; a < 3; a++) {
-        f[a] = d->area * (2.0 * (of[k].lack * p - d->said.P) * d->n[a] + s->rho0 * of[k].weight[a]);
+        f[a] = d->area * (2.0 * (of[k].lack * is.p - d->said.P) * d->n[a] +
+                          is.wet * s->rho0 * of[k].weight[a]);
         back[a] = -f[a];
     }
     forces_add(s, of[k].body, d->x, f);
