@@ -14,6 +14,7 @@
 #include "body_seal.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "../../common/base/base.h"
 #include "../walls/sph_walls.h"
@@ -76,9 +77,9 @@ static void find_far(const struct sph *s, struct seal_point *of, int n)
         for (int m = 0; m < n; m++)
             if (of[m].rim) {
                 vec3_from(of[k].is.x, of[m].is.x, e);
-                least = fmin(least, vec3_length(e));
+                least = fmin(least, vec3_dot(e, e));
             }
-        of[k].far = fmax(0.0, fmin(least / R - 2.0, 1.0));
+        of[k].far = fmax(0.0, fmin(sqrt(least) / R - 2.0, 1.0));
     }
 }
 
@@ -117,46 +118,62 @@ struct seep {
     double p, wet; /* Pa; - */
 };
 
-/* At rest, with the pressures of the rim, those nearer with more weight; where the rim stands in
- * air there is none. */
-static struct seep seep_from_rim(const struct sph *s, const struct seal_point *of,
-                                 const struct nodes *at, const double *x)
+/* Of the wet surface around: place, weight, water there. */
+struct rim {
+    double x[3], area;
+    struct seep is;
+};
+
+static int find_rim(const struct seal_point *of, const struct nodes *at, struct rim *rim)
 {
-    struct seep sum = {0.0, 0.0};
-    double weight = 0.0;
+    int n = 0;
     for (int k = 0; k < at->n; k++) {
         const struct average_node *d = at->node + k;
-        const double wet = wetness(of + k, d);
-        double e[3] = {x[0] - d->x[0], x[1] - d->x[1], 0.0};
-        e[2] = s->dim == 3 ? x[2] - d->x[2] : 0.0;
-        if (!of[k].rim)
-            continue;
-        const double r = vec3_length(e) + 0.25 * s->dx, W = d->area / pow(r, 2.0 * s->dim - 2.0);
-        sum.p += W * (pressure_at(of + k, d) + wet * s->rho0 * vec3_dot(s->gravity, e));
-        sum.wet += W * wet;
+        if (of[k].rim)
+            rim[n++] = (struct rim){.x = {d->x[0], d->x[1], d->x[2]},
+                                    .area = d->area,
+                                    .is = {pressure_at(of + k, d), wetness(of + k, d)}};
+    }
+    return n;
+}
+
+/* At rest, with the pressures of the rim, those nearer with more weight; where the rim stands in
+ * air there is none. */
+static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int n, const double *x)
+{
+    const double near = 0.0625 * s->dx * s->dx, *g = s->gravity;
+    struct seep sum = {0.0, 0.0};
+    double weight = 0.0;
+    for (int k = 0; k < n; k++) {
+        const struct rim *r = rim + k;
+        const double e[3] = {x[0] - r->x[0], x[1] - r->x[1], s->dim == 3 ? x[2] - r->x[2] : 0.0};
+        const double r2 = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + near;
+        const double W = r->area / (s->dim == 3 ? r2 * r2 : r2);
+        sum.p += W * (r->is.p + r->is.wet * s->rho0 * (g[0] * e[0] + g[1] * e[1] + g[2] * e[2]));
+        sum.wet += W * r->is.wet;
         weight += W;
     }
     return weight > 0.0 ? (struct seep){sum.p / weight, sum.wet / weight} : sum;
 }
 
-static void press(struct sph *s, const struct seal_point *of, const struct nodes *at, int k)
+static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
+                  const struct rim *rim, int nrim)
 {
-    const struct average_node *d = at->node + k;
-    const double own = of[k].rim ? 1.0 : of[k].far, wet = wetness(of + k, d), dry = 1.0 - own * wet;
-    struct seep is = {own * pressure_at(of + k, d), own * wet};
+    const double own = p->rim ? 1.0 : p->far, wet = wetness(p, d), dry = 1.0 - own * wet;
+    struct seep is = {own * pressure_at(p, d), own * wet};
     double f[3], back[3];
-    if (dry > 0.0 && !of[k].rim) {
-        const struct seep rim = seep_from_rim(s, of, at, d->x);
-        is.p += dry * rim.p;
-        is.wet += dry * rim.wet;
+    if (dry > 0.0 && !p->rim) {
+        const struct seep seeps = seep_from_rim(s, rim, nrim, d->x);
+        is.p += dry * seeps.p;
+        is.wet += dry * seeps.wet;
     }
     for (int a = 0; a < 3; a++) {
-        f[a] = d->area * (2.0 * (of[k].lack * is.p - d->said.P) * d->n[a] +
-                          is.wet * s->rho0 * of[k].weight[a]);
+        f[a] = d->area *
+               (2.0 * (p->lack * is.p - d->said.P) * d->n[a] + is.wet * s->rho0 * p->weight[a]);
         back[a] = -f[a];
     }
-    forces_add(s, of[k].body, d->x, f);
-    forces_add(s, of[k].other, d->x, back);
+    forces_add(s, p->body, d->x, f);
+    forces_add(s, p->other, d->x, back);
 }
 
 /* The nearest of those whose faces it may be on. */
@@ -183,8 +200,13 @@ void seal_points_press(struct sph *s, const struct seal_point *of, int n)
         at.node[k].joint = joint_at(s, of[k].is.x);
     }
     body_nodes_ask(s, &at);
-    for (int k = 0; k < n && s->run->rank == 0; k++)
-        press(s, of, &at, k);
+    if (s->run->rank == 0) {
+        struct rim *rim = NEW(struct rim, n);
+        const int nrim = find_rim(of, &at, rim);
+        for (int k = 0; k < n; k++)
+            press(s, of + k, at.node + k, rim, nrim);
+        mem_free(rim);
+    }
     mem_free(at.node);
 }
 
@@ -203,15 +225,64 @@ bool seals_mark(struct walls *w, int body)
     return any;
 }
 
+/* The points of a free body, measured where all bodies were `at' the time, m: three material points
+ * of each. */
+struct seal_rest {
+    double at[BODIES_MAX][3][3];
+    int n;
+    struct seal_point of[];
+};
+
+static void find_places(const struct walls *w, double (*at)[3][3])
+{
+    for (int k = 0; k < w->nbodies; k++)
+        for (int a = 0; a < 3; a++) {
+            const struct body *b = w->bodies + k;
+            double x[3] = {b->centre[0], b->centre[1], b->centre[2]};
+            x[a] += a < b->dim ? b->reach : 0.0;
+            at[k][a][2] = 0.0;
+            body_place(b, x, at[k][a]);
+        }
+}
+
+/* Whether nothing has moved since by more than 0.02 dx. In 2D measuring is cheap, and a run that
+ * begins at a restart file has the same bits. */
+static bool is_as_measured(const struct sph *s, const struct seal_rest *rest)
+{
+    double now[BODIES_MAX][3][3], e[3], most = 0.0;
+    find_places(s->walls, now);
+    for (int k = 0; k < s->walls->nbodies; k++)
+        for (int a = 0; a < 3; a++) {
+            vec3_from(rest->at[k][a], now[k][a], e);
+            most = fmax(most, vec3_length(e));
+        }
+    return s->dim == 3 && most < 0.02 * s->dx;
+}
+
+static const struct seal_rest *rest_of(const struct sph *s, int body)
+{
+    struct walls *w = s->walls;
+    struct seal_point *of = NULL;
+    if (w->rest[body] && is_as_measured(s, w->rest[body]))
+        return w->rest[body];
+    mem_free(w->rest[body]);
+    const int n = seal_points_add(s, body, &of, 0);
+    struct seal_rest *to = mem_new(1, sizeof *to + (size_t)n * sizeof *of);
+    find_places(w, to->at);
+    to->n = n;
+    if (n > 0)
+        memcpy(to->of, of, (size_t)n * sizeof *of);
+    mem_free(of);
+    return w->rest[body] = to;
+}
+
 void body_seals_add(struct sph *s)
 {
     struct walls *w = s->walls;
     for (int k = 0; w && w->any_free && k < w->nbodies; k++) {
-        struct seal_point *of = NULL;
-        const int n = seals_mark(w, k) ? seal_points_add(s, k, &of, 0) : 0;
-        if (n > 0)
-            seal_points_press(s, of, n);
-        mem_free(of);
+        const struct seal_rest *rest = seals_mark(w, k) ? rest_of(s, k) : NULL;
+        if (rest && rest->n > 0)
+            seal_points_press(s, rest->of, rest->n);
     }
     if (w)
         body_wedges_add(s);

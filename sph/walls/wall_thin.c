@@ -143,7 +143,8 @@ static double way(const struct faces *f, const struct thin_face *g, double s,
 }
 
 /* Two faces that run together to a point are a corner, however sharp: the way round it is what the
- * angle says. Nor is it a wall where the way round is as short as across. */
+ * angle says. Nor is it a wall where the way round is as short as across. Pieces that touch in a
+ * wedge that opens to 4 degrees or more, seen from its tip, are one, too: a disc on the floor. */
 static bool is_corner(const struct faces *f, const struct thin_face *g, double s,
                       const struct thin_face *h, double width)
 {
@@ -152,7 +153,8 @@ static bool is_corner(const struct faces *f, const struct thin_face *g, double s
     const double round = way(f, g, s, h, r);
     const double cosine = -(g->n[0] * h->n[0] + g->n[1] * h->n[1]);
     const double sine = fabs(g->n[0] * h->n[1] - g->n[1] * h->n[0]);
-    return round < 3.0 * width ||
+    const bool opens = g->piece != h->piece && width > 0.034 * round; /* 4 degrees */
+    return opens || round < 3.0 * width ||
            (sine > 0.08 && round < 1.5 * width * (1.0 + cosine) / sine); /* 5 degrees */
 }
 

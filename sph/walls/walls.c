@@ -608,6 +608,8 @@ void walls_free(struct walls **w)
     wall_meshes_free(*w);
     mem_free((*w)->beside);
     mem_free((*w)->wedge);
+    for (int k = 0; k < BODIES_MAX; k++)
+        mem_free((*w)->rest[k]);
     mem_free((*w)->segments);
     mem_free((*w)->start);
     mem_free(*w);

@@ -98,6 +98,7 @@ struct wall_forces {
 };
 
 struct seal_point;
+struct seal_rest;
 struct wall_joints;
 /* All walls of a run; made by walls_create. */
 struct walls {
@@ -135,6 +136,7 @@ struct walls {
     const struct wall_joints *joints; /* of the present list of the model; NULL: it has none */
     int nwedges;
     struct seal_point *wedge; /* body_wedge.c: where bodies that stay stand too close for water */
+    struct seal_rest *rest[BODIES_MAX]; /* body_seal.c: the same of free bodies, as last measured */
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */

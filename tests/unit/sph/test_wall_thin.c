@@ -115,6 +115,18 @@ static void gaps(void **state)
     }
     set_points(&c->bodies[0].points, 32, circle, 0.0, false);
     assert_false(wall_thin_gap(c, 0.1, &t));
+    /* a large one that stands on the floor, of 40 corners: 4.5 degrees beside the lowest; and a
+     * wedge of 2 degrees */
+    c->bodies[0].points.n = 40;
+    for (int k = 0; k < 40; k++) {
+        c->bodies[0].points.x[k][0] = -0.8 * sin(k * M_PI / 20.0);
+        c->bodies[0].points.x[k][1] = -5.0 + 0.8 * (1.0 - cos(k * M_PI / 20.0));
+    }
+    assert_false(wall_thin_gap(c, 0.1, &t));
+    double wedge[4][2] = {
+        {0.0, -5.0}, {-1.5, -5.0 + 1.5 * tan(M_PI / 90.0)}, {-1.5, -4.0}, {0.0, -4.0}};
+    set_points(&c->bodies[0].points, 4, wedge, 0.0, false);
+    assert_true(wall_thin_gap(c, 0.1, &t));
     free(c);
 }
 
