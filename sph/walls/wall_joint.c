@@ -80,17 +80,17 @@ static int next_piece(const struct walls *w, int piece, bool on, double near)
 }
 
 /* Walks along the walls from a ray on: a piece with the part of it that lies ahead. */
-struct walk {
+struct joint_walk {
     int piece;
     double from, to, ahead; /* m along the piece; length so far, with this part */
 };
 
-static struct walk walk_from(const struct ray *r)
+static struct joint_walk walk_from(const struct ray *r)
 {
-    return (struct walk){r->piece, r->from, r->to, r->to - r->from};
+    return (struct joint_walk){r->piece, r->from, r->to, r->to - r->from};
 }
 
-static void walk_on(const struct walls *w, struct walk *at, bool on, double near)
+static void walk_on(const struct walls *w, struct joint_walk *at, bool on, double near)
 {
     at->piece = next_piece(w, at->piece, on, near);
     at->from = 0.0;
@@ -103,7 +103,7 @@ static void walk_on(const struct walls *w, struct walk *at, bool on, double near
 static double half_way(const struct walls *w, const struct wall_joint *j, const struct ray *r,
                        double near)
 {
-    struct walk at = walk_from(r);
+    struct joint_walk at = walk_from(r);
     for (int k = 0; k < w->nsegments && at.piece >= 0; k++) {
         const struct segment *g = w->segments + at.piece;
         double along;
@@ -119,7 +119,7 @@ static void follow_ray(const struct walls *w, struct wall_joint *j, const struct
                        double near, double reach)
 {
     const double most = half_way(w, j, r, near);
-    struct walk at = walk_from(r);
+    struct joint_walk at = walk_from(r);
     while (at.piece >= 0 && j->nfaces < JOINT_FACES) {
         const struct segment *g = w->segments + at.piece;
         const double *end = r->on ? g->b : g->a, over = fmax(0.0, at.ahead - most);

@@ -77,10 +77,44 @@ static void others_have_none(void **state)
     sph_free(&c.s);
 }
 
+/* Of a plane floor: half of the kernel on it, nothing from R on; in the corner with a side three
+ * quarters; and as much from a place just behind it. */
+static void shares_of_planes(void **state)
+{
+    struct sph_case c;
+    (void)state;
+    struct sph *s = tank(&c, 4.0 / CELLS, false);
+    const double e = 1e-9, R = s->R;
+    assert_close(wall_share(s, -1, (const double[3]){0.5, e}), 0.5, 1e-6);
+    assert_close(wall_share(s, -1, (const double[3]){0.5, -e}), 0.5, 1e-6);
+    assert_close(wall_share(s, -1, (const double[3]){0.5, R}), 0.0, 1e-12);
+    assert_close(wall_share(s, -1, (const double[3]){e, e}), 0.75, 1e-6);
+    sph_free(&c.s);
+}
+
+/* Forces of pairs on either side of a slit of height h, of p at their middle, are those of p at the
+ * upper face and rho g h/2 more for both: over the kernel's part behind the floor, g h times it. */
+static void weight_in_a_slit(void **state)
+{
+    struct sph_case c;
+    (void)state;
+    struct sph *s = tank(&c, 0.0, true);
+    for (int k = 1; k < 8; k++) {
+        const double h = k * s->R / 10.0, x[3] = {0.5, h, 0.0}, up[3] = {0.0, 1.0, 0.0};
+        double out[3] = {0.0, 0.0, 0.0};
+        wall_share_weight(s, -1, x, up, out);
+        const double want = 9.81 * h * wall_share(s, -1, x);
+        assert_close(out[0], 0.0, 1e-9);
+        assert_true(fabs(out[1] - want) < 0.01 * 9.81 * s->R * 0.1);
+    }
+    sph_free(&c.s);
+}
+
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(disc_on_the_floor_is_borne),
-                                       cmocka_unit_test(others_have_none)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(disc_on_the_floor_is_borne), cmocka_unit_test(others_have_none),
+        cmocka_unit_test(shares_of_planes), cmocka_unit_test(weight_in_a_slit)};
     MPI_Init(&argc, &argv);
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     MPI_Finalize();
