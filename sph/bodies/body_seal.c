@@ -6,11 +6,12 @@
  * the kernel sum there. Alone in the fluid a body b has W_y = 1 - b_y (b_y: the kernel's part
  * behind its own faces), and its surface gets p n, for the integral of (1 - 2 b_y) n over it is 0.
  * So beside another solid it lacks 2 p (1 - b_y - W_y) n where the kernel reaches behind that one:
- * what the other keeps out and what no particle is there for. It gets that, and the other the
- * opposite, with p of the particles around y, or, where these are less than half of what there is
- * room for, as far as they are missing the pressure of water at rest that has the pressure of the
- * wet surface around. Between faces that no sharp wedge or slit parts wall_gap.c does the same by
- * particles. SPDX-License-Identifier: BSD-3-Clause */
+ * what the other keeps out and what no particle is there for. Where the other lies on it, and there
+ * is no water, it gets (1 - 2 b_y) p n, so that the integral is whole. It gets that, and the other
+ * the opposite, with p of the particles around y, or, where these are less than half of what there
+ * is room for, as far as they are missing the pressure of water at rest that has the pressure of
+ * the wet surface around. Between faces that no sharp wedge or slit parts wall_gap.c does the same
+ * by particles. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_seal.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@
 #include "body_touch.h"
 
 static const double enough = 0.5, open_share = 0.02; /* - */
-static const double close_by = 3.0, flat = 0.9995;   /* dx; -: faces that lie on each other */
+static const double close_by = 0.1, flat = 0.9995;   /* dx; -: faces that lie on each other */
 
 const struct sph *seal_level(const struct sph *s, const double *x)
 {
@@ -33,19 +34,18 @@ const struct sph *seal_level(const struct sph *s, const double *x)
     return at;
 }
 
-/* Shares of the kernel at a node, a little way into the fluid. false: the others are out of reach,
- * or lie on it. */
+/* Shares of the kernel at a node, a little way into the fluid. false: the others are out of reach.
+ */
 static bool measure(const struct sph *s, int body, struct seal_point *to)
 {
     const struct walls *w = s->walls;
     const struct sph *at = seal_level(s, to->is.x);
     double x[3] = {0.0, 0.0, 0.0}, out[3], most = 0.0;
-    bool dry = false;
     for (int a = 0; a < s->dim; a++)
         x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
     to->lack = 1.0 - wall_share(at, body, x);
     to->room = to->lack;
-    to->narrow = false;
+    to->dry = false;
     for (int k = -1; k < w->nbodies; k++) {
         const double share = k == body ? 0.0 : wall_share(at, k, x);
         to->room -= share;
@@ -60,11 +60,11 @@ static bool measure(const struct sph *s, int body, struct seal_point *to)
             to->other = k;
         }
         const double r = touch_distance(w, s->dim, k, to->is.x, close_by * at->dx, out);
-        dry = dry || (r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat);
-        to->narrow = to->narrow || (isfinite(r) && vec3_dot(out, to->is.n) > 0.1);
+        to->dry =
+            to->dry || (r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat);
     }
-    to->rim = most < open_share;
-    return most > 1e-6 && !dry;
+    to->rim = most < open_share && !to->dry;
+    return most > 1e-6;
 }
 
 /* How much a point goes by what is around it itself: the pressure of rows between two faces errs by
@@ -149,7 +149,8 @@ static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int
         const double e[3] = {x[0] - r->x[0], x[1] - r->x[1], s->dim == 3 ? x[2] - r->x[2] : 0.0};
         const double r2 = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + near;
         const double W = r->area / (s->dim == 3 ? r2 * r2 : r2);
-        sum.p += W * (r->is.p + r->is.wet * s->rho0 * (g[0] * e[0] + g[1] * e[1] + g[2] * e[2]));
+        const double p = r->is.p + r->is.wet * s->rho0 * (g[0] * e[0] + g[1] * e[1] + g[2] * e[2]);
+        sum.p += W * (s->surface ? fmax(p, fmin(r->is.p, 0.0)) : p); /* nothing hangs in the air */
         sum.wet += W * r->is.wet;
         weight += W;
     }
@@ -159,7 +160,10 @@ static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int
 static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
                   const struct rim *rim, int nrim)
 {
-    const double own = p->rim ? 1.0 : p->far, wet = wetness(p, d), dry = 1.0 - own * wet;
+    const double own = p->dry   ? 0.0
+                       : p->rim ? 1.0
+                                : p->far,
+                 wet = wetness(p, d), dry = 1.0 - own * wet;
     struct seep is = {own * pressure_at(p, d), own * wet};
     double f[3], back[3];
     if (dry > 0.0 && !p->rim) {
@@ -168,8 +172,8 @@ static void press(struct sph *s, const struct seal_point *p, const struct averag
         is.wet += dry * seeps.wet;
     }
     for (int a = 0; a < 3; a++) {
-        f[a] = d->area *
-               (2.0 * (p->lack * is.p - d->said.P) * d->n[a] + is.wet * s->rho0 * p->weight[a]);
+        const double q = 2.0 * p->lack * is.p - (p->dry ? is.p : 2.0 * d->said.P);
+        f[a] = d->area * (q * d->n[a] + is.wet * s->rho0 * p->weight[a]);
         back[a] = -f[a];
     }
     forces_add(s, p->body, d->x, f);

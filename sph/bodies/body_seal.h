@@ -10,7 +10,7 @@
 struct seal_point {
     struct average_node is;
     int body, other;  /* the body; body or -1: walls at rest */
-    bool narrow;      /* the other faces it, closer than a few spacings */
+    bool dry;         /* the other lies on it */
     bool rim;         /* the other hardly matters there */
     double far;       /* -: 0 near the rim, 1 far from it */
     double lack;      /* -: the kernel's part that is not behind the body */

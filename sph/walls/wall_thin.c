@@ -153,7 +153,7 @@ static bool is_corner(const struct faces *f, const struct thin_face *g, double s
     const double round = way(f, g, s, h, r);
     const double cosine = -(g->n[0] * h->n[0] + g->n[1] * h->n[1]);
     const double sine = fabs(g->n[0] * h->n[1] - g->n[1] * h->n[0]);
-    const bool opens = g->piece != h->piece && width > 0.034 * round; /* 4 degrees */
+    const bool opens = g->piece != h->piece && sine > 0.034 && width > 0.034 * round;
     return opens || round < 3.0 * width ||
            (sine > 0.08 && round < 1.5 * width * (1.0 + cosine) / sine); /* 5 degrees */
 }
