@@ -137,8 +137,9 @@ static void describe_scene(const struct run *r)
                 zones_extent(r->scene.domain.dim, box), transition, buffer, outers[prm->outer]);
     }
     if (wave_stream_wanted(r, prm))
-        log_say("behind the zones before open sides: the wave on its current with its pressure and "
-                "level, behind a beach the mean flow");
+        log_say(
+            "behind the zones before open sides: the waves on their current with their pressure "
+            "and level, behind a beach the mean flow");
     else if (!has_partner_flow(r) && prm->surface == SURFACE_YES)
         openings_describe(&r->scene);
     scene_waves_describe(&r->scene);

@@ -76,6 +76,8 @@ struct waves {
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
     struct wave_table table, frames[WAVE_FRAMES];
     long frame[WAVE_FRAMES]; /* number of the frame that each holds */
+    struct wave_table rise;  /* of sums: integral of dw/dt from each node up (wave_pressure.h); n =
+                              * 0:  nobody asks for the pressure */
     double dt, now;          /* s */
 };
 
@@ -101,6 +103,13 @@ double waves_eta(const struct waves *w, double x, double y);
 double waves_flux(const struct waves *w, double x);
 /* Velocity at (x, y), z: along, up, across, m/s. */
 void waves_velocity(const struct waves *w, double x, double y, double z, double u[3]);
+/* Before waves_at, for waves_pressure of sums along one direction: its table. */
+void waves_need_pressure(struct waves *w);
+/* Pressure over the density, m^2/s^2, at (x, y), z, where waves_velocity gives u; 0 on the surface.
+ * While the waves grow from rest, to first order in their height. */
+double waves_pressure(const struct waves *w, double x, double y, double z, const double u[3]);
+/* Share of the waves that are there: none before t = 0, all after `start' periods. */
+double waves_grown(const struct waves *w);
 /* Height from trough to crest of the highest wave of that length over that depth, m (Fenton
  * 1990). */
 double waves_limit(double depth, double length);

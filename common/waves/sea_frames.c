@@ -14,6 +14,7 @@
 #include "sea_gains.h"
 #include "second_order.h"
 #include "wave_field.h"
+#include "wave_pressure.h"
 
 /* Deep water needs no nodes down to its bottom. */
 double sea_reach(double depth, double length) { return fmin(depth, 1.2 * length); }
@@ -294,4 +295,5 @@ void sea_at(struct waves *w, double t)
         weight[slot] = of[k];
     }
     wave_table_blend(&w->table, WAVE_FRAMES, w->frames, weight);
+    wave_pressure_frame(w, t / w->dt - (double)m);
 }

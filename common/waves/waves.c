@@ -285,6 +285,7 @@ void waves_free(struct waves **w)
     if (!*w)
         return;
     wave_table_free(&(*w)->table);
+    wave_table_free(&(*w)->rise);
     for (int f = 0; f < WAVE_FRAMES; f++)
         wave_table_free(&(*w)->frames[f]);
     mem_free((*w)->components);
@@ -316,8 +317,7 @@ void waves_at(struct waves *w, double t)
         sea_at(w, w->of.kind == WAVE_FILE ? t - w->of.at[1] : t);
 }
 
-/* Share of the waves that are there: none before t = 0, all after `start' periods. */
-static double grown(const struct waves *w)
+double waves_grown(const struct waves *w)
 {
     const double T = w->of.start * w->period;
     if (!(T > 0.0) || w->now >= T)
@@ -336,12 +336,12 @@ static double place(const struct waves *w, double x)
 
 double waves_eta(const struct waves *w, double x, double y)
 {
-    return grown(w) * wave_table_eta(&w->table, place(w, x), y);
+    return waves_grown(w) * wave_table_eta(&w->table, place(w, x), y);
 }
 
 void waves_velocity(const struct waves *w, double x, double y, double z, double u[3])
 {
-    const double r = grown(w) * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
+    const double r = waves_grown(w) * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
     wave_table_velocity(&w->table, place(w, x), y, z, u);
     u[0] = r * (u[0] + w->current) + w->of.current;
     u[1] *= r;

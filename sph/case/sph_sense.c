@@ -96,17 +96,6 @@ static void check_level(const struct run *r, int k, struct faults *f)
             "a level, which lets waves of the water out");
 }
 
-/* The waves are around the particles' open sides with their pressure, which is known of waves of
- * permanent form. */
-static void check_currents(const struct run *r, const struct sph_params *used, struct faults *f)
-{
-    const struct scene *c = &r->scene;
-    if (wave_stream_wanted(r, used) && c->waves.kind != WAVE_REGULAR)
-        params_fault(r->params, f, "waves.kind",
-                     "on a current, or carrying water, sph makes regular waves alone: seas and "
-                     "focused groups are fv's");
-}
-
 /* Whether the line from p to q has a part that lies in a side of a 3D domain, further than `near'
  * from the side's own edges. */
 static bool runs_within(const struct scene_domain *d, int side, const double *p, const double *q,
@@ -497,7 +486,6 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     check_gauges(r, f);
     if (c->has_fv)
         return; /* the flow around is the partner's */
-    check_currents(r, used, f);
     check_openings(r, used, f);
     const int before = f->n;
     check_islands(r, used, f);

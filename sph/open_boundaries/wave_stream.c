@@ -1,7 +1,5 @@
-/* wave_stream.c - see wave_stream.h. A wave of permanent form is steady in the frame that moves
- * with its celerity c, so that Bernoulli's law gives its pressure from its velocity alone, p = rho
- * ((|u_s - c|^2 - |u - c|^2)/2 + g (eta - z)),   u_s on the surface above, on the current, too.
- * While the waves grow from rest this is right to first order in their height.
+/* wave_stream.c - see wave_stream.h. The pressure is that of the waves' own velocities
+ * (common/waves/wave_pressure.h), on the current, too.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_stream.h"
 
@@ -37,17 +35,6 @@ static void place_of(const struct wave_stream *w, const double *x, double at[3])
     at[2] = w->sign * x[w->up] - w->level;
 }
 
-/* u along, up and across, m/s, and p/rho, m^2/s^2. */
-static void wave_at(const struct wave_stream *w, const double at[3], double u[3], double *p)
-{
-    const double c = w->waves->celerity, eta = waves_eta(w->waves, at[0], at[1]);
-    double top[3];
-    waves_velocity(w->waves, at[0], at[1], at[2], u);
-    waves_velocity(w->waves, at[0], at[1], eta, top);
-    *p = w->g * (eta - at[2]) + 0.5 * ((top[0] - c) * (top[0] - c) + top[1] * top[1]) -
-         0.5 * ((u[0] - c) * (u[0] - c) + u[1] * u[1]);
-}
-
 static void to_axes(const struct wave_stream *w, const double v[3], double u[3])
 {
     for (int a = 0; a < 3; a++)
@@ -61,8 +48,10 @@ static void stream_at(const struct wave_stream *w, const double *x, bool calm, d
     double at[3], v[3] = {w->mean, 0.0, 0.0};
     place_of(w, x, at);
     *p = -w->g * at[2];
-    if (!calm)
-        wave_at(w, at, v, p);
+    if (!calm) {
+        waves_velocity(w->waves, at[0], at[1], at[2], v);
+        *p = waves_pressure(w->waves, at[0], at[1], at[2], v);
+    }
     to_axes(w, v, u);
     *p *= w->s->rho0;
 }
@@ -146,6 +135,7 @@ void wave_stream_create(struct sph *s, struct zones *z)
     w->level = scene_waves_level(c);
     scene_waves_direction(c, w->along, w->across);
     w->waves = waves_create(&of);
+    waves_need_pressure(w->waves);
     w->mean = scene_currents_mean(c, w->waves);
     for (int side = 0; side < 2 * s->dim; side++) {
         const struct scene_wall *is = scene_wall_of(c, SIDE_X_MIN + side);

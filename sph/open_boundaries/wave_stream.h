@@ -1,6 +1,6 @@
-/* wave_stream.h - regular waves on a current, or with a transport of their own, as the water beyond
- * the open sides at both ends of their way (common/scene/scene_currents.h): behind a wave zone the
- * wave of permanent form on the current, behind a beach the mean flow and the still level.
+/* wave_stream.h - waves on a current, or with a transport of their own, as the water beyond the
+ * open sides at both ends of their way (common/scene/scene_currents.h): behind a wave zone the
+ * waves on the current, behind a beach the mean flow and the still level.
  * Velocity, pressure and level are all given; a small outflow (level_gap.h) keeps the particles'
  * level at that. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WAVE_STREAM_H
