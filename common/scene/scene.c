@@ -278,6 +278,9 @@ static const struct param coupling_rows[] = {
           USED(NEED(COUPLED, NO_PARTNER)), .comparison = true),
     CHOICE(P, in_time, "trial|linear", "trial", "FV's fields within a coupling step: between now and a trial of FV; for comparison extrapolated on straight lines from the steps before (Chiron)",
           USED(NEED(COUPLED, NO_PARTNER)), .comparison = true),
+    CHOICE(P, blend, "entering|all", "entering", "what SPH's transition takes from the flow outside: across a side only the wave that enters; for comparison all of velocity and pressure (Chiron)",
+          USED(NEED(SPH, "this is no coupled job: it has no group sph"),
+               NEED(ZONES, "no side of the particles' region is open")), .comparison = true),
     PARAM(P, deadline,   "s", "30.0", 0.1, 1e6, "to find the other programs of the job",
           USED(NEED(COUPLED, NO_PARTNER))),
 };

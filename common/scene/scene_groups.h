@@ -58,6 +58,7 @@ enum wall_zone {
 }; /* of a side: none, one that absorbs waves, one that makes them */
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
 enum coupling_in_time { IN_TIME_TRIAL, IN_TIME_LINEAR };
+enum coupling_blend { BLEND_ENTERING, BLEND_ALL };
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
 /* On which side of a mesh the fluid is: to be found out from the shapes, inside, outside, or, of a
  * sheet, on the side that its normals point away from. */
@@ -196,6 +197,7 @@ struct scene {
         int mapping;    /* 0 shepard, 1 mls: particles to forced cells */
         int interpolation; /* 0 linear, 1 cubic: patch to particles */
         int in_time;       /* enum coupling_in_time: how SPH takes FV's fields in time */
+        int blend;         /* enum coupling_blend: what the transition takes from outside */
         double deadline;   /* s to meet the other programs */
     } coupling;
     struct scene_output {

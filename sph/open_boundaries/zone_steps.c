@@ -324,15 +324,26 @@ static void draw(const struct sph *s, int k, int side, double alpha, double *p, 
     *p += 0.5 * alpha * entering;
 }
 
+/* The same without regard to where waves run: p and u are both means of within and outside. */
+static void draw_all(const struct sph *s, int k, int side, double alpha, double *p, double u[3])
+{
+    const struct zones *z = s->zones;
+    *p += z->own_p[side] ? 0.0 : alpha * (z->p[k] - *p);
+    for (int a = 0; a < s->dim && !z->own_u[side]; a++)
+        u[a] += alpha * (z->u[s->dim * k + a] - u[a]);
+}
+
 /* Of u along the sides u <- a u_out + (1-a) u [6.8], a = depth into the transition over its width;
  * across them and of P only what enters, P - rho c u.n, n outwards: P + rho c u.n leaves as SPH
  * made it. What sides take from the flow inside is left as it is: rho c times the error of a mean
- * velocity is more than the pressure that drives a slow flow. To blend both as in [6.7] lets the
- * coupled programs feed vorticity, or damp (coupler/METHODS.md). */
+ * velocity is more than the pressure that drives a slow flow. To blend all of both [6.7-6.8], as
+ * coupling.blend = "all" does for comparison, lets the coupled programs feed vorticity, or damp
+ * (coupler/METHODS.md). */
 void zones_blend(struct sph *s)
 {
     struct zones *z = s->zones;
     const int dim = s->dim;
+    const bool all = s->run->scene.coupling.blend == BLEND_ALL;
     gather(s, ZONE_TRANSITION);
     zones_look(z, s->t, false);
     for (int k = 0; k < z->n; k++) {
@@ -346,7 +357,7 @@ void zones_blend(struct sph *s)
         double p = eos_p(m / y[at_volume(dim)], s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim; a++)
             u[a] = y[dim + a] / m;
-        draw(s, k, side, alpha, &p, u);
+        (all ? draw_all : draw)(s, k, side, alpha, &p, u);
         impose(s, i, u, eos_rho(p, s->rho0, s->c0, s->gamma));
         z->blended += y[at_mass(dim)] - m;
     }

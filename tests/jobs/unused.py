@@ -20,7 +20,7 @@ domain: dim 3 | min (-1.2,-0.8) | max (1.2,1.2) | periodic (true,false)
 initial: field couette | U 1.7 | L 0.7 | velocity (0.1,0.2) | amplitude 0.03 | L_z 0.5 | level 0.9
     seed ((0.9,0.9,0.9)) | crest 0.3
 coupling: steps 7 | transition 0.15 | buffer 0.15 | overlap 0.15 | memory 3 | keep_mass false | mapping shepard
-    interpolation linear | in_time linear | deadline 7
+    interpolation linear | in_time linear | blend all | deadline 7
 output: every 0.003 | snapshots true | series 2 | checkpoint 0.002
 sph: dx 0.05 | R_dx 3 | c0 17 | gamma 1 | scheme standard | riemann exact | limiter minmod | transport none
     surface_shift beta | viscosity monaghan | low_dissipation false | dissipation 0.4 | damper 0.4 | alpha 0.05

@@ -8,6 +8,7 @@
 #include "../../../sph/open_boundaries/box_tracking.h"
 #include "../../../sph/open_boundaries/openings.h"
 #include "../../../sph/open_boundaries/zone_steps.h"
+#include "../../../sph/particles/eos.h"
 #include "../../../sph/surface/surface.h"
 #include "../../../sph/time/integrate.h"
 #include "sph_case.h"
@@ -259,6 +260,31 @@ static void blending_follows_the_depth(void **state)
         assert_int_equal(s->p.zone[i], in < 0.0   ? ZONE_BUFFER
                                        : in < 1.0 ? ZONE_TRANSITION
                                                   : ZONE_FREE);
+    }
+    sph_free(&c.s);
+}
+
+/* coupling.blend = all, for comparison [6.7-6.8]: at any side both p and u are means of within, at
+ * rest under 10 Pa, and outside, where u is 1 m/s and p is 0. */
+static void all_is_blended_on_request(void **state)
+{
+    (void)state;
+    struct sph_case c;
+    struct sph *s = start(&c, 2, 1.0, 0.0);
+    c.run.scene.coupling.blend = BLEND_ALL;
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = s->p.y + 6 * (size_t)i;
+        y[2] = y[3] = 0.0;
+        y[5] = y[4] * eos_rho(10.0, s->rho0, s->c0, s->gamma);
+    }
+    zones_mark(s);
+    zones_blend(s);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = s->p.y + 6 * (size_t)i;
+        const double in = (zones_depth(s, y) - s->zones->buffer) / s->zones->transition;
+        const double alpha = s->p.zone[i] == ZONE_TRANSITION ? 1.0 - in : 0.0;
+        assert_close(y[2] / y[5], alpha, 1e-12);
+        assert_close(eos_p(y[5] / y[4], s->rho0, s->c0, s->gamma), 10.0 * (1.0 - alpha), 1e-8);
     }
     sph_free(&c.s);
 }
@@ -559,6 +585,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(vertices_shift_the_lattice),
         cmocka_unit_test(one_birth_a_face_and_spacing),
         cmocka_unit_test(blending_follows_the_depth),
+        cmocka_unit_test(all_is_blended_on_request),
         cmocka_unit_test(sides_of_the_domain_stay_closed),
         cmocka_unit_test(gauge_is_the_level_inside_and_weighs_the_missing_mass),
         cmocka_unit_test(what_voids_left_is_drained),
