@@ -357,10 +357,6 @@ void surface_check(const struct run *r, struct faults *f)
     if (prm->steady)
         params_fault(r->params, f, "fv.steady",
                      "a free surface moves in time: let it come to rest in a run in time");
-    if (prm->c0 > 0.0)
-        params_fault(r->params, f, "fv.c0",
-                     "not with a free surface: cells that become wet have no pressure of the steps "
-                     "before");
     for (int k = 0; k < s->nwalls; k++)
         check_water_opening(r, f, k);
     if (mesh_given_count > 0)

@@ -31,8 +31,9 @@ struct backend {
     /* x ~ (A + shift V)^-1 b by one cycle, a linear map; without a shift b has no mean unless a
      * side gives the pressure. */
     void (*cycle)(struct fv *s, void *of, double *b, double *x);
-    /* Those of poisson.h; NULL: never called for these cells. */
+    /* NULL: a cycle knows no shift, and serves as a preconditioner without it. */
     void (*shift)(struct fv *s, void *of, double shift);
+    /* Those of poisson.h; NULL: never called for these cells. */
     void (*rebuild)(struct fv *s, void *of);
     void (*renew)(struct fv *s, void *of, bool hierarchy);
 };

@@ -205,5 +205,6 @@ void poisson_renew(struct fv *s, bool hierarchy)
 void poisson_shift(struct fv *s, double shift)
 {
     s->poisson->shift = shift;
-    s->poisson->by->shift(s, s->poisson->of, shift);
+    if (s->poisson->by->shift)
+        s->poisson->by->shift(s, s->poisson->of, shift);
 }

@@ -123,13 +123,19 @@ static void diagnose(const struct fv *s, double dt, double before, bool good, st
     }
 }
 
-/* A step that makes a pressure; what newton leaves where it does not converge is none. */
+/* A step that makes a pressure; what newton leaves where it does not converge is none. Without
+ * sound: in so short a step it would not get through a cell. */
 static void find_pressure(struct fv *s, double dt)
 {
-    if (!s->newton)
+    const double c0 = s->prm.c0;
+    if (!s->newton) {
         projection_step(s, dt);
-    else if (!newton_try(s, dt))
+        return;
+    }
+    s->prm.c0 = 0.0;
+    if (!newton_try(s, dt))
         memcpy(s->p, s->p_before, (size_t)s->size * sizeof(double));
+    s->prm.c0 = c0;
 }
 
 /* Pressure that belongs to the velocities of the start: short steps from the same state, until

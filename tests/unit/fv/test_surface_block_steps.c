@@ -138,6 +138,41 @@ static void waves_swing_as_on_one_block(void **state)
     }
 }
 
+/* s: that of a wave by newton with this speed of sound. */
+static double period_with_sound(const char *blocks, const char *c0)
+{
+    struct mesh_case c;
+    struct fv *s = start(&c, MPI_COMM_WORLD, blocks,
+                         (const char *const[]){WAVE, NEWTON, "fv.cfl=0.3", c0, NULL}, NULL);
+    assert_true(mesh_case_run(s, 1000, 10.0));
+    const double period = fit_period(&s->surface->oscillation);
+    print_message("wave with sound, %s: %g s\n", c0, period);
+    mesh_case_end(&c, &s);
+    return period;
+}
+
+/* fv.c0 = 3 m/s, as on the uniform grid (test_surface_implicit has the theory). */
+static void sound_slows_waves_down(void **state)
+{
+    (void)state;
+    static const char *const blocks[2] = {
+        "{ name = \"one\"; cells = (16, 20); max = (4.0, 1.25); " AROUND SLIP_J "}",
+        "{ name = \"back\"; cells = (32, 40); max = (4.0, 1.25); " AROUND SLIP_J
+        "}, { name = \"over\"; cells = (18, 40); min = (0.9375, 0.0); max = (3.1875, 1.25); " SLIP_J
+        "}"};
+    const double k = 1.57079632679489662, c = 3.0;
+    double w2 = k * tanh(k);
+    for (int m = 0; m < 60; m++) {
+        const double q = sqrt(k * k - w2 / (c * c));
+        w2 = q * tanh(q);
+    }
+    for (int m = 0; m < 2 && !SANITIZED && is_alone(); m++) {
+        const double without = period_with_sound(blocks[m], "fv.c0=0"),
+                     with = period_with_sound(blocks[m], "fv.c0=3");
+        assert_close(with / without - 1.0, sqrt(k * tanh(k) / w2) - 1.0, 0.002);
+    }
+}
+
 /* nu dt/h^2 = 50, eleven steps a period; cells of aspect 100, eight a length. */
 static void viscosity_and_flat_cells_bound_no_step(void **state)
 {
@@ -319,6 +354,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_stays),
         cmocka_unit_test(waves_swing_as_on_one_block),
+        cmocka_unit_test(sound_slows_waves_down),
         cmocka_unit_test(viscosity_and_flat_cells_bound_no_step),
         cmocka_unit_test(currents_pass_openings),
         cmocka_unit_test(currents_are_carried_out),

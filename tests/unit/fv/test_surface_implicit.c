@@ -8,7 +8,8 @@
 #include "../../../fv/time/newton.h"
 #include "surface_case.h"
 
-/* Upright, askew over graded rows, in 3D: the surface cuts the cells in all ways. */
+/* Upright, askew over graded rows, in 3D: the surface cuts the cells in all ways; bdf2, newton,
+ * newton with sound. */
 static void still_water_stays(void **state)
 {
     static const char *const of[3][3] = {
@@ -16,14 +17,14 @@ static void still_water_stays(void **state)
         {"fluid.gravity=(2.9,-9.81)", "fv.cells=(24,20)", "fv.graded=(0.75,7)"},
         {"fluid.gravity=(2.9,1.3,-9.81)", "fv.cells=(12,10,16)", "domain.dim=3"}};
     (void)state;
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 9; k++) {
         struct fv_case c;
-        const char *const *o = of[k / 2];
-        const struct scene_shape shape = {.form = SHAPE_BELOW, .level = k < 4 ? 0.4123 : 0.2};
-        struct fv *s =
-            start(&c, MPI_COMM_WORLD,
-                  (const char *const[]){SURFACE, o[0], o[1], o[2], integrators[k % 2], NULL},
-                  &shape, WALL_NO_SLIP);
+        const char *const *o = of[k / 3];
+        const struct scene_shape shape = {.form = SHAPE_BELOW, .level = k < 6 ? 0.4123 : 0.2};
+        struct fv *s = start(&c, MPI_COMM_WORLD,
+                             (const char *const[]){SURFACE, o[0], o[1], o[2], k % 3 ? NEWTON : BDF2,
+                                                   k % 3 == 2 ? "fv.c0=20" : NULL, NULL},
+                             &shape, WALL_NO_SLIP);
         assert_true(fv_case_run(&c, 5, 10.0));
         print_message("still water: %.3g m/s\n", fmax(s->max.u[0], s->max.u[1]));
         for (int a = 0; a < s->dim; a++)
@@ -77,6 +78,44 @@ static void waves_swing_as_theory_says(void **state)
     oscillation("fv.cells=(8,256)", "fv.graded=(0,0)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T,
                 &r);
     assert_close(T, 0.0, 0.03); /* eight cells a length */
+}
+
+/* s: period of a wave of 4 m on 1 m of water by newton, g 1 m/s^2, with this speed of sound. */
+static double period_with_sound(const char *cells, const char *graded, const char *c0)
+{
+    struct fv_case c;
+    struct fv *s = start(
+        &c, MPI_COMM_WORLD,
+        (const char *const[]){WAVE, cells, graded, NEWTON, "fv.cfl=0.3", "fluid.nu=2e-3", c0, NULL},
+        NULL, WALL_SLIP);
+    assert_true(fv_case_run(&c, 10000, 10.0));
+    const double period = fit_period(&s->surface->oscillation);
+    print_message("wave with sound, %s %s: %g s\n", cells, c0, period);
+    fv_free(&c.s);
+    return period;
+}
+
+/* fv.c0 under a surface: with phi_tt = c^2 Lap phi in the water w^2 = g q tanh(q H), where q^2 =
+ * k^2
+ * - w^2/c^2, so that the wave is the slower the smaller c is (Longuet-Higgins 1950, less what
+ * gravity does to the density). */
+static void sound_slows_waves_down(void **state)
+{
+    static const char *const of[2][2] = {{"fv.cells=(16,20)", "fv.graded=(0,0)"},
+                                         {"fv.cells=(16,24)", "fv.graded=(1.1,8)"}};
+    (void)state;
+    const double k = 1.57079632679489662, c = 3.0;
+    double w2 = k * tanh(k);
+    for (int m = 0; m < 60; m++) {
+        const double q = sqrt(k * k - w2 / (c * c));
+        w2 = q * tanh(q);
+    }
+    const double slower = sqrt(k * tanh(k) / w2) - 1.0;
+    for (int m = 0; m < 2 - SANITIZED; m++) {
+        const double without = period_with_sound(of[m][0], of[m][1], "fv.c0=0");
+        const double with = period_with_sound(of[m][0], of[m][1], "fv.c0=3");
+        assert_close(with / without - 1.0, slower, 0.002);
+    }
 }
 
 /* A column that falls, turns at the wall and comes back; steps that turn out too long are taken
@@ -197,6 +236,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_stays),
         cmocka_unit_test(waves_swing_as_theory_says),
+        cmocka_unit_test(sound_slows_waves_down),
         cmocka_unit_test(columns_fall),
         cmocka_unit_test(honey_creeps),
         cmocka_unit_test(currents_pass_openings),
