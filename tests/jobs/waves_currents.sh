@@ -21,8 +21,8 @@ fv:      { cells = (216, 36); };
 output:  { snapshots = false; series = 1; };
 EOT
 }
-# judge NAME T: currents.awk
-judge() { awk -F, -v T="$2" -f "$root/tests/jobs/currents.awk" "$1/series.csv"; }
+# judge NAME T: currents.py
+judge() { python3 "$root/tests/jobs/currents.py" "$1/series.csv" "$2" 10; }
 # The first harmonic of that wave of 0.03 m is 0.0147448 m (Fourier sum of common/waves/steady.h). Wanted: amplitude 2 %, length
 # (with the period given at the zones, the phase speed) 0.3 %, mean velocity 1 %; of the level 0.2 % of the amplitude is wanted and
 # 0.55 % reached with the current, 0.23 % against it: 1 % is asked for.
