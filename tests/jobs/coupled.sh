@@ -15,24 +15,19 @@ below "$(number one velocity_l2)" 0.03 || bad "velocity error $(number one veloc
 # a job of seconds, starts included, which differ from machine to machine; README has the share of real ones
 below "$(number one coupler_share)" 0.5 || bad "coupler takes $(number one coupler_share) of the job's processor time"
 
-for n in 2 3; do
-    job "coupler$n" 1:$n:1 || bad "job with $n coupler ranks ended with $?"
-    same_bits one "coupler$n" || bad "$n coupler ranks give other bits than one"
-done
-for n in 2:1:1 4:1:1; do
+job coupler3 1:3:1 || bad "job with 3 coupler ranks ended with $?"
+same_bits one coupler3 || bad "3 coupler ranks give other bits than one"
+for n in 3:1:1; do
     job "ranks$n" $n || bad "job on ranks $n ended with $?"
     close_to "$(number "ranks$n" velocity_l2)" "$(number one velocity_l2)" 1e-6 ||
         bad "ranks $n: velocity error $(number "ranks$n" velocity_l2), one rank each: $(number one velocity_l2)"
 done
 
 # another density, and mm: the errors are numbers
-job heavy 1:1:1 -p fluid.rho=1000 || bad "the job in water ended with $?"
-job mm 1:1:1 -p 'domain.max=(1000,1000)' -p initial.U=1000 -p initial.L=1000 -p fluid.nu=5000 -p sph.dx=12.5 \
+job mm 1:1:1 -p fluid.rho=1000 -p 'domain.max=(1000,1000)' -p initial.U=1000 -p initial.L=1000 -p fluid.nu=5000 -p sph.dx=12.5 \
     -p 'sph.free=((300,300),(700,700))' -p coupling.overlap=100 || bad "the job in mm ended with $?"
 for what in velocity_l2 velocity_linf pressure_rms pressure_l2; do
-    for units in heavy mm; do
-        close_to "$(number $units $what)" "$(number one $what)" 1e-6 || bad "$units: $what $(number $units $what), one $(number one $what)"
-    done
+    close_to "$(number mm $what)" "$(number one $what)" 1e-6 || bad "water, mm: $what $(number mm $what), one $(number one $what)"
 done
 
 # a carried flow, windows and memory as the flow wants them: at least as good as the flow at rest
@@ -257,7 +252,7 @@ channel poiseuille 0.1 0.8 0.0
 channel couette 0.1 0.0 1.0
 
 # times of outputs that no coupling step fits: as many steps as without, and one for each output at most
-for every in 0.0333333 0.0317 0.0071 0.049; do
+for every in 0.0317 0.0071; do
     "$root/cases/run" taylor_green -n 1:1:1 -o outputs -p sph.dx=0.025 -p 'fv.cells=(16,16)' -p coupling.steps=0 -p coupling.overlap=0.08 -p time.end=0.1 \
         -p output.snapshots=false -p output.every=$every --force >outputs.txt 2>&1 || bad "outputs every $every s: ended with $?: $(tail -n 3 outputs.txt)"
     steps=$(number outputs windows)
@@ -377,10 +372,6 @@ crossed() { # DIR RANKS ARGS...
 crossed crossed 1:1:1 -p time.end=0.6
 below "$(number crossed velocity_l2)" 0.08 || bad "standing wave in 3D: velocity error $(number crossed velocity_l2), wanted at most 0.08"
 below "$(number crossed mass_fluctuation)" 0.001 || bad "standing wave in 3D: mass off by $(number crossed mass_fluctuation), wanted at most 0.001"
-crossed crossed1 1:1:1 -p time.end=0.15
-crossed crossed2 2:2:2 -p time.end=0.15
-close_to "$(number crossed2 velocity_l2)" "$(number crossed1 velocity_l2)" 1e-6 ||
-    bad "standing wave in 3D on 2:2:2: velocity error $(number crossed2 velocity_l2), on one rank each $(number crossed1 velocity_l2)"
 
 # until the job NAME has written its first progress line, 50 s at most
 under_way() {

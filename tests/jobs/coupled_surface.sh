@@ -70,7 +70,7 @@ else
     stl "1.0 0.24 0.3" "1.4 0.56 0.7" >cube.stl
     cat >cube.cfg <<'CASE'
 format = 1;
-time:    { end = 0.4; };
+time:    { end = 0.2; };
 fluid:   { rho = 1000.0; nu = 1e-3; gravity = (0, 0, -9.81); };
 domain:  { dim = 3; min = (0, 0, 0); max = (2.4, 0.8, 0.8); };
 initial: { field = "rest"; U = 0.5; };
