@@ -11,13 +11,14 @@ PACKAGES = build-essential pkg-config libopenmpi-dev openmpi-bin libhdf5-openmpi
            libhypre-dev libsundials-dev libconfig-dev liblapacke-dev libmuparser-dev libcmocka-dev libassimp-dev
 
 # ---- how it is built ----------------------------------------------------------------------------------
-# No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt.
+# No -ffast-math: it gains nothing here and lets NaN pass unseen. -fno-math-errno frees sqrt. -g1 names lines and functions; more
+# than that takes the compiler a quarter of its time (for a debugger: make B=build/debug OPT="-O0 -g").
 OPT = -O3 -march=native -fno-math-errno -fno-trapping-math -ffp-contract=fast
 WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-psabi
 HDF5_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags hdf5-openmpi 2>/dev/null))
 HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
 SAN =
-CFLAGS = -std=c11 -D_GNU_SOURCE -g $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
+CFLAGS = -std=c11 -D_GNU_SOURCE -g1 $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
 # links a test in a third of the time
 FAST_LD = $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 LIBS = $(HDF5_LIBS) -llapacke -lconfig -lmuparser -lm
@@ -45,7 +46,8 @@ $(B)/fv: $(B)/o/fv/fv.o $(version_o) $(B)/o/coupler/cpl_partner.o $(B)/libfv.a $
 $(B)/coupler: $(B)/o/coupler/coupler.o $(version_o) $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ $(LIBS)
-$(B)/$(soname): $(patsubst $(B)/o/%,$(B)/pic/%,$(cpl_o)) coupler/cpl.map
+$(cpl_o): CFLAGS += -fPIC # for the shared library, too
+$(B)/$(soname): $(cpl_o) coupler/cpl.map
 	@echo "LD $@"
 	@$(CC) $(SAN) -shared -Wl,-soname,$(soname) -Wl,--version-script=coupler/cpl.map -o $@ $(filter %.o,$^) -lm
 # what others link: one object that shows cpl_... alone, so that no other name of ours meets one of theirs
@@ -73,10 +75,6 @@ $(B)/o/common/run/run_view.o: CFLAGS += -I$(B)/o/common/run
 $(B)/o/common/run/view.inc: common/run/view.py
 	@mkdir -p $(@D)
 	@sed 's/[\\"]/\\&/g; s/.*/"&\\n",/' $< >$@
-$(B)/pic/%.o: %.c
-	@mkdir -p $(@D)
-	@echo "CC $@"
-	@$(CC) $(CFLAGS) -fPIC -MMD -MP -c -o $@ $<
 # anew with each commit, and with it the programs; tests do not mind
 $(version_o): CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 $(version_o): $(wildcard .git/logs/HEAD)
@@ -116,7 +114,7 @@ units: $(filter $(B)/tests/test_% $(B)/tests/toy%,$(tests_bin))
 tests: all $(tests_bin) $(mocks) $(examples) $(preloaded) $(B)/tests/properties_scene
 # (a pointer that overflows is one past memory, too)
 asan:
-	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-O1 -g1 -march=native -fno-math-errno" \
+	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-Og -march=native -fno-math-errno" \
 	    SAN="-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow -fno-omit-frame-pointer" units
 
 # ---- what a user types ---------------------------------------------------------------------------------
