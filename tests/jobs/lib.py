@@ -10,6 +10,8 @@ import subprocess
 import sys
 import tempfile
 
+import stl
+
 build = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else 'build')
 root = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..'))
 name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
@@ -80,7 +82,7 @@ def says(words, log='out.txt'):
 
 
 def write(path, text):
-    with open(path, 'w') as out:
+    with open(path, 'w', encoding='utf-8') as out:
         out.write(text)
 
 
@@ -105,8 +107,6 @@ def series(path):
     return {title: [float(row[k]) for row in rows[1:]] for k, title in enumerate(rows[0])}
 
 
-def box_stl(path, low, high, without=''):
-    """The triangles of a box, one normal out of each face; `without' names an open face (zp: upper z)."""
-    command = ['awk', '-v', 'lo=' + ' '.join(map(str, low)), '-v', 'hi=' + ' '.join(map(str, high)), '-v', 'drop=' + without, '-v', 'sense=1',
-               '-f', root + '/tests/jobs/stl.awk']
-    write(path, subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout)
+def box_stl(path, low, high, without='', sense=1):
+    """The triangles of a box, normals out of it; `without' names open faces (zp: upper z); sense -1: normals in."""
+    write(path, stl.box(low, high, without, sense))

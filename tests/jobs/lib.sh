@@ -63,4 +63,4 @@ same_bits() {
     done
 }
 # stl LOW HIGH [LEFT_OUT: xm xp ym yp zm zp] [1: normals out, -1: in]: the triangles of a box
-stl() { awk -v lo="$1" -v hi="$2" -v drop="$3" -v sense="${4:-1}" -f "$root/tests/jobs/stl.awk"; }
+stl() { python3 "$root/tests/jobs/stl.py" "$@"; }

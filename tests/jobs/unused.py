@@ -61,7 +61,7 @@ apr.regions.motion: kind "polynomial" | file "nowhere.txt" | axis "y" | amplitud
     coefficients (1,2) | from 0.01 | until 0.02 | ramp 0.02 | absorb true
 apr.criteria: level 2 | kind "pressure" | above 0.055 | distance 2
 '''
-# Where a run is written (checkpoint_wall: by the clock; fields: in snapshots, which are off here; tests/jobs/bad_input.sh has
+# Where a run is written (checkpoint_wall: by the clock; fields: in snapshots, which are off here; tests/jobs/bad_input.py has
 # the words of it), and what judges it.
 EXCEPTIONS = 'output.checkpoint_wall', 'output.fields'
 # Scenes in which another value is wanted, by mode and key; None: the key rightly changes nothing there.
