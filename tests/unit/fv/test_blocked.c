@@ -1,7 +1,7 @@
 /* test_blocked.c - boxes that are cut out of the grid: water at rest beside them stays at rest, in
  * 2D and 3D, and presses on them by its depth; walls made of boxes are walls; a box through which
  * nothing flows parts two basins; a duct between boxes has its parabola; ranks change nothing but
- * rounding. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * rounding. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include <string.h>

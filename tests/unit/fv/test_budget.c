@@ -1,5 +1,5 @@
 /* test_budget.c - what the operators do to the momentum of the flow is what it does to the walls;
- * the divergence of the fluxes is what the solver leaves. ranks: 1 2 4.
+ * the divergence of the fluxes is what the solver leaves. ranks: 1 4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 

@@ -1,6 +1,6 @@
 /* test_fraction.c - the share of water of each cell is carried without loss; a level is that of the
  * water; a column in mid-tank falls evenly; a drop, a full tank and none run or say why not.
- * ranks: 1 2 4.
+ * ranks: 1 2.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 

@@ -1,5 +1,5 @@
 /* test_fv_bc_ranks.c - walls and openings: the number of ranks changes nothing but rounding, a
- * restart nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * restart nothing at all. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/case/fv_case.h"

@@ -1,5 +1,5 @@
 /* test_fv_ranks.c - the number of ranks changes nothing but rounding, that of a restart, too; on
- * the same ranks it changes nothing at all. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * the same ranks it changes nothing at all. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/boundary/still.h"

@@ -1,5 +1,5 @@
 /* test_given.c - cells of blocks whose velocity is given: a hole with the exact solution in joined,
- * waving and overlapping blocks. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * waving and overlapping blocks. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/boundary/forcing.h"

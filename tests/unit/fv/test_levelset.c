@@ -1,7 +1,7 @@
 /* test_levelset.c - a disc keeps its place and size under advection and reinitialisation; the
  * pressure with a surface is second order; still water stays still; a wave swings as theory says,
  * also where two cross; columns survive their impacts;
- * ranks change nothing but rounding, a restart nothing at all. ranks: 1 2 4.
+ * ranks change nothing but rounding, a restart nothing at all. ranks: 1 2.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 

@@ -1,5 +1,5 @@
 /* test_mesh.c - blocks of any shape: metrics, free stream, order, joined faces, files, 3D, ranks,
- * restart. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * restart. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/boundary/forcing.h"

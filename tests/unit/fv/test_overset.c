@@ -1,5 +1,5 @@
 /* test_overset.c - overlapping blocks: search, donors, order, a vortex that crosses, ranks, faults.
- * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/case/fv_case.h"

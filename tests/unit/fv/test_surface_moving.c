@@ -68,7 +68,7 @@ static void a_body_at_rest_has_its_buoyancy(void **state)
 {
     (void)state;
     static const double levels[2] = {0.0, 0.113};
-    for (int k = 0; k < 3; k++) {
+    for (int k = SANITIZED ? 1 : 0; k < 3; k++) {
         struct mesh_case c;
         const double level = levels[k % 2];
         struct fv *s = start(&c, MPI_COMM_WORLD, k == 2 ? short_one : half,
@@ -76,7 +76,7 @@ static void a_body_at_rest_has_its_buoyancy(void **state)
                                                    REST, k == 2 ? "domain.dim=3" : NULL, NULL},
                              level, NULL);
         const double volume = surface_volume(s);
-        assert_true(mesh_case_run(s, k == 2 || SANITIZED ? 4 : 20, 100.0));
+        assert_true(mesh_case_run(s, SANITIZED ? 2 : k == 2 ? 4 : 20, 100.0));
         assert_close(s->max.u[0], 0.0, 1e-10);
         assert_close(surface_volume(s) / volume, 1.0, 1e-12);
         const double buoyancy = 9.81 * segment(0.5, level) * (k == 2 ? 0.4 : 1.0);

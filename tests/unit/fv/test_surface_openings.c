@@ -118,7 +118,8 @@ static void levels_after_ten_transits_are_those_of_theory(void **state)
     for (int q = 0; q < (int)(sizeof pairs / sizeof pairs[0]); q++)
         for (int k = 0; k < GRIDS; k++) {
             struct mesh_case c;
-            if (q > 0 && k != 0 && k != 2 && !(q == 1 && k == 4)) /* the first has been on all */
+            /* the first has been on all, the others take turns */
+            if (q > 0 && k != 2 * (q % 2) && !(q == 1 && k == 4))
                 continue;
             struct fv *s =
                 start(&c, grids[k].blocks, grids[k].with, 0.0, &pairs[q].in, &pairs[q].out);
@@ -288,13 +289,14 @@ static void nothing_pulls_where_the_level_outside_is_low(void **state)
             .side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .level = levels[k % 2], .has_level = true};
         struct mesh_case c;
         struct fv *s = start(&c, grids[k / 2 * 2].blocks, grids[0].with, 0.0, &left, &out);
-        assert_true(mesh_case_run(s, 10000, 1.0 * TRANSIT));
+        assert_true(mesh_case_run(s, 10000, (SANITIZED ? 0.1 : 1.0) * TRANSIT));
         const double before = surface_volume(s);
-        assert_true(mesh_case_run(s, 10000, 1.7 * TRANSIT));
+        assert_true(SANITIZED || mesh_case_run(s, 10000, 1.7 * TRANSIT));
         const double discharge = (before - surface_volume(s)) / (0.7 * TRANSIT),
                      fastest = hypot(s->max.u[0], s->max.u[1]);
         print_message("%.4g m^2/s of %.4g, at most %.4g m/s\n", discharge, q, fastest);
-        assert_close(discharge, q, 0.05 * q);
+        if (!SANITIZED)
+            assert_close(discharge, q, 0.05 * q);
         assert_true(fastest < sqrt(2.0 * G * DEPTH));
         mesh_case_end(&c, &s);
     }
@@ -305,7 +307,7 @@ static void nothing_pulls_where_the_level_outside_is_low(void **state)
 static void what_passes_is_the_given_discharge(void **state)
 {
     (void)state;
-    const double q = 0.1, end = 2.0;
+    const double q = 0.1, end = SANITIZED ? 0.2 : 2.0;
     for (int k = 0; k < 2 * GRIDS; k++) {
         const bool fills = k % 2 == 0;
         const struct scene_wall closed = {.side = SIDE_X_MIN, .kind = WALL_SLIP},
@@ -319,7 +321,8 @@ static void what_passes_is_the_given_discharge(void **state)
         assert_true(mesh_case_run(s, 10000, end));
         const double passed = fabs(surface_volume(s) - before);
         print_message("%s: %.6g m^2 of %g\n", fills ? "in" : "out", passed, q * end);
-        assert_close(passed, q * end, 1e-3 * q * end);
+        if (!SANITIZED)
+            assert_close(passed, q * end, 1e-3 * q * end);
         mesh_case_end(&c, &s);
     }
 }
@@ -336,7 +339,7 @@ static void an_outlet_that_runs_short_drains_its_tank(void **state)
                                        .kind = WALL_OUTFLOW,
                                        .discharge = q,
                                        .has_discharge = true};
-    for (int k = 0; k < 4; k += 2) {
+    for (int k = 0; k < (SANITIZED ? 1 : 4); k += 2) {
         struct mesh_case c;
         struct fv *s = start(&c, grids[k].blocks, grids[k].with, 0.0, &closed, &opening);
         const double before = surface_volume(s);

@@ -1,5 +1,5 @@
 /* test_criteria.c - cells that the flow marks: distances against brute force, nesting, hysteresis,
- * budget, the same on any number of ranks, restart. ranks: 1 2 4.
+ * budget, the same on any number of ranks, restart. ranks: 1 4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 

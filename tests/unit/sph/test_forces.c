@@ -1,6 +1,6 @@
 /* test_forces.c - forces on bodies and walls: what the fluid loses, on any number of ranks; a body
  * that goes with the stream; added mass; closed tanks that stay still.
- * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include <stdio.h>

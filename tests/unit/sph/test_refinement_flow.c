@@ -35,7 +35,7 @@ static double vortices(int scheme, int transport, bool refined)
         refine(0.2, 0.25, 0.75, 0.8);
     struct sph *s = sph_case_start(&c, NULL);
     assert_true((s->finer != NULL) == refined);
-    assert_true(sph_case_run(&c, refined ? 40 : 20, 100.0));
+    assert_true(sph_case_run(&c, (refined ? 40 : 20) / (SANITIZED ? 4 : 1), 100.0));
     const double error = velocity_error(s);
     sph_free(&c.s);
     refine(0.0, 0.0, 0.0, 0.0);

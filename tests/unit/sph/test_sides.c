@@ -1,5 +1,5 @@
 /* test_sides.c - inlets and outlets: sound leaves through absorbing sides and comes back from
- * walls; a stream keeps its mass and its speed, and at an outlet its profile. ranks: 1 2 4.
+ * walls; a stream keeps its mass and its speed, and at an outlet its profile. ranks: 1 4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 

@@ -1,7 +1,7 @@
 /* test_sph_watch.c - energy is watched against its budget: gains of an unstable step end the run, a
  * driven flow and a moving wall gain nothing; forces are compared at rest; the worst particle is
  * named alike on any number of ranks; impacts are no faults; shifting knows neither initial.U nor
- * what carries the flow. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * what carries the flow. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../common/files/h5.h"
@@ -32,6 +32,8 @@ static void an_unstable_step_is_ended_by_its_energy(void **state)
     (void)state;
     struct sph_case c;
     struct diagnosis d = {0};
+    if (SANITIZED)
+        return;
     sph_case_set(&c, 2, 24);
     c.prm.cfl = 0.85;
     c.prm.limiter = LIMITER_MINMOD;

@@ -1,5 +1,5 @@
 /* test_wall_nfm3.c - normal flux walls in 3D: what particles find of the walls around, operators
- * near them, momentum, water at rest, ranks and restarts. ranks: 1 2 4.
+ * near them, momentum, water at rest, ranks and restarts. ranks: 1 4.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 

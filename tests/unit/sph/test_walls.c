@@ -1,6 +1,6 @@
 /* test_walls.c - walls: integrals in closed form against the table and quadrature, the
  * operators near walls, surface detection with and without wall terms, water at rest, ranks.
- * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../common/files/h5.h"

@@ -1,5 +1,5 @@
 /* test_zones.c - a region of particles inside a known flow: births and removals keep a lattice and
- * the mass, blending follows its law. ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
+ * the mass, blending follows its law. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../common/scene/exact.h"
@@ -80,7 +80,7 @@ static void check_moving(int dim, double u, double v, const double *box, double 
     struct sph_case c;
     struct sph *s = start_moving(&c, dim, u, v, box);
     const double mass = total_mass(s);
-    assert_true(sph_case_run(&c, SANITIZED ? steps / 2 : steps, 100.0));
+    assert_true(sph_case_run(&c, SANITIZED ? steps / (dim == 2 ? 4 : 2) : steps, 100.0));
     assert_true(max_anywhere((double)s->zones->openings->born) > 0.0);
     assert_close(error_of_velocity(s, u, v), 0.0, 1e-12);
     assert_close(total_mass(s) / mass, 1.0, 1e-11);
@@ -159,10 +159,8 @@ static double carried(double u, double v, bool boxed)
 static void vortices_come_in_undisturbed(void **state)
 {
     (void)state;
-    static const double of[][2] = {{0.6, 0.25}, {-1.5, 0.0}, {0.3, -2.0}};
-    int ranks;
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-    for (int k = 0; k < (SANITIZED ? 0 : ranks == 1 ? 3 : 1); k++) {
+    static const double of[][2] = {{0.6, 0.25}, {0.3, -2.0}};
+    for (int k = 0; k < (SANITIZED || !is_alone() ? 0 : 2); k++) {
         const double alone = carried(of[k][0], of[k][1], false),
                      boxed = carried(of[k][0], of[k][1], true);
         print_message("carried by (%g, %g): %.5f in a box, %.5f alone\n", of[k][0], of[k][1], boxed,
@@ -170,6 +168,8 @@ static void vortices_come_in_undisturbed(void **state)
         assert_true(boxed <= alone);
     }
 }
+
+enum { TRAVEL = SANITIZED ? 1 : 10 }; /* dx */
 
 /* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a
  * particle. */
@@ -180,15 +180,15 @@ static void one_birth_a_face_and_spacing(void **state)
     struct sph *s = start(&c, 2, 1.0, 0.0);
     double born = 0.0, gone = 0.0;
     struct diagnosis d = {0};
-    while (s->t < 10.5 * s->dx) /* u = 1 */
-        integrate_step(s, 10.5 * s->dx, &d);
+    while (s->t < (TRAVEL + 0.5) * s->dx) /* u = 1 */
+        integrate_step(s, (TRAVEL + 0.5) * s->dx, &d);
     born = (double)s->zones->openings->born;
     gone = (double)s->zones->openings->gone;
     MPI_Allreduce(MPI_IN_PLACE, &born, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     MPI_Allreduce(MPI_IN_PLACE, &gone, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    assert_close(born, 10.0 * 40.0, 0.0);
-    assert_true(gone == 10.0 * 40.0 ||
-                gone == 11.0 * 40.0); /* the last column stands on the face */
+    assert_close(born, TRAVEL * 40.0, 0.0);
+    assert_true(gone == TRAVEL * 40.0 ||
+                gone == (TRAVEL + 1) * 40.0); /* the last column stands on the face */
     sph_free(&c.s);
 }
 
@@ -232,11 +232,11 @@ static void vertices_shift_the_lattice(void **state)
 {
     (void)state;
     double off[2] = {0.0, 0.0};
-    assert_close(columns(BIRTHS_FACES, 10.75, off), 10.0, 0.0);
+    assert_close(columns(BIRTHS_FACES, TRAVEL + 0.75, off), TRAVEL, 0.0);
     assert_close(off[0], 0.5, 1e-9);
-    assert_close(columns(BIRTHS_VERTICES, 10.75, off + 1), 11.0, 0.0);
+    assert_close(columns(BIRTHS_VERTICES, TRAVEL + 0.75, off + 1), TRAVEL + 1, 0.0);
     assert_close(off[1], 0.0, 1e-9);
-    assert_close(columns(BIRTHS_VERTICES, 10.25, off + 1), 10.0, 0.0);
+    assert_close(columns(BIRTHS_VERTICES, TRAVEL + 0.25, off + 1), TRAVEL, 0.0);
 }
 
 /* [6.8]: what is blended in is the depth into the transition over its width; across a side half of
@@ -378,12 +378,14 @@ static void what_voids_left_is_drained(void **state)
     assert_close(openings_held(s), -20.0 * whole, 1e-12);
     assert_close(o->mass[7], -1.5 * whole, 1e-12);
     assert_close(s->zones->drain, 18.5 * whole / s->rho0 * s->c0 / (50.0 * s->R),
-                 1e-12);                       /* over 1 m */
-    assert_true(sph_case_run(&c, 402, 100.0)); /* of 0.375 R/c0 */
+                 1e-12);                                        /* over 1 m */
+    assert_true(sph_case_run(&c, SANITIZED ? 40 : 402, 100.0)); /* of 0.375 R/c0 */
     assert_close(zones_mass(s) + openings_held(s), mass - 20.0 * whole, 1e-9);
-    assert_true(fabs(o->deficit) < 0.06 * 18.5 * whole); /* three times as long: exp(-3) */
-    const double left = (mass - zones_mass(s)) / whole;
-    assert_true(left > 5.0 && left < 35.0); /* the rest is on the way: half a row of 25 */
+    if (!SANITIZED) {
+        assert_true(fabs(o->deficit) < 0.06 * 18.5 * whole); /* three times as long: exp(-3) */
+        const double left = (mass - zones_mass(s)) / whole;
+        assert_true(left > 5.0 && left < 35.0); /* the rest is on the way: half a row of 25 */
+    }
     sph_free(&c.s);
 }
 
