@@ -6,18 +6,21 @@
 
 #include <stdint.h>
 
+/* Partial sums that run side by side: 8 doubles fill the vector registers of AVX-512, or two of
+ * AVX2. Results depend on this number in their last bits, so it is the same on all machines. */
 enum { SUM_LANES = 8 };
 
 /* fmin and fmax are calls, for the sake of what is no number. */
 static inline double lesser(double a, double b) { return a < b ? a : b; }
 static inline double greater(double a, double b) { return a > b ? a : b; }
 
+/* The sum of the partial sums, in pairs, so that the order of summation is fixed. */
 static inline double lanes_sum(const double p[SUM_LANES])
 {
     return ((p[0] + p[1]) + (p[2] + p[3])) + ((p[4] + p[5]) + (p[6] + p[7]));
 }
 
-/* Of short lists whose lengths are multiples of SUM_LANES, as in lanes_bounds. */
+/* The dot product of a[n] and b[n]; n must be a multiple of SUM_LANES. */
 static inline double lanes_dot(const double *restrict a, const double *restrict b, int n)
 {
     double part[SUM_LANES] = {0.0};
@@ -27,7 +30,7 @@ static inline double lanes_dot(const double *restrict a, const double *restrict 
     return lanes_sum(part);
 }
 
-/* The same of any length. */
+/* The dot product of a[n] and b[n] for any n; n = 0 gives 0. */
 static inline double lanes_dot_any(const double *restrict a, const double *restrict b, int64_t n)
 {
     double part[SUM_LANES] = {0.0};
@@ -40,7 +43,8 @@ static inline double lanes_dot_any(const double *restrict a, const double *restr
     return lanes_sum(part);
 }
 
-/* Least and largest of a; n > 0. */
+/* Sets *low and *high to the smallest and the largest of a[n]; n must be a multiple of SUM_LANES
+ * and > 0. Elements that are NaN are passed over, but for those among the first SUM_LANES. */
 static inline void lanes_bounds(const double *restrict a, int n, double *low, double *high)
 {
     double l[SUM_LANES], h[SUM_LANES];

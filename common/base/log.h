@@ -25,9 +25,10 @@ void log_quiet(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 /* An ingredient of a run for the line "on: A, B; off: C", which says what the case uses and leaves
  * out: `used' if on, else left_out (NULL: `used' as well). Texts are borrowed during the call. */
 struct log_use {
-    bool on;
-    const char *used, *left_out;
+    bool on;                     /* whether the case uses it */
+    const char *used, *left_out; /* what is printed behind "on:" and behind "off:" */
 };
+/* Prints that line for uses[n], one ingredient after the other in their order. */
 void log_uses(const struct log_use *uses, int n);
 /* As log_say, with "warning: " before the text. */
 void log_warn(const char *fmt, ...) __attribute__((format(printf, 1, 2)));

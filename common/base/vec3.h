@@ -6,11 +6,13 @@
 
 #include <math.h>
 
+/* The scalar product a . b. */
 static inline double vec3_dot(const double *a, const double *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* The Euclidean length |a|. */
 static inline double vec3_length(const double *a) { return sqrt(vec3_dot(a, a)); }
 
 /* c = a x b; c may be a or b. */
@@ -36,6 +38,7 @@ static inline void vec3_from(const double *a, const double *b, double *d)
         d[k] = b[k] - a[k];
 }
 
+/* The distance |b - a| between two points. */
 static inline double vec3_distance(const double *a, const double *b)
 {
     double d[3];

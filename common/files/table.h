@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 
+/* What table_read found: a name for each column and the numbers row by row. */
 struct table {
     int nrows, ncolumns;
     char **name; /* [ncolumns], without units */

@@ -24,7 +24,7 @@ void xdmf_free(struct xdmf **x); /* sets *x to NULL */
 /* A field of the snapshot: `name' is that of the dataset in the HDF5 file and in ParaView; ncomp 1,
  * 2 or 3 components. */
 struct xdmf_field {
-    const char *name;
+    const char *name; /* borrowed during the call */
     int ncomp;
 };
 /* n particles at time t, s; positions in dataset "position" [n][dim]. file: name of the HDF5 file

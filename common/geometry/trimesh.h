@@ -13,7 +13,7 @@
  * date after a change of them. The arrays are owned; zeroed memory is an empty mesh. */
 struct trimesh {
     int nvertices, ntriangles;
-    double (*x)[3];      /* [nvertices], m */
+    double (*x)[3];      /* [nvertices] positions of the vertices, m */
     int (*vertex)[3];    /* [ntriangles] indices into x */
     int (*neighbour)[3]; /* [ntriangles] the triangle across edge k -> k+1; -1: boundary edge */
     int *part;           /* [ntriangles] connected part, from 0 */

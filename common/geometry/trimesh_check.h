@@ -14,9 +14,9 @@
  * them; result and *first are equal on all. */
 int trimesh_crossings(const struct trimesh *a, const struct tree *tree, const struct trimesh *b,
                       MPI_Comm comm, int *first);
-/* Lengths of the edges, m: smallest, mean over triangles and edges, largest. */
+/* How fine a mesh is. */
 struct trimesh_sizes {
-    double least, mean, most;
+    double least, mean, most; /* m: lengths of edges, the mean over all edges of all triangles */
     /* Estimate of the largest distance, m, between the triangles and the smooth surface that they
      * may approximate: of edges whose triangles enclose less than 40 degrees, height times angle
      * over 4. */

@@ -33,18 +33,20 @@ enum {
     PARAM_PLACES_MAX = 16
 };
 
-/* Values of three types of rows: n of them are given, the rest is unspecified. Too many are a
- * fault. */
+/* What a row of PARAM_POINTS fills: the case gives n points of the plane, elements behind them are
+ * unspecified. More than the array holds are a fault of the case. */
 struct param_points {
     int n;
     double x[PARAM_POINTS_MAX][2];
 };
 
+/* The same for PARAM_PLACES, points in space; their third coordinate is 0 in 2D. */
 struct param_places {
     int n;
     double x[PARAM_PLACES_MAX][3];
 };
 
+/* The same for PARAM_NUMBERS, of which a plain number counts as a list of one. */
 struct param_numbers {
     int n;
     double v[PARAM_NUMBERS_MAX];
@@ -54,19 +56,19 @@ struct param_numbers {
  * `hinge = {...};'. The member is a struct whose first member is an int, how many there are, and
  * whose array of max structs of `stride' bytes starts at `first'. */
 struct param_list {
-    const struct param *rows;
+    const struct param *rows; /* [nrows], keys of one of the inner groups */
     int nrows;
-    size_t stride, first;
-    int max;
-    const char *plain; /* key of the one group that a plain text stands for; NULL: none */
+    size_t stride, first; /* bytes: size of an inner struct, offset of the first one */
+    int max;              /* inner groups that the array has room for */
+    const char *plain;    /* key of the one group that a plain text stands for; NULL: none */
 };
 
 /* A row of the table: a key and the member of the group's struct that its value goes to. Rows are
  * written with the macros below and live for the whole run. */
 struct param {
-    const char *key;
+    const char *key; /* as the case spells it, the member's name */
     enum param_type type;
-    size_t offset;    /* of the member in the group's struct */
+    size_t offset;    /* bytes: of the member in the group's struct */
     const char *unit; /* SI, "-" if none */
     /* The default as libconfig text, which may lie outside min .. max to mean "not given"; NULL:
      * the key is required. `#' at the end of the default of a name in a list of groups stands for
@@ -74,7 +76,7 @@ struct param {
     const char *dflt;
     double min, max;     /* of each component, both allowed; not used by bool, text, choice */
     const char *choices; /* "a|b|c" of a PARAM_CHOICE, else NULL */
-    const char *help;
+    const char *help;    /* one phrase for --help, the manual and the text of a case */
     const struct param_list *list; /* of a PARAM_LIST, else NULL */
     const struct param_use *uses;  /* when a run uses the key, params_use.h; NULL: always */
     int numbers;     /* of PARAM_REALS: so many numbers, no vector of space; 0: it is one */
@@ -117,9 +119,9 @@ struct param {
 /* A group of the case file, `name: { ... };', or a list of groups, `name: ( {...}, {...} );'.
  * params_read borrows it until params_free. */
 struct param_group {
-    const char *name;
-    const char *help;
-    const struct param *rows;
+    const char *name;         /* "walls" */
+    const char *help;         /* one phrase for --help and the manual */
+    const struct param *rows; /* [nrows], the keys of the group */
     int nrows;
     void *target;  /* struct (or array of max structs of `stride' bytes) that the rows fill */
     bool *present; /* set to whether the case has the group; may be NULL */
@@ -131,7 +133,7 @@ struct param_group {
 /* Faults of the user's input, collected while the case is checked, so that all are printed at once
  * by params_report. Zeroed memory is empty. */
 struct faults {
-    int n;
+    int n;      /* how many, the same on all ranks */
     char *text; /* rank 0: lines "file:line: key: what"; owned, freed by mem_free */
 };
 
@@ -153,9 +155,10 @@ bool params_has_group(const struct params *p, const char *group);
  * ("sph_left"), since several programs of one kind have a group each; ":sph.dx" is still that of
  * `sph'. */
 void params_alias(struct params *p, const char *kind, const char *as);
+/* Most groups of one kind that a case may have, which is how many programs of a kind a job has. */
+enum { PARAM_PROGRAMS_MAX = 8 };
 /* The case's groups of a kind, "sph", "sph_left", ..., in the order of the case; returns their
  * number. Same on all ranks. */
-enum { PARAM_PROGRAMS_MAX = 8 };
 int params_programs(const struct params *p, const char *kind, char names[PARAM_PROGRAMS_MAX][64]);
 /* 64-bit FNV-1a of the case as read (file, included files, overrides) but for -p output.*; same on
  * all ranks. Two programs of a job must agree on it. */

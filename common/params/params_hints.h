@@ -18,10 +18,12 @@ char *params_group_text(const struct params *p, const struct param_group *g);
  * neighbours count once. Words further away than a third of the letters (at least one) do not
  * count. Texts are borrowed. */
 struct hint_nearest {
-    const char *word, *best;
-    int distance;
+    const char *word, *best; /* the given one; the nearest so far, NULL: none is near enough */
+    int distance;            /* edits between the two */
 };
+/* A search for `word' that has seen no known word yet. */
 struct hint_nearest hint_nearest_start(const char *word);
+/* Compares one more known word; the first of equally near ones is kept. */
 void hint_nearest_try(struct hint_nearest *n, const char *known);
 /* The nearest word tried so far; NULL: none is near. */
 const char *hint_nearest_word(const struct hint_nearest *n);

@@ -22,7 +22,7 @@ struct body_motion {
 
 /* A term ready for evaluation; `is' and rows are borrowed. */
 struct body_term {
-    const struct scene_motion *is;
+    const struct scene_motion *is; /* the term as the case has it */
     int n;              /* rows of its file; -1: no such file, 0: no file or faulty rows */
     const double *rows; /* [n][columns]: t and displacements; the file's */
     double step;        /* s: a step that resolves the file, if it has two rows or more */

@@ -17,23 +17,24 @@
 #include "../waves/waves.h"
 #include "scene_groups.h"
 
+/* A solution, made by exact_create. Members that the field does not use are 0. */
 struct exact {
-    int dim;
+    int dim;                    /* 2 or 3 */
     int n;                      /* number of modes; 0: rest, uniform flow or another field */
     double k[2][2], A[2], s[2]; /* wave vectors 1/m, amplitudes m^2/s, phases rad */
     double K2;                  /* 1/m^2: |k|^2, the same of all modes */
     double V[3];                /* m/s: uniform velocity that carries the modes */
-    double nu, rho;
-    double U;              /* m/s: scale of velocity */
-    int field;             /* enum initial_field */
-    double L, W;           /* m, 1/s: of initial.L, fluid.central */
-    double bottom, height; /* m: of a channel along x; of the still layer of a wave */
-    double force;          /* m/s^2: body force along the channel */
-    struct wave wave;
-    struct stokes stokes;
-    struct steady steady;
-    bool crossed;    /* the wave varies along z, too: cos cos, k = |(k_x, k_z)| */
-    double along[2]; /* k_x/k, k_z/k */
+    double nu, rho;             /* m^2/s, kg/m^3 */
+    double U;                   /* m/s: scale of velocity */
+    int field;                  /* enum initial_field */
+    double L, W;                /* m, 1/s: of initial.L, fluid.central */
+    double bottom, height;      /* m: of a channel along x; of the still layer of a wave */
+    double force;               /* m/s^2: body force along the channel */
+    struct wave wave;           /* of FIELD_STANDING_WAVE */
+    struct stokes stokes;       /* of FIELD_STOKES */
+    struct steady steady;       /* of FIELD_REGULAR and FIELD_SOLITARY */
+    bool crossed;               /* the wave varies along z, too: cos cos, k = |(k_x, k_z)| */
+    double along[2];            /* k_x/k, k_z/k */
 };
 
 /* Whether the scene's field solves the equations at all times, not only at the start. */
@@ -82,9 +83,12 @@ struct norm {
     double r2;   /* sum w ref^2 */
     double emax; /* max |e| */
 };
+/* Adds one cell or particle of weight w, error e and reference value ref. */
 void norm_add(struct norm *n, double w, double e, double ref);
 /* Sums `count' norms over comm, emax by maximum; the result is on all ranks. Collective. */
 void norm_reduce(struct norm *n, int count, MPI_Comm comm);
+/* Error norms of the sums: relative to the reference, the others in the unit of e. 0 without
+ * weights. */
 double norm_relative_l2(const struct norm *n);   /* sqrt(e2/r2) */
 double norm_rms(const struct norm *n);           /* sqrt(e2/vol) */
 double norm_mean(const struct norm *n);          /* e1/vol */

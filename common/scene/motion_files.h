@@ -7,8 +7,8 @@
 /* One file: rows of `columns' numbers separated by blanks, commas or semicolons, the first of them
  * the time, s, which rises from row to row. Lines that begin with # or a word are passed over. */
 struct motion_file {
-    char *path;
-    int columns;
+    char *path;  /* owned */
+    int columns; /* numbers that a row must have */
     /* Rows; -1: there is no such file, 0: a line has another number of columns, or a time that
      * does not rise. */
     int n;

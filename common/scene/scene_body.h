@@ -10,15 +10,17 @@
 #include "../params/params.h"
 #include "scene_surface.h"
 
-enum motion_kind {
-    MOTION_FILE,
-    MOTION_HARMONIC,
-    MOTION_POLYNOMIAL,
-    MOTION_WAVES,
-    MOTION_PARTNER /* another program of the job says where the body is */
-};
+/* How a term of a motion is given (bodies.motion.kind): rows of a file over time, amplitude, period
+ * and phase, coefficients of powers of time, the wave maker's motion for the group waves, or what
+ * another program of the job says. */
+enum motion_kind { MOTION_FILE, MOTION_HARMONIC, MOTION_POLYNOMIAL, MOTION_WAVES, MOTION_PARTNER };
+/* Degrees of freedom of a body: along x, y, z, then about them. In 2D x, y and RZ exist alone. */
 enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
+/* How the fluid's force on a free body is measured: as the momentum that the particles lose to it,
+ * or as the integral of pressure and friction averaged by the kernel at its surface. */
 enum force_rule { FORCE_CONSERVING, FORCE_AVERAGE };
+/* Most terms of a body's motion, most springs and mooring lines of a body; BODY_NEVER is the
+ * default of times that lie beyond the end of every run, s. */
 enum { MOTIONS_MAX = 32, LINES_MAX = 8, BODY_NEVER = 1000000000 };
 
 /* One term of a prescribed motion. The terms of a body add up, each along one degree of freedom but
@@ -35,6 +37,7 @@ struct scene_motion {
     bool made; /* its rows were computed by wave_makers_resolve: wave_maker.h */
 };
 
+/* The terms of one body: n of them, which add up. */
 struct scene_motions {
     int n;
     struct scene_motion of[MOTIONS_MAX];
@@ -58,31 +61,32 @@ struct scene_hinge {
 
 /* The only direction along which the body's centre may move, unit vector. */
 struct scene_slider {
-    double axis[3];
+    double axis[3]; /* -: of any length but 0 */
 };
 
 /* How the body collides with walls and other bodies. */
 struct scene_contact {
-    double restitution, friction; /* - */
+    double restitution, friction; /* -: normal speed after over before; Coulomb's coefficient */
     double gap;                   /* in units of dx: distance that contact keeps */
 };
 
 struct scene_mesh;
-/* A body: closed polylines that run clockwise, with the fluid on their left; in 3D closed
- * meshes. */
+
+/* A body: a closed polyline that runs clockwise, with the fluid on its left; in 3D a closed
+ * mesh. */
 struct scene_body {
-    char name[PARAM_TEXT_SIZE];
-    struct param_points points;
+    char name[PARAM_TEXT_SIZE];       /* as columns, gauges and mooring lines call it */
+    struct param_points points;       /* 2D: corners, m; 3D: none */
     double box[2][3], radius, length; /* m: a simple form, scene_forms.h */
     struct param_points section;      /* of a prism: what its points were */
-    struct scene_surface surface;
-    const struct scene_mesh *mesh; /* what its file holds; NULL: points */
-    bool thin;
-    int kind;             /* WALL_SLIP or WALL_NO_SLIP */
-    bool turned;          /* the sense of the points was reversed by scene_orient */
-    double centre[3];     /* m: centre of rotation and of moments at t = 0 */
-    double velocity[3];   /* m/s: constant, or that of a free body at the start */
-    double spin[3];       /* rad/s: the same of its rotation */
+    struct scene_surface surface;     /* 3D: the file of its mesh and how it is placed */
+    const struct scene_mesh *mesh;    /* what its file holds; NULL: points */
+    bool thin;                        /* particles on one side have no neighbours on the other */
+    int kind;                         /* WALL_SLIP or WALL_NO_SLIP */
+    bool turned;                      /* the sense of the points was reversed by scene_orient */
+    double centre[3];                 /* m: centre of rotation and of moments at t = 0 */
+    double velocity[3];               /* m/s: constant, or that of a free body at the start */
+    double spin[3];                   /* rad/s: the same of its rotation */
     double force[3];      /* N/m: known mean of the fluid's force, for comparison; 0: not known */
     bool free;            /* moved by forces, but for the degrees of freedom in lock */
     double density, mass; /* kg/m^3; kg (2D: kg/m); 0: not given */
@@ -91,7 +95,8 @@ struct scene_body {
     double release;               /* s: the body is held until then */
     int force_rule;               /* enum force_rule */
     double load[3], torque[3];    /* N, N m (2D: per metre): constant */
-    struct scene_motions motion;
+    struct scene_motions motion;  /* prescribed motion, of what forces do not move */
+    /* Springs and mooring lines; then at most one hinge, one guide and one rule of contact. */
     struct scene_lines {
         int n;
         struct scene_line of[LINES_MAX];
@@ -110,9 +115,11 @@ struct scene_body {
     } contact;
 };
 
+/* The rows of an element of the group bodies, which fill a struct scene_body, and their number. */
 extern const struct param scene_body_rows[];
 extern const int scene_body_nrows;
-extern const struct param_list scene_motion_list; /* of a struct scene_motions */
+/* The rows of the list `motion', which fill a struct scene_motions, for groups of their own. */
+extern const struct param_list scene_motion_list;
 
 /* Whether the body ever moves: it is free, or has a velocity or terms of motion. */
 bool scene_body_moves(const struct scene_body *b);

@@ -29,6 +29,7 @@ enum scene_fact {
     FACTS_OF_PROGRAM /* the first one of a program's own */
 };
 
+/* The facts in the manual's words: WORDS_X is what a key that needs FACT_X is "used with". */
 #define WORDS_SPH "sph"
 #define WORDS_FV "fv"
 #define WORDS_SPH_ALONE "sph alone"

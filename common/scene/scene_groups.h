@@ -28,6 +28,7 @@ enum initial_field {
     FIELD_REGULAR,
     FIELD_SOLITARY
 };
+/* Sides of the domain (walls.side); SIDE_NONE: the wall is a polyline or a mesh. */
 enum scene_side {
     SIDE_NONE,
     SIDE_X_MIN,
@@ -51,20 +52,28 @@ enum wall_kind {
     WALL_BEACH,
     WALL_FALLS
 };
-enum wall_zone {
-    ZONE_NONE,
-    ZONE_BEACH,
-    ZONE_WAVE
-}; /* of a side: none, one that absorbs waves, one that makes them */
+/* The zone before a side: none, one that absorbs waves, one that makes them. */
+enum wall_zone { ZONE_NONE, ZONE_BEACH, ZONE_WAVE };
+/* Velocity over an inflow: the same everywhere, or a parabola between its ends whose mean it is. */
 enum wall_profile { PROFILE_UNIFORM, PROFILE_PARABOLIC };
+/* How sph takes fv's fields within a coupling step: between those at its beginning and those of a
+ * trial step of fv at its end, or extrapolated on straight lines from earlier coupling steps. */
 enum coupling_in_time { IN_TIME_TRIAL, IN_TIME_LINEAR };
+/* What of fv's fields sph takes in its transition zone: the characteristic that enters, or all. */
 enum coupling_blend { BLEND_ENTERING, BLEND_ALL };
+/* Forms of a shape of fluid; SHAPE_BELOW is all of the domain below a level. */
 enum shape_form { SHAPE_BOX, SHAPE_POLYGON, SHAPE_DISC, SHAPE_BELOW, SHAPE_MESH };
 /* On which side of a mesh the fluid is: to be found out from the shapes, inside, outside, or, of a
  * sheet, on the side that its normals point away from. */
 enum fluid_side { FLUID_AUTO, FLUID_INSIDE, FLUID_OUTSIDE, FLUID_SHEET };
+/* How a series is compared with its reference (accept.measure); accept_distance has the
+ * definitions. */
 enum accept_measure { ACCEPT_RMS, ACCEPT_PEAK, ACCEPT_IMPULSE, ACCEPT_ARRIVAL };
+/* What a gauge reads: pressure, Pa; height of the surface, m; height of the water's edge on a
+ * beach, m; volume through a line or a rectangle, m^dim/s; velocity, m/s. */
 enum probe_kind { PROBE_PRESSURE, PROBE_LEVEL, PROBE_SHORE, PROBE_DISCHARGE, PROBE_VELOCITY };
+/* Most elements of each list of the case; GAUGE_PROBES is that of the level gauges in one group,
+ * SCENE_GROUPS the number of groups that scene_groups fills in. */
 enum {
     ACCEPT_MAX = 16,
     WALLS_MAX = 16,
@@ -162,7 +171,7 @@ struct scene {
     int nprobes;
     /* A group of level gauges that together separate incident from reflected waves:
      * wave_gauges.h. */
-    struct scene_gauges { /* level gauges that together tell waves apart */
+    struct scene_gauges {
         char name[PARAM_TEXT_SIZE], probes[PARAM_TEXT_SIZE];
         double from, period; /* s: start of the evaluation; period of the waves */
     } gauges[GAUGES_MAX];

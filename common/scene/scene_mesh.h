@@ -9,6 +9,7 @@
 
 struct summary;
 
+/* What a mesh belongs to: a shape of fluid, a body, a wall. */
 enum mesh_owner { MESH_OF_SHAPE, MESH_OF_BODY, MESH_OF_WALL };
 enum { MESH_OF_ALL = 7 }; /* bits 1 << owner */
 

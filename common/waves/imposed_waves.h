@@ -16,9 +16,13 @@
 #include "steady.h"
 #include "wave_table.h"
 
+/* What waves are imposed: regular ones of permanent form, a sea of a spectrum, a group that focuses
+ * at a place and time, or those of a file (swd.h). */
 enum wave_kind { WAVE_REGULAR, WAVE_SEA, WAVE_FOCUSED, WAVE_FILE };
-/* By the layer, or by orders in steepness. */
+/* Whether a sea or a group evolves nonlinearly: not at all (a sum of waves), by the potential in
+ * the whole layer of water (layer.h), or by orders in steepness (hos.h). */
 enum wave_evolve { EVOLVE_NO, EVOLVE_FULL, EVOLVE_HOS };
+/* Tables in time between which velocities are blended by a cubic. */
 enum { WAVE_FRAMES = 4 };
 
 /* What the case asks for. */
@@ -49,18 +53,17 @@ struct wave_spec {
 /* A linear wave: eta = a cos(k (x cos b + y sin b) - w t + phase). */
 struct wave_component {
     double a, w, k, phase; /* m, 1/s, 1/m, - */
-    double way[2];         /* cosine, sine of its direction b, from that of the waves:
-                            * eta = a cos(k (x cos b + y sin b) - w t + phase) */
+    double way[2];         /* cosine, sine of its direction b, from that of the waves */
 };
 
 /* Waves made from a spec, and the table of the time that waves_at set. */
 struct waves {
-    struct wave_spec of;
+    struct wave_spec of;             /* a copy of what waves_create was given */
     double length, period, celerity; /* m, s, m/s: of the peak */
     double crest, trough, speed;     /* m, m, m/s: highest, lowest, fastest; of seas expected */
     double limit;                    /* m: height of the highest wave of that length and depth */
     double shortest, longest;        /* m: lengths of what carries energy */
-    struct steady steady;
+    struct steady steady;            /* regular: the wave */
     /* m/s: uniform current so that there is no net transport; regular: of the frame. */
     double current;
     double transport;   /* m^2/s: that of the waves on water that is still in the mean */
@@ -72,7 +75,7 @@ struct waves {
     bool shares;                 /* the field is another's */
     double _Complex *filter;     /* of the field's velocities: what makes up for the zone */
     double *profile;          /* [ncomponents][2][WAVE_NODES]: velocities over a w, along and up */
-    double _Complex *turning; /* [2][ncomponents] */
+    double _Complex *turning; /* [2][ncomponents]: a e^(i phase) at a column, turn to the next */
     /* Regular: one table that travels. Else a blend of four frames dt apart. */
     struct wave_table table, frames[WAVE_FRAMES];
     long frame[WAVE_FRAMES]; /* number of the frame that each holds */
@@ -84,13 +87,14 @@ struct waves {
 /* true if there is no such wave: *key (static) is the key at fault and text[size] the rest of the
  * message "waves.KEY: TEXT". */
 bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size_t size);
-/* Period of the peak for who is at rest, s; from the length by linear theory where that is given.
- */
+/* Period of the peak, s, as an observer at rest sees it; by linear theory from the length where
+ * the case gives that. */
 double waves_period(const struct wave_spec *of);
 /* Length of the peak, m, or of a regular wave, by linear theory. */
 double waves_length(const struct wave_spec *of);
 /* Waves of a spec that waves_refuse accepts; owned by the caller (waves_free). Local to a rank. */
 struct waves *waves_create(const struct wave_spec *of);
+/* Frees all but a shared field and sets *w to NULL; *w may be NULL. */
 void waves_free(struct waves **w);
 /* Lets w use the evolving field of `owner', which makes the same waves for another zone and
  * outlives w. */

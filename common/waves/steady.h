@@ -11,6 +11,7 @@
 
 #include <stdbool.h>
 
+/* Most modes Y_j of a wave, N above. */
 enum { STEADY_MODES = 128 };
 
 /* The solution; plain data, nothing to free. */

@@ -8,6 +8,7 @@
 #ifndef COMMON_STOKES_H
 #define COMMON_STOKES_H
 
+/* The wave; plain data, nothing to free. */
 struct stokes {
     double k, a, omega;     /* 1/m, m, 1/s */
     double g, rho, highest; /* m/s^2, kg/m^3, m: of the crest */

@@ -12,6 +12,7 @@
 #include "imposed_waves.h"
 #include "swd.h"
 
+/* States of earlier steps that are kept: a solver that repeats a step asks for no older one. */
 enum { WAVE_FIELD_KEPT = 8 };
 
 /* A field with what is needed to return to earlier steps. Every rank holds and evolves the same
@@ -26,13 +27,13 @@ struct wave_field {
     double *lower[2];       /* [cells][lower nodes]: u over |k| phi, w over |k| phi of a mode */
     const struct wave_component *components; /* borrowed: n of them, which it begins with at t0 */
     int n;
-    double t0;                  /* s */
-    bool begun;                 /* `start' has been computed */
-    double *start;              /* modes of eta + i phi_s before all steps */
-    double *z, *padded, *work;  /* modes and fields of the columns */
-    long kept[WAVE_FIELD_KEPT]; /* steps whose states are kept, to go back to; -1: none */
-    double *states[WAVE_FIELD_KEPT];
-    double energy; /* m^3/s^2: when all terms had grown; 0: not yet */
+    double t0;                       /* s */
+    bool begun;                      /* `start' has been computed */
+    double *start;                   /* modes of eta + i phi_s before all steps */
+    double *z, *padded, *work;       /* modes and fields of the columns */
+    long kept[WAVE_FIELD_KEPT];      /* steps whose states are kept, to go back to; -1: none */
+    double *states[WAVE_FIELD_KEPT]; /* modes of those states, [cells][2] each; owned */
+    double energy;                   /* m^3/s^2: when all terms had grown; 0: not yet */
 };
 
 /* Of waves whose peak has that period, s, and length, m. Its components, *n by |k|, become the
@@ -42,6 +43,7 @@ struct wave_field *wave_field_create(const struct wave_spec *of, double period, 
 /* One whose frames are the times of the file of->file, which wave_file_probe found sound. */
 struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
                                       struct wave_component **components, int *n);
+/* Frees the field and what it owns and sets *f to NULL; *f may be NULL. */
 void wave_field_free(struct wave_field **f);
 /* An empty table that covers of->window; longest: length of the longest waves, m. */
 struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,

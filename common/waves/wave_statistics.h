@@ -14,6 +14,7 @@ struct wave_heights {
 /* From n samples v, m, at the times t, s, rising. */
 struct wave_heights wave_heights_of(int n, const double *t, const double *v);
 
+/* Samples of a segment of the spectrum, and frequencies that follow from them. */
 enum { SPECTRUM_SEGMENT = 256, SPECTRUM_BINS = SPECTRUM_SEGMENT / 2 };
 /* Spectral density S (m^2/Hz) at f (Hz), SPECTRUM_BINS each from the lowest frequency on, by
  * Welch's method: Hann's window, segments that overlap by half; about `segments' of them. */

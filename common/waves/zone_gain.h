@@ -7,6 +7,7 @@
 #ifndef COMMON_ZONE_GAIN_H
 #define COMMON_ZONE_GAIN_H
 
+/* What the zone does to waves of one frequency. */
 struct zone_response {
     double _Complex make; /* factor of u_w (of e^(iwt)) for waves that run away from the side */
     double _Complex pass; /* the same for waves that run to the side and shall not come back */
