@@ -89,7 +89,7 @@ int cpl_meet(struct cpl *c, uint64_t case_hash, int64_t restart_window, int faul
 /* Corners of the box that a partner named so; after cpl_meet. CPL_EINPUT if nobody published it. */
 int cpl_find_zone(struct cpl *c, const char *zone, double lo[3], double hi[3]);
 
-/* A uniform grid of cells; value sit at cell centres origin + (i + 1/2) spacing and are cell
+/* A uniform grid of cells; values sit at cell centres origin + (i + 1/2) spacing and are cell
  * averages. This rank holds the global cells lo <= i < hi. */
 struct cpl_grid {
     int dim;
@@ -98,6 +98,7 @@ struct cpl_grid {
     int periodic[3];
     int lo[3], hi[3];
 };
+/* Declares a set of this name that is such a grid; *id is its number in the calls below. */
 int cpl_grid(struct cpl *c, const char *set, const struct cpl_grid *g, int *id);
 /* A cloud of points. support: radius in m of the kernel in which points of another cloud are
  * gathered for this one (0 if this set only gives). */
@@ -177,6 +178,7 @@ double cpl_heard(const struct cpl *c);  /* s since the coupler's last message */
  * its own for SIGTERM only where the solver has none at cpl_open; this is for the solver's handler
  * of SIGTERM, which survivors of a failure get. */
 void cpl_obituary(int fd);
+/* What the last error was, where, and how to mend it; borrowed until the next call. */
 const char *cpl_strerror(const struct cpl *c);
 /* Leaves a failure report with the reason and ends the whole job with this exit code; any rank may
  * call it. Does not return. */

@@ -12,9 +12,12 @@
 #include "../transport/transport.h"
 #include "cpl_patch.h"
 
+/* Bytes of the text of the last error. */
 enum { CPL_TEXT = 4096 };
 
-/* In the order of a job. */
+/* How far this solver is, in the order of a job: after cpl_open, cpl_meet and cpl_ready, within a
+ * coupling step, after its cpl_advance, when the coupler has ended the job, after an error that
+ * ended the handshake or after cpl_close. */
 enum client_state { OPENED, MET, PLANNED, IN_WINDOW, BETWEEN, ENDING, LEFT };
 
 /* Points of a set as of one cpl_move. They are shared by the set and by puts that have not been
@@ -22,9 +25,9 @@ enum client_state { OPENED, MET, PLANNED, IN_WINDOW, BETWEEN, ENDING, LEFT };
 struct client_places {
     int users;
     long n;
-    double *x; /* [n][3] */
-    int64_t *gid;
-    double *volume;
+    double *x;      /* [n][3], m */
+    int64_t *gid;   /* [n], numbers that are unique over all ranks; NULL: none given */
+    double *volume; /* [n], m^dim: weights as sources; NULL: none given */
 };
 
 /* A declared set: a grid, or points that move. */
@@ -32,34 +35,34 @@ struct client_set {
     char name[CPL_NAME];
     bool is_grid;
     int dim;
-    double support, period[3]; /* m; period 0: not periodic */
-    struct cpl_grid grid;
-    struct client_places *places;
-    int moves;            /* number of cpl_move calls */
-    int64_t first, total; /* of this rank's points among all ranks' */
+    double support, period[3];    /* m; period 0: not periodic */
+    struct cpl_grid grid;         /* of a grid */
+    struct client_places *places; /* of points, since the last cpl_move; NULL: none yet */
+    int moves;                    /* number of cpl_move calls */
+    int64_t first, total;         /* of this rank's points among all ranks' */
 };
 
 /* Values of one put, kept until the put after the next, since a target that wants them may not have
  * asked yet. */
 struct slot {
-    int64_t tick; /* -1: none */
-    double t;
-    int terms;
-    double *v[CPL_TERMS]; /* terms in time; NULL: zero */
-    struct client_places *places;
+    int64_t tick;                 /* coupling steps before the time of the values; -1: none */
+    double t;                     /* s: that time */
+    int terms;                    /* powers of time that were put, 1 to CPL_TERMS */
+    double *v[CPL_TERMS];         /* [points or cells][ncomp] each; NULL: zero */
+    struct client_places *places; /* where the points were when the values were put */
     int *served; /* [ntargets][ncoupler]: generation of the region that was answered with them */
 };
 
 /* A declared field, of which this solver is the source (CPL_PUT) or the target (CPL_GET). */
 struct client_field {
     char name[CPL_NAME], unit[CPL_NAME];
-    int set, ncomp, how, direction;
-    int ntargets;           /* source: number of its targets */
-    char partner[CPL_NAME]; /* name of the program at the other side, for messages */
-    bool from_grid;
+    int set, ncomp, how, direction; /* as cpl_field was called */
+    int ntargets;                   /* source: number of its targets */
+    char partner[CPL_NAME];         /* name of the program at the other side, for messages */
+    bool from_grid;                 /* the source's set is a grid */
     struct need {
-        int generation; /* 0: nothing wanted yet */
-        struct region region;
+        int generation;        /* 0: nothing wanted yet */
+        struct region region;  /* what a coupler rank wants for a target */
     } * need;                  /* source: [ntargets][ncoupler] */
     struct slot slot[2];       /* source: by tick & 1 */
     int64_t last_tick;         /* source: of the last put, -1 */
@@ -72,13 +75,13 @@ struct client_field {
 /* The solver's whole state in the job. */
 struct cpl {
     char name[CPL_NAME];
-    MPI_Comm world, mine;
-    int rank, size, ncoupler;
+    MPI_Comm world, mine;     /* of the whole job; of this program's ranks */
+    int rank, size, ncoupler; /* in `mine'; ranks of the coupler */
     enum client_state state;
-    int error;           /* 0, or CPL_EPARTNER, which stays */
-    char text[CPL_TEXT]; /* of the last error */
-    const char *faults;  /* lines for the coupler to print, borrowed until cpl_meet; NULL: none */
-    struct wire wire;
+    int error;             /* 0, or CPL_EPARTNER, which stays */
+    char text[CPL_TEXT];   /* of the last error */
+    const char *faults;    /* lines for the coupler to print, borrowed until cpl_meet; NULL: none */
+    struct wire wire;      /* to the coupler, its only peer */
     struct message *inbox; /* received messages that no call has asked for yet; a list */
     int nzones;
     struct zone {
@@ -89,7 +92,8 @@ struct cpl {
     struct client_set set[LIMIT_SETS];
     struct client_field field[LIMIT_FIELDS];
     int64_t window; /* number of the coupling step under way or last done; before: of the first */
-    double t0, t1, waited, heard;
+    double t0, t1;  /* s: begin and end of that coupling step */
+    double waited, heard; /* s: spent waiting; wire_time of the coupler's last message */
     /* Keys and values of cpl_tell, sent with the next advance; empty: not begun. */
     struct pack told;
     int64_t ntold;

@@ -17,9 +17,9 @@
 struct map_cloud {
     long n;
     double *x;      /* [n][dim], m */
-    int64_t *gid;   /* [n] */
-    double *volume; /* [n] m^dim */
-    double *v;      /* [n][ncomp] */
+    int64_t *gid;   /* [n] global numbers */
+    double *volume; /* [n] m^dim: weights w */
+    double *v;      /* [n][ncomp] values f */
 };
 
 /* A consistent mapping. Sets v[ntarget][ncomp] at x[ntarget][dim], m, and mask: 1 mapped; 0 no

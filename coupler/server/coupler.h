@@ -16,12 +16,13 @@
 #include "../transport/transport.h"
 #include "job.h"
 
+/* Bytes of a list of problems that all programs print. */
 enum { TEXT = 4096 };
 
 /* What one program reported with cpl_tell: the last value of each key, in the order of their first
  * mention. */
 struct told {
-    int n;
+    int n;     /* keys in `of' */
     bool full; /* there were more keys than fit, which has been logged */
     struct told_number {
         char key[TOLD_KEY];
@@ -31,29 +32,29 @@ struct told {
 
 /* A program of the job other than the coupler: what it declared and how far it is. */
 struct solver {
-    const char *name;
-    int size, peer; /* ranks; its place in wire */
-    bool met, ready, said_bye;
-    int64_t restart_window;
-    uint64_t hash;
-    int faults, nzones;
+    const char *name;                  /* borrowed from the handshake */
+    int size, peer;                    /* ranks; its place in wire */
+    bool met, ready, said_bye;         /* its WIRE_MEET, WIRE_READY and all its WIRE_BYE are here */
+    int64_t restart_window;            /* coupling step that it restarts at, -1: at the start */
+    uint64_t hash;                     /* of its case; 0: it has read none */
+    int faults, nzones;                /* faults of its input, boxes that it published */
     char fault_lines[TEXT], dir[1024]; /* what is wrong with its input; -o */
     struct named_box {
         char name[CPL_NAME];
         double lo[3], hi[3];
     } zone[LIMIT_ZONES];
-    double t, dt_longest;
+    double t, dt_longest; /* s: where it starts, the longest coupling step it wants */
     int nsets, nfields;
     struct solver_set {
         char name[CPL_NAME];
         bool is_grid;
         int dim;
-        double support, period[3];
-        struct cpl_grid grid;
+        double support, period[3]; /* m, of points */
+        struct cpl_grid grid;      /* of a grid */
     } set[LIMIT_SETS];
     struct solver_field {
         char name[CPL_NAME], unit[CPL_NAME];
-        int set, ncomp, direction, how;
+        int set, ncomp, direction, how;      /* as its cpl_field said */
         int link;                            /* target: its link, -1: none */
         int ntargets, target[LIMIT_TARGETS]; /* source: the links of its targets */
         int64_t last_tick; /* source: of its last put, as of its last advance or get */
@@ -64,23 +65,22 @@ struct solver {
     double heard;                          /* wire_time of its last message */
     double advanced_at;                    /* wall time of its last advance */
     double waited_for[HANDSHAKE_PROGRAMS]; /* s, of `waited', for each solver; the rest: coupler */
-    struct told told;
+    struct told told;                      /* its last report */
 };
 
-/* A field on its way from one solver, the source ("source"), to another, the target ("target"):
- * rendezvous.c. */
+/* A field on its way from one solver, the source, to another, the target: rendezvous.c. */
 struct partner_link {
     int source, gfield, target, tfield; /* solver and its field */
-    bool from_grid;
+    bool from_grid;                     /* the target gets a patch, not mapped values */
     int ncomp, dim;
-    int number;            /* among the targets of the source's field */
-    map_points *map;       /* consistent mappings; NULL: conservative, `deal' says which */
-    enum map_dealing deal; /* conservative ones */
-    struct cpl_grid grid;  /* of the source */
-    double support, period[3];
+    int number;                /* among the targets of the source's field */
+    map_points *map;           /* consistent mappings; NULL: conservative, `deal' says which */
+    enum map_dealing deal;     /* conservative ones */
+    struct cpl_grid grid;      /* of the source */
+    double support, period[3]; /* m: radius of the mapping; period 0: not periodic */
     /* what this rank has announced that it wants */
-    int generation;
-    bool moved; /* targets have moved since */
+    int generation; /* of the region, from 1; 0: none announced */
+    bool moved;     /* targets have moved since */
     struct region region;
     /* what targets asked for; by rank of the target */
     int64_t asked_tick;  /* -1: nothing asked */
@@ -88,35 +88,35 @@ struct partner_link {
     double asked_at;     /* wall time at which the last of them has */
     struct asker {
         bool asked;
-        long ntarget; /* conservative mappings: all of this rank, not only our share */
-        double *x;    /* [ntarget][dim] */
-        int64_t *gid; /* conservative mappings */
-        double *volume;
+        long ntarget;        /* conservative mappings: all of this rank, not only our share */
+        double *x;           /* [ntarget][dim], m */
+        int64_t *gid;        /* conservative mappings: [ntarget] */
+        double *volume;      /* the same, m^dim: weights of the targets */
         double lo[3], hi[3]; /* grids: the box wanted */
     } * asker;
     struct arrival {
-        int64_t tick; /* -1: nothing */
-        int n;        /* puts of the present generation */
-        double t;
+        int64_t tick;         /* -1: nothing */
+        int n;                /* puts of the present generation */
+        double t;             /* s: of the values */
         struct message **put; /* [ranks of the source] */
     } in[2];                  /* by tick & 1 */
     double mapped;            /* s spent here */
-    int64_t served;
+    int64_t served;           /* requests that this rank has answered */
 };
 
 /* The coupler's state; one per process. */
 struct coupler {
-    MPI_Comm world, comm;
-    int rank, size;
-    struct handshake who;
-    struct wire wire;
-    int own_peer;
+    MPI_Comm world, comm; /* of the whole job; of the coupler's ranks */
+    int rank, size;       /* in comm */
+    struct handshake who; /* the programs of the job */
+    struct wire wire;     /* to the solvers, in their order, and among the coupler's ranks */
+    int own_peer;         /* the place in wire of the coupler's own ranks */
     const struct command_line *command;
-    struct job job;
+    struct job job;     /* group coupler of the case */
     struct scene scene; /* of a case that all programs share; else what a case leaves out */
     struct params *params;
-    uint64_t hash;
-    char dir[1024], case_dir[1024];
+    uint64_t hash;                  /* params_hash of the case */
+    char dir[1024], case_dir[1024]; /* output folder; folder of the case file */
     int nsolvers;
     struct solver solver[HANDSHAKE_PROGRAMS];
     int nlinks;

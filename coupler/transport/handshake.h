@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+/* Bytes of a program's name, most programs of a job, bytes of what is wrong. */
 enum { HANDSHAKE_NAME = 64, HANDSHAKE_PROGRAMS = 32, HANDSHAKE_TEXT = 2048 };
 
 /* The programs of the job, the same on all ranks but for `me', `mine' and `inter'. */
@@ -14,7 +15,7 @@ struct handshake {
     int nprograms; /* in the order of their names, so that places in mpirun do not matter */
     struct handshake_program {
         char name[HANDSHAKE_NAME];
-        int size;
+        int size;       /* its ranks */
         int leader;     /* world rank of its rank 0 */
         MPI_Comm inter; /* to it: solver with coupler and coupler with solver, else MPI_COMM_NULL */
     } program[HANDSHAKE_PROGRAMS];

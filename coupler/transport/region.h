@@ -14,12 +14,12 @@ struct pack;
 
 /* A region; the arrays are owned, see region_free. {0} wants nothing. */
 struct region {
-    int dim;
+    int dim; /* 2 or 3; 0: nothing is wanted */
     int all; /* every point, wherever it lies; no images */
     /* Points: a bit map over cells i <= (x - 0)/edge < i + 1; period 0: not periodic. */
-    double edge, period[3]; /* m */
-    int lo[3], n[3];
-    unsigned char *wanted; /* [n[2]][n[1]][n[0]] */
+    double edge, period[3]; /* m: of a cell; of the targets' space */
+    int lo[3], n[3];        /* the map's first cell, and its numbers of cells */
+    unsigned char *wanted;  /* [n[2]][n[1]][n[0]] */
     /* Grids: boxes lo <= i < hi in the unwrapped index space. */
     int nboxes;
     struct region_box {
@@ -45,6 +45,7 @@ int region_images(const struct region *r, const double *x, double image[27][3]);
 /* Appends the region to a message; region_take reads it back, owned by the caller. */
 void region_pack(struct pack *p, const struct region *r);
 struct region region_take(struct wire *w, struct message *m);
+/* Frees the arrays and leaves a region that wants nothing. */
 void region_free(struct region *r);
 
 #endif

@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Version of the protocol, which all programs of a job must have; most programs one can reach. */
 enum { WIRE_VERSION = 4, WIRE_PEERS = 40 };
 
 /* The most that a program, or a job, can have; more is refused. */
@@ -45,28 +46,28 @@ enum wire_kind {
 /* The header of every message. Its layout is part of the protocol: raise WIRE_VERSION with any
  * change. */
 struct wire_head {
-    uint32_t magic;
-    uint16_t version, kind;
-    int32_t field;      /* the solver's own number of the field */
+    uint32_t magic;         /* marks a message of this protocol */
+    uint16_t version, kind; /* WIRE_VERSION, enum wire_kind */
+    int32_t field;          /* the solver's own number of the field */
     int32_t generation; /* of the region that a put answers, of the places that values belong to */
     int32_t target;     /* needs and puts: which of the field's targets, from 0 */
     int32_t terms;      /* puts and values: coefficients in time of each component, from 1 */
     int64_t tick;       /* coupling steps before the time of the values, or of the step */
     int64_t count;      /* items */
     int64_t bytes;      /* of the body */
-    double t;           /* s */
+    double t;           /* s: of the values */
 };
 
 /* A message under construction; wire_send takes its memory. */
 struct pack {
-    unsigned char *bytes; /* header first */
-    size_t n, capacity;
+    unsigned char *bytes; /* header first; owned */
+    size_t n, capacity;   /* bytes in use, bytes allocated */
 };
 
 /* A message received: next unread byte of the body at body[at]. Freed by message_free. */
 struct message {
-    struct message *next;
-    int peer, rank; /* which communicator, rank in its remote group */
+    struct message *next; /* in a list of its receiver */
+    int peer, rank;       /* which communicator, rank in its remote group */
     struct wire_head head;
     unsigned char *memory, *body; /* the body lies behind the header */
     size_t at;
@@ -76,7 +77,7 @@ struct message {
 struct wire {
     int npeers;
     struct wire_peer {
-        MPI_Comm comm;
+        MPI_Comm comm;    /* intercommunicator, borrowed */
         int size;         /* ranks on the other side */
         const char *name; /* borrowed */
     } peer[WIRE_PEERS];
@@ -90,10 +91,11 @@ struct wire {
 struct nap {
     double since;   /* s: when the waiting began */
     double checked; /* s: last look at whether all partners are alive */
-    long us;
+    long us;        /* microseconds: of the next sleep */
 };
 
-double wire_time(void); /* s, monotonic */
+/* Seconds of a monotonic clock, for differences alone. */
+double wire_time(void);
 /* malloc and realloc that abort the program when there is no memory; n = 0 is legal. Freed by
  * free(). */
 void *wire_alloc(size_t n);
@@ -103,18 +105,21 @@ void *wire_grow(void *p, size_t n);
 void pack_begin(struct pack *p, enum wire_kind kind, int field, int64_t tick);
 /* The header of a message under construction; valid until the next pack_... */
 struct wire_head *pack_head(struct pack *p);
+/* Appends n bytes as they are. */
 void pack_bytes(struct pack *p, const void *from, size_t n);
 /* Appends n bytes to be filled by the caller at once. */
 void *pack_room(struct pack *p, size_t n);
+/* Appends a text with its length, and numbers of 8 bytes. */
 void pack_text(struct pack *p, const char *text);
 void pack_int(struct pack *p, int64_t i);
 void pack_real(struct pack *p, double r);
 
-/* Read the body in the order in which it was packed. Reading past the end ends the program through
- * wire.broken. */
+/* The next n bytes of the body, which is read in the order in which it was packed. Reading past the
+ * end, here and below, ends the program through wire.broken. */
 void take_bytes(struct wire *w, struct message *m, void *to, size_t n);
-const void *take_view(struct wire *w, struct message *m,
-                      size_t n); /* bytes in place, any alignment */
+/* The same without a copy: n bytes of any alignment within the message, borrowed from it. */
+const void *take_view(struct wire *w, struct message *m, size_t n);
+/* The next text, cut to size - 1 bytes, and the next numbers. */
 void take_text(struct wire *w, struct message *m, char *to, size_t size);
 int64_t take_int(struct wire *w, struct message *m);
 double take_real(struct wire *w, struct message *m);
@@ -130,6 +135,7 @@ void wire_send_all(struct wire *w, int peer, struct pack *p);
 struct message *wire_poll(struct wire *w, int peer);
 /* Advances the sends; true when all are done. */
 bool wire_flushed(struct wire *w);
+/* Frees the message and sets *m to NULL; *m may be NULL. */
 void message_free(struct message **m);
 
 /* Starts a wait; nap_take sleeps once. */
