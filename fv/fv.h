@@ -11,10 +11,18 @@
 #include "../common/scene/scene.h"
 #include "grid/fv_grid.h"
 
+/* Most programs of particles that a job can couple with this one. */
 enum { PARTNERS_MAX = PARAM_PROGRAMS_MAX };
+/* fv.surface: whether a free surface is computed; AUTO as the scene has one. */
 enum fv_surface { SURFACE_NO, SURFACE_YES, SURFACE_AUTO };
+/* fv.volume, how the surface keeps its water: phi is shifted as a whole, or the share of water of
+ * each cell is advected in conservative form (surface/fraction.h); AUTO: the latter where it can
+ * be. */
 enum fv_volume { VOLUME_AUTO, VOLUME_SHIFT, VOLUME_FRACTION };
+/* fv.integrator: three projected Runge-Kutta stages, the two-step backward difference with a
+ * projection, or the same difference solved for velocity and pressure at once (time/newton.h). */
 enum fv_integrator { INTEGRATOR_RK3, INTEGRATOR_BDF2, INTEGRATOR_NEWTON };
+/* fv.flux, newton's convection: central with a small dissipation, or upwind (kappa = 1/3). */
 enum fv_flux { FLUX_CENTRAL, FLUX_UPWIND };
 /* What bounds a step, see limits.h. */
 enum limit {
@@ -33,13 +41,13 @@ struct blocked_params; /* boundary/blocked.h */
 
 /* The case as the run uses it: case/ writes it, all else reads it. */
 struct fv_params {
-    int cells[3];
-    double cfl; /* of the largest sum over the axes of |u_a| dt/h_a; 0: the integrator's own */
-    int integrator;
+    int cells[3];   /* of the uniform grid along each axis */
+    double cfl;     /* of the largest sum over the axes of |u_a| dt/h_a; 0: the integrator's own */
+    int integrator; /* enum fv_integrator */
     double tol_pressure; /* of the last projection of a step, relative to |div U*| */
     double tol_viscous;  /* of Helmholtz; 0: see helmholtz_tolerance */
     double tol_newton;   /* of a residual, as a velocity relative to the largest */
-    int flux;            /* newton only */
+    int flux;            /* enum fv_flux; newton only */
     double c0;           /* m/s: sound speed; newton only, 0: incompressible */
     bool steady;         /* newton only: march to a steady state */
     double graded[3];    /* m, rows: see rows.h; rows 0: all even */
@@ -148,19 +156,21 @@ struct fv_partners {
     double born_at;      /* s */
 };
 
+/* The state of a run on one rank. Made by fv_create, freed by fv_free (case/fv_case.h); each
+ * pointer is owned, by the folder whose header the list above names, but for run and ops. */
 struct fv {
-    struct run *run;
-    struct fv_params prm;
-    struct block b;   /* the uniform grid, or one of graded rows; empty with blocks */
-    struct mesh *m;   /* the blocks; NULL: none */
-    struct grid grid; /* either of them, to those who need not tell which: parts of this rank */
+    struct run *run;      /* borrowed from run_main */
+    struct fv_params prm; /* a copy of what fv_params_of found */
+    struct block b;       /* the uniform grid, or one of graded rows; empty with blocks */
+    struct mesh *m;       /* the blocks; NULL: none */
+    struct grid grid;     /* either of them, to those who need not tell which: parts of this rank */
     int dim;
-    MPI_Comm comm;
-    int64_t size;      /* of a field */
-    struct part whole; /* that of the uniform grid */
-    const struct flow_ops *ops;
-    struct exact exact;
-    double nu; /* m^2/s */
+    MPI_Comm comm;              /* that of the grid: its ranks may have another order than run's */
+    int64_t size;               /* entries of a field, ghosts included */
+    struct part whole;          /* that of the uniform grid */
+    const struct flow_ops *ops; /* the operators of this kind of cells */
+    struct exact exact;         /* the scene's field, which errors and exact sides refer to */
+    double nu;                  /* m^2/s */
     struct gravity gravity;
     double t; /* s */
     struct fv_step step;

@@ -6,7 +6,7 @@
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
 
-/* fv_params.c */
+/* fv_params.c: the groups fv, blocks and blocked of a case, for struct program. */
 enum { FV_GROUPS = 3 };
 extern const struct param_group fv_groups[FV_GROUPS];
 /* The case's parameters with what follows from them; they last as long as the program. case/ and
@@ -16,6 +16,7 @@ const struct fv_params *fv_params_of(const struct run *r);
 int fv_params_nboxes(const struct run *r);
 /* Whether the scene has a free surface that fv computes. */
 bool surface_wanted(const struct run *r);
+/* Adds the faults of the three groups that need more than one key. */
 void fv_params_check(const struct run *r, struct faults *f);
 
 /* fv_unused.c: whether errors against the exact solution are measured. */
@@ -37,10 +38,11 @@ const char *surface_newton_lacks(bool falls);
 /* hanging_water.c: of water that would hang from the side of the domain above it. */
 void surface_check_hanging(const struct run *r, struct faults *f);
 
-/* mesh_params.c */
+/* mesh_params.c: the keys of a block. */
 enum { MESH_ROWS = 25 };
 extern const struct param mesh_rows_of[MESH_ROWS];
-extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX]; /* what the case has */
+/* What params_read fills from them: the blocks of the case in its order, and their number. */
+extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX];
 extern int mesh_given_count;
 /* A ring between two walls that the case calls Couette flow: its steady flow is known. */
 bool mesh_ring(const struct run *r);
@@ -52,23 +54,32 @@ void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *
  * where they end. */
 void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m);
 
-/* blocked_params.c */
+/* blocked_params.c: the keys of a box that is cut out of the cells. */
 enum { BLOCKED_ROWS = 4 };
 extern const struct param blocked_rows[BLOCKED_ROWS];
+/* The boxes of the case in its order, and their number; bodies make more of them. */
 extern struct blocked_params blocked_given[BLOCKED_MAX];
 extern int blocked_given_count;
+/* Adds the faults of the boxes of both kinds: outside of the domain, without a cell, too near to
+ * each other. */
 void blocked_check(const struct run *r, struct faults *f);
 /* Says where boxes stand that are not made of whole cells. */
 void blocked_describe(const struct run *r);
 
-/* fv_state.c, mesh_state.c */
+/* fv_state.c: the state at the start, or from the restart file f (not NULL). NULL on all ranks: the
+ * file does not fit, which has been logged. Owned by the caller (fv_free). Collective over
+ * r->comm. */
 struct fv *fv_create(struct run *r, struct h5 *f);
+/* Frees the state with all that it owns and sets *s to NULL; *s may be NULL. */
 void fv_free(struct fv **s);
-/* What blocks add to fv_create and fv_free. */
-/* Those of the cells that s has. */
+/* Allocates the fields of s->size entries that every grid needs. */
 void fv_make_fields(struct fv *s);
+/* mesh_state.c, the same for blocks: makes the mesh, its fields and all that stands on them, the
+ * flow of the scene in them. Collective. */
 void mesh_state_create(struct fv *s);
+/* Projects the velocities of the start, without a surface, which does so in its first stage. */
 void mesh_state_start(struct fv *s);
+/* Frees what mesh_state_create has made beyond that of uniform cells. */
 void mesh_state_free(struct fv *s);
 /* shape_velocity.c: adds to u what the scene's shapes do, the mean over a cell of edges h (m)
  * around x, or over a face, whose h is 0 across it; h NULL: at x. Nothing where fv has a surface.

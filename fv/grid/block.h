@@ -13,7 +13,7 @@
 
 /* The part; owned arrays are freed by block_free. */
 struct block {
-    MPI_Comm cart;
+    MPI_Comm cart; /* the ranks in a Cartesian arrangement; owned */
     int dim;
     int cells[3];                /* of the whole grid */
     double origin[3], length[3]; /* m */
@@ -28,9 +28,7 @@ struct block {
     double *send, *recv;     /* scratch of the halo */
 };
 
-/* Ranks along each axis for `size' ranks; false: they cannot be shared out so that each has at
- * least LEAST cells along each axis that is cut, as its ghosts want (then some split).
- */
+/* Fewest cells of a rank along an axis that is cut. */
 enum { LEAST = 3 };
 /* Divides `size' ranks along the axes; false: not possible so that each has at least LEAST cells
  * along each axis that is cut, as its ghosts need. */
@@ -41,8 +39,11 @@ void block_create(struct block *b, MPI_Comm comm, int dim, const int *cells, con
 /* Gives it layers of the heights h, b->cells[1] of them, the upper `even' ones equal; b->h[1]
  * becomes their height. */
 void block_set_rows(struct block *b, int even, const double *h);
+/* Frees what the block owns, its communicator too. */
 void block_free(struct block *b);
+/* A field of b->size zeros; owned by the caller (mem_free). */
 double *block_field(const struct block *b);
+/* The whole block as one part, for loops that serve all kinds of grids. */
 struct part block_part(const struct block *b);
 /* Index of local cell (i, j, k), counted from 0 at lo; ghosts are negative or beyond n. */
 static inline int64_t block_at(const struct block *b, int i, int j, int k)
@@ -61,7 +62,8 @@ static inline double block_size(const struct block *b, int a, int i)
 {
     return a == 1 && b->rows ? b->rows->h[i] : b->h[a];
 }
-/* Distance of their centres from those below along axis a, m. */
+/* Distance of the centres of the local cells of index i from those of index i - 1 along axis a,
+ * m. */
 static inline double block_step(const struct block *b, int a, int i)
 {
     return a == 1 && b->rows ? b->rows->step[i] : b->h[a];
@@ -81,9 +83,9 @@ static inline double block_volume(const struct block *b, int j)
 {
     return b->h[0] * block_size(b, 1, j) * b->h[2];
 }
-/* Centre of local cell (i, j, k), m; block_cell: also its size along each axis. */
+/* Centre x[3] of local cell (i, j, k), m; 0 beyond dim. */
 void block_centre(const struct block *b, int i, int j, int k, double *x);
-/* The same and its size along each axis. */
+/* The same and the size h[3] of the cell along each axis, m. */
 void block_cell(const struct block *b, int i, int j, int k, double *x, double *h);
 /* Average over the cell at q, in local layer j, of the derivative along axis a, from averages,
  * fourth order. */
@@ -99,9 +101,9 @@ static inline double block_derivative(const struct block *b, const double *q, in
 /* Fills the ghosts of nf fields, corners included, one direction after the other; ghosts at closed
  * sides stay as they are. Collective. */
 void block_halo(const struct block *b, int nf, double *const *f);
-/* Copies a field without its ghosts, x fastest; block_pack_from: from local layer `first' on. */
+/* Copies a field without its ghosts, x fastest. */
 void block_pack(const struct block *b, const double *f, double *packed);
-/* The same from the local row `first' on. */
+/* The same of the local layers along y from `first' on. */
 void block_pack_from(const struct block *b, int first, const double *f, double *packed);
 
 /* Visits the local cells: (i, j, k) has index c. */

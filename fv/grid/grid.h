@@ -11,9 +11,9 @@
 /* A view of the block or the mesh of a run, which is borrowed. */
 struct grid {
     int dim, nparts;
-    const struct part *part;
-    struct block *even; /* uniform cells, or layers of unequal height; NULL: blocks */
-    struct mesh *mesh;  /* blocks; NULL: even cells */
+    const struct part *part; /* [nparts], those of this rank */
+    struct block *even;      /* uniform cells, or layers of unequal height; NULL: blocks */
+    struct mesh *mesh;       /* blocks; NULL: even cells */
 };
 
 /* grid.c: position of cell `at' of a part, m: its centre, on blocks its centroid, behind their
@@ -33,11 +33,13 @@ void grid_box(const struct grid *g, const struct part *p, const int *at, double 
 /* Number of the cell at place c in the whole grid, or among the cells of all blocks. */
 int64_t grid_number(const struct grid *g, int64_t c);
 
-/* Number of index spaces: one, or the blocks; cells of one, its name in messages (NULL: there is
- * one only), and position of its vertex i. */
+/* Number of index spaces: one, or the blocks. */
 int grid_blocks(const struct grid *g);
+/* Cells [3] of the k-th of them; borrowed from the grid. */
 const int *grid_cells(const struct grid *g, int k);
+/* Its name in messages, borrowed; NULL: there is one only. */
 const char *grid_name(const struct grid *g, int k);
+/* Position of its vertex of indices i[3], m. */
 void grid_vertex(const struct grid *g, int k, const int *i, double x[3]);
 /* Number of cells of all ranks that are computed. */
 double grid_computed(const struct grid *g);
@@ -48,18 +50,19 @@ int grid_longest(const struct grid *g);
 /* Why cells that move have no donors; "": all have. */
 const char *grid_trouble(const struct grid *g);
 
-/* The longest step from time t that motions allow, s, and the next time at which one starts or
- * ends, s; INFINITY: none moves. */
+/* The longest step from time t that motions allow, s; INFINITY: none moves. */
 double grid_motion_step(const struct grid *g, double t);
+/* The next time after t at which a motion starts or ends, s; INFINITY: there is none. */
 double grid_motion_event(const struct grid *g, double t);
 
-/* Size of the lower face of place c along a, m^(dim-1), and its area vector. */
+/* Area of the lower face along a of the cell at place c, m^(dim-1). */
 double grid_face_area(const struct grid *g, int64_t c, int a);
+/* Its area vector, which points along the index, m^(dim-1). */
 void grid_face_vector(const struct grid *g, int64_t c, int a, double S[3]);
 
-/* Fills the ghosts of nf fields from the cells that they are copies of; grid_fill also the fringe
- * of overlaps. Collective. */
+/* Fills the ghosts of nf fields from the cells that they are copies of. Collective. */
 void grid_halo(const struct grid *g, int nf, double *const *f);
+/* The same and the fringe of overlaps. Collective. */
 void grid_fill(const struct grid *g, int nf, double *const *f);
 
 /* The part that has place c, ghosts too, and the cell there (at: or NULL). */
@@ -93,10 +96,11 @@ static inline double grid_flow_area(const struct grid *g, int64_t c, int a)
 {
     return g->mesh ? 1.0 : grid_face_area(g, c, a);
 }
-/* Whether blocks overlap; whether some move. */
+/* Whether blocks overlap. */
 static inline bool grid_overlaps(const struct grid *g) { return g->mesh && g->mesh->has_fringe; }
+/* Whether some blocks move. */
 static inline bool grid_moves(const struct grid *g) { return g->mesh && g->mesh->moves; }
-/* Whether all are. */
+/* Whether all cells are computed, as far as the grid knows: no overlap and no imposed cells. */
 static inline bool grid_all_computed(const struct grid *g)
 {
     return !g->mesh || !(g->mesh->has_fringe || g->mesh->has_given);

@@ -21,15 +21,17 @@ enum {
     MESH_VERTICES = 5,    /* layers of vertices behind the sides */
     MESH_GIVEN_LAYERS = 4 /* of imposed cells that get values */
 };
+/* What a cell is: solved for; interpolated from another block; without values; imposed, with the
+ * values of a partner or of the exact solution. */
 enum mesh_status { CELL_COMPUTED, CELL_FRINGE, CELL_HOLE, CELL_GIVEN };
 
 /* The boxes (lower, upper corner, m) of imposed cells: cells of all blocks that lie wholly in one
  * of them are imposed ("given"). */
 struct mesh_boxes {
     int n;
-    double box[MESH_BOXES_MAX][2][3];
-    double period[3]; /* m: of the domain, 0: none */
-    int layers;       /* of imposed cells that get values */
+    double box[MESH_BOXES_MAX][2][3]; /* as they stand now */
+    double period[3];                 /* m: of the domain, 0: none */
+    int layers;                       /* of imposed cells that get values */
 };
 
 /* What lies behind a joined side. Doubled indices X (vertex i: 2 i, cell i: 2 i + 1) behind it are
@@ -74,7 +76,7 @@ struct mesh_exchange {
     int64_t *out;              /* places that are sent; with weights the first of each stencil */
     int width;                 /* of a stencil: width^dim values; 1: copies */
     double *weight;            /* width^dim a value */
-    int *part;                 /* of the giving stencils */
+    int *part;                 /* that each stencil lies in, on the rank that sends */
     const unsigned char *keep; /* of all places, 1: vectors there stay as they are; NULL: none */
     double *send, *recv;       /* room for `room' fields */
     int room;
@@ -120,18 +122,20 @@ struct mesh {
     char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };
 
-/* Number of a real cell of a block, the indices of a cell, the number of cells. */
+/* Number of the real cell of indices i[3] in the lists of a block, x fastest. */
 static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
 {
     return i[0] + (int64_t)b->n[0] * (i[1] + (int64_t)b->n[1] * i[2]);
 }
 
+/* Sets i[3] to the indices of cell number c, the inverse of mesh_cell. */
 static inline void mesh_index(const struct mesh_block *b, int64_t c, int *i)
 {
     i[0] = (int)(c % b->n[0]);
     i[1] = (int)(c / b->n[0] % b->n[1]);
     i[2] = (int)(c / b->n[0] / b->n[1]);
 }
+/* Number of real cells of a block. */
 static inline int64_t mesh_count(const struct mesh_block *b)
 {
     return (int64_t)b->n[0] * b->n[1] * b->n[2];
@@ -141,19 +145,24 @@ static inline int64_t mesh_count(const struct mesh_block *b)
 /* Velocity that a wall or an inflow of a block has at x, m/s. */
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w);
-/* mesh_given.c: sets the status of the cells in m->given; what lies deep in it becomes a hole; psi
- * does not pass the faces of imposed cells. */
+/* mesh_given.c: sets the status of the cells in the boxes m->given to CELL_GIVEN; does nothing
+ * without boxes, as the next two. Before blocks are cut where they overlap. */
 void mesh_given_mark(struct mesh *m);
 /* Whether all corners of a cell lie in one of the boxes, some periods away. */
 bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t c);
+/* After blocks are cut: makes holes of imposed cells further than m->given.layers from all computed
+ * ones, which no stencil reads, and counts the others in m->given_cells. */
 void mesh_given_trim(struct mesh *m);
+/* Sets m->open to 0 on the faces of imposed cells, whose flux is imposed. */
 void mesh_given_close(struct mesh *m);
-/* mesh_metrics.c: sets open as the sides have it. */
+/* mesh_metrics.c: sets m->open to 0 on the faces of sides that psi does not pass, to 1 elsewhere.
+ */
 void mesh_open_faces(struct mesh *m);
 /* mesh_recut.c: whether the cells in these boxes, as many boxes as before, are others than those in
- * m->given; mesh_recut cuts the blocks anew around them. Where blocks overlap m->search must exist;
- * m->trouble as in overset.h. Collective. */
+ * m->given. */
 bool mesh_recut_wanted(const struct mesh *m, const double (*box)[2][3]);
+/* Cuts the blocks anew around these boxes, which become m->given. Where blocks overlap m->search
+ * must exist; m->trouble as in overset.h. Collective. */
 void mesh_recut(struct mesh *m, const double (*box)[2][3]);
 /* Room for the offsets of mesh_given_sources. */
 enum { MESH_SOURCES = 12 };
@@ -165,20 +174,23 @@ int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, in
  * imposed. NULL if there are faults. Owned by the caller (mesh_free). Collective over r->comm. */
 struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int n,
                          const double (*box)[2][3], struct faults *f);
+/* Frees the mesh with all it owns and sets *m to NULL; *m may be NULL. */
 void mesh_free(struct mesh **m);
 /* The mesh that mesh_leave left, if it is of the same case and boxes and its blocks do not move,
  * else a new one: so that checks and the run make it once. */
 struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
                        const double (*box)[2][3], struct faults *f);
+/* Keeps a mesh for mesh_take, in place of one that was left before, and sets *m to NULL. */
 void mesh_leave(struct mesh **m);
+/* A field of m->size_local zeros; owned by the caller (mem_free). */
 double *mesh_field(const struct mesh *m);
 /* Sets the status of local cells, ghosts included, from that of the blocks. */
 void mesh_set_status(struct mesh *m);
 /* Rank and index there of a real cell, or of a ghost behind one side of the block. */
 void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int64_t *place);
-/* Number of a real cell's matrix row, ordered by ranks; mesh_rows: the first and the number of
- * those of a rank. */
+/* Number of a real cell's matrix row; rows are ordered by ranks. */
 int64_t mesh_row(const struct mesh *m, int block, const int *cell);
+/* The first matrix row of a rank and the number of its rows. */
 void mesh_rows(const struct mesh *m, int rank, int64_t *first, int64_t *n);
 
 /* mesh_map.c: makes the vertices of a block with all layers behind its sides; false: a fault was
@@ -188,7 +200,9 @@ bool mesh_map_vertices(const struct run *r, struct faults *f, struct mesh_block 
  * The map is smooth across cells. */
 void mesh_map_point(const struct mesh_block *b, int dim, const int *cell, const double *xi,
                     double *x, double dx[3][3]);
+/* The determinant of a map's derivatives, m^dim per cell: its Jacobian. */
 double mesh_determinant(double dx[3][3]);
+/* Place of vertex (i, j, k) of a block in its x; cell (i, j, k) has it as its lower corner. */
 static inline int64_t mesh_vertex(const struct mesh_block *b, int i, int j, int k)
 {
     return (i - b->v0[0]) +
@@ -213,26 +227,28 @@ void mesh_metrics(struct mesh *m);
 void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, const double *o,
                       double *R);
 
-/* mesh_halo.c */
-struct mesh_request { /* a place wants a value */
-    int rank;         /* that gives */
-    int block;        /* of the giver */
-    int64_t in, out;
-    const double *weight;
+/* A place of this rank that wants a value of another one. */
+struct mesh_request {
+    int rank;             /* that has it */
+    int block;            /* there; of stencils alone */
+    int64_t in, out;      /* place here; place there, of a stencil its first cell */
+    const double *weight; /* [width^dim] of a stencil; borrowed during mesh_exchange_create */
 };
 /* mesh_halo.c: makes an exchange for n values that this rank wants. Collective. */
 void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
                           const struct mesh_request *request);
+/* Frees the lists and leaves an exchange of nothing. */
 void mesh_exchange_free(struct mesh_exchange *x);
 /* Exchanges nf fields. Collective. */
 void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f);
 /* The same, writing into other arrays than those that are sent. */
 void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, double *const *f,
                       double *const *to);
+/* Makes m->halo of all ghosts that are copies of cells. Collective. */
 void mesh_halo_create(struct mesh *m);
-/* mesh_halo fills the ghosts behind joined sides and between ranks, mesh_fill also the fringe of
- * overlaps. Collective. */
-void mesh_fill(struct mesh *m, int nf, double *const *f);
+/* Fills the ghosts of nf fields behind joined sides and between ranks. Collective. */
 void mesh_halo(struct mesh *m, int nf, double *const *f);
+/* The same and the fringe of overlaps, whose ghosts follow it. Collective. */
+void mesh_fill(struct mesh *m, int nf, double *const *f);
 
 #endif

@@ -9,7 +9,9 @@
 #include "../../common/scene/scene.h"
 #include "side_kinds.h"
 
+/* Most blocks of a case. */
 enum { MESH_BLOCKS_MAX = 16 };
+/* blocks.mapping, how the vertices of a block follow from its keys; FILE: they are read. */
 enum mesh_mapping {
     MAPPING_BOX,
     MAPPING_STRETCHED,
@@ -21,8 +23,8 @@ enum mesh_mapping {
 /* The keys of one block. */
 struct mesh_block_params {
     char name[PARAM_TEXT_SIZE];
-    int mapping;
-    int cells[3];
+    int mapping;           /* enum mesh_mapping */
+    int cells[3];          /* along its indices */
     double min[3], max[3]; /* m: of a box before its rotation; z of an annulus */
     double centre[3];      /* m: of rotation, of an annulus, of the walls' spin */
     double angle;          /* degrees about z */

@@ -24,16 +24,19 @@ struct mesh_motion {
 
 /* Makes the motions and places the blocks at time t, s; false: faults were added. */
 bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, double t);
+/* Frees the motions and what mesh_motion_metrics has made. */
 void mesh_motion_free(struct mesh *m);
-/* After the metrics: what turns with the blocks. */
+/* After the metrics: keeps the area vectors and moments of the faces of blocks that move, as they
+ * are made, for mesh_motion_place to turn. */
 void mesh_motion_metrics(struct mesh *m);
 /* Sets vertices, centres, area vectors and the flux of the grid for time t, s. Donors, and what
  * each cell is, stay as they were. */
 void mesh_motion_place(struct mesh *m, double t);
 /* Velocity of the block's material point that is at x now, m/s. */
 void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w);
-/* Where the point that is at x now was when the block was made, m; mesh_motion_now: the inverse. */
+/* Where the point that is at x now was when the block was made, m. */
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to);
+/* The inverse: where the point now is that the block had at `made', m. */
 void mesh_motion_now(const struct mesh_block *b, const double *made, double *to);
 
 #endif

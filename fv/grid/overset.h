@@ -11,11 +11,12 @@ struct overset; /* bins for the search, donors of all fringe cells */
 /* Sets what each cell of all blocks is and finds the donors; NULL: faults were added. Owned by the
  * caller (overset_free). */
 struct overset *overset_create(const struct run *r, struct faults *f, struct mesh *m);
+/* Frees the bins and donors and sets *o to NULL; *o may be NULL. */
 void overset_free(struct overset **o);
-/* For blocks that move, after they have been placed anew: overset_cut sets what each cell is;
- * overset_find finds the donors of this rank's fringe and makes their exchange. m->trouble names a
- * cell without donors. */
+/* For blocks that move, after they have been placed anew: sets what each cell is. */
 void overset_cut(struct mesh *m, const struct overset *o);
+/* After that: finds the donors of this rank's fringe and makes their exchange. m->trouble names a
+ * cell without donors. Collective. */
 void overset_find(struct mesh *m, struct overset *o);
 /* Finds donors and matrix rows again after another cut. */
 void overset_renew(struct mesh *m, struct overset *o);
@@ -28,7 +29,7 @@ void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const
 /* A cell of the fringe without donors. */
 struct overset_orphan {
     int block, cell[3];
-    double x[3];
+    double x[3]; /* m: its centre */
 };
 /* Whether all cells of the fringe have donors; else *first is the first that has none. */
 bool overset_sound(const struct mesh *m, struct overset *o, struct overset_orphan *first);

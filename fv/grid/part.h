@@ -13,9 +13,9 @@ enum part_kind { PART_CURVED, PART_UPRIGHT, PART_EVEN };
  * field. */
 struct part {
     enum part_kind kind;
-    int block;
-    int lo[3], n[3];
-    int g[3]; /* layers of ghosts at each end; 0 beyond dim */
+    int block;       /* its number; of uniform cells 0 */
+    int lo[3], n[3]; /* indices of its first cell in the block, numbers of its cells */
+    int g[3];        /* layers of ghosts at each end; 0 beyond dim */
     int64_t base, stride[3],
         size; /* index of the first ghost; offsets to neighbours; entries in a field */
     /* First cell and number of the cells near water, of each line of cells along x, those of ghosts
@@ -28,12 +28,13 @@ static inline int part_row(const struct part *p, int j, int k)
 {
     return j + p->g[1] + (k + p->g[2]) * (p->n[1] + 2 * p->g[1]);
 }
-/* First cell of those near water in a line, and their number, with `down' and `up' cells more at
- * its ends. */
+/* Index along x of the first cell near water in the line (j, k), less `down' cells. */
 static inline int part_near(const struct part *p, int down, int j, int k)
 {
     return (p->near ? p->near[part_row(p, j, k)][0] : 0) - down;
 }
+/* Number of cells near water in that line, with `down' and `up' more at its ends; 0: there are
+ * none. */
 static inline int part_nears(const struct part *p, int down, int up, int j, int k)
 {
     const int n = p->near ? p->near[part_row(p, j, k)][1] : p->n[0];

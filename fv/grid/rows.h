@@ -44,6 +44,7 @@ void rows_average(const double e[5], double from, double to, double w[4]);
 /* For a rank that has `own' layers from the lo-th on, of a grid whose n layers have the heights h
  * from the bottom on. Freed by rows_free. */
 struct rows *rows_create(int n, int even, double bottom, const double *h, int lo, int own);
+/* Frees the layers and sets *r to NULL; *r may be NULL. */
 void rows_free(struct rows **r);
 
 #endif

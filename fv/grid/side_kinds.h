@@ -5,6 +5,9 @@
 
 #include "../../common/scene/scene.h"
 
+/* Kinds of sides (blocks.i_min and the like, or that of the wall of the scene there). WALL is a
+ * no-slip wall, EXACT takes the velocity of the scene's exact solution; OVERLAP leaves the side to
+ * the other blocks, JOINED says that it meets the face of one. */
 enum mesh_side {
     MESH_NONE, /* of the uniform grid: periodic, or the exact velocity */
     MESH_OVERLAP = MESH_NONE,
