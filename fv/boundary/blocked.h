@@ -57,6 +57,7 @@ void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int 
                    int hi[3]);
 /* NULL if the case has no boxes. Freed by blocked_free. */
 struct blocked *blocked_create(const struct fv *s);
+/* Frees the boxes and sets *w to NULL; *w may be NULL. */
 void blocked_free(struct blocked **w);
 
 /* A free cell of this rank as list near has it, along the axis a: near a box or not. */
@@ -74,6 +75,8 @@ double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost 
  * `way'. */
 int blocked_stack(const struct fv *s, const int *at, int a, int way);
 
+/* Whether a box cuts out the cell at place c; a ghost behind a closed side is as the cell before
+ * it. */
 static inline bool is_blocked(const struct fv *s, int64_t c)
 {
     return s->blocked && s->blocked->box[c];

@@ -80,6 +80,7 @@ struct forcing {
  * cells all of whose corners lie inside one are imposed; lo >= hi: no box. NULL if nothing is
  * imposed. Freed by forcing_free. Collective. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
+/* Frees the lists and sets *f to NULL; *f may be NULL. */
 void forcing_free(struct forcing **f);
 /* Whether a cell of this rank is solved for; on blocks dry cells are not. */
 static inline bool forcing_is_free(const struct fv *s, int64_t c)

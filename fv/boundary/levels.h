@@ -12,6 +12,7 @@
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 
+/* Groups of openings that have one level: those on each side of the domain, and those within it. */
 enum { LEVEL_GROUPS = MESH_OUTSIDES };
 
 struct outflow; /* carried.h */
@@ -19,7 +20,7 @@ struct outflow; /* carried.h */
  * on all ranks. */
 struct levels {
     int n;
-    struct outflow *of;
+    struct outflow *of;         /* [n] the openings; owned */
     double *p;                  /* m^2/s^2: field: p/rho on the face, in the first ghost behind it,
                                  * less that of water at rest; NULL: no surface, nothing is set */
     double level[LEVEL_GROUPS]; /* m: of the water outside */
@@ -36,26 +37,31 @@ struct levels {
     double kept[LEVEL_GROUPS];  /* m/s: U when a step began that may be taken back */
 };
 
-/* Makes s->levels; before the sides are made, which list their cells. Freed by levels_free. */
+/* Makes s->levels; before the sides are made, which list their cells. */
 void levels_create(struct fv *s);
+/* Frees it and sets *l to NULL; *l may be NULL. */
 void levels_free(struct levels **l);
 /* Whether any pressure is set. */
 bool levels_set_any(const struct fv *s);
-/* At the start of a run under a surface. Collective, as levels_begin. */
+/* At the start of a run under a surface: sets the level outside of each group, from the case or
+ * from the water that stands there, and the velocities; does nothing without a surface. Collective,
+ * as levels_begin. */
 void levels_start(struct fv *s);
 /* Before a step of dt, s: measures velocities and the speed of waves. */
 void levels_begin(struct fv *s, double dt);
-/* Keeps U for a step that may be taken back; levels_back restores it. */
+/* Keeps U before a step that may be taken back. */
 void levels_keep(struct fv *s);
+/* Restores U where such a step is taken back. */
 void levels_back(struct fv *s);
 /* Before a stage that ends at t, s: sets the pressures on the faces, from the projected fluxes. */
 void levels_set(struct fv *s, double t);
 /* Before a projection of length tau, s: applies these pressures to the fluxes, so that psi is 0 on
  * the faces in the solve. */
 void levels_fluxes(struct fv *s, double tau);
-/* After it: psi's ghosts on blocks; levels_gradient: what the gradient along axis a of uniform
- * cells has in addition. */
+/* After it, on blocks: sets the ghosts of psi behind these openings. */
 void levels_ghosts(const struct fv *s, double *psi);
+/* On uniform cells: adds to the gradient of psi along axis a, in `out', what these pressures
+ * contribute. */
 void levels_gradient(const struct fv *s, int a, double *out);
 /* The same on the faces. */
 void levels_face_gradient(const struct fv *s, int a, double *out);

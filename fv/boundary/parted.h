@@ -8,8 +8,10 @@
 
 #include "../fv.h"
 
+/* Most parts; with more of them parted_create gives up. */
 enum { PARTS_MAX = 2 * PARTNERS_MAX };
 
+/* The parts of the fluid. Figures of parts are the same on all ranks. */
 struct parted {
     const unsigned char *forced; /* [size] of struct forcing, borrowed: 0: computed */
     int n;                       /* parts, at most PARTS_MAX */
@@ -21,6 +23,7 @@ struct parted {
 /* NULL unless whole layers of imposed cells lie between computed ones and some part floats.
  * `forced' as in struct forcing. Uniform cells without a surface alone. Collective. */
 struct parted *parted_create(const struct fv *s, const unsigned char *forced);
+/* Frees the parts and sets *p to NULL; *p may be NULL. */
 void parted_free(struct parted **p);
 /* Whether no side gives the pressure of any part. */
 bool parted_all_float(const struct parted *p);

@@ -8,29 +8,34 @@
 #include "../../common/run/run.h"
 #include "../fv.h"
 
+/* The balance, the same on all ranks. */
 struct water_budget {
-    int n;
+    int n;                          /* partners */
     double box[PARTNERS_MAX][2][3]; /* m: what lies within is a partner's; imposed cells fill it */
     double partners;                /* m^dim: in there, at the end of the coupling step */
-    double drops;   /* m^dim: that left partners over FV's water and fell into it, evenly */
-    double start;   /* m^dim: all at the start; NAN: not known yet */
-    double missing; /* m^dim: now */
-    double lasting; /* m^dim/s: part of the flow that a lasting loss has called for */
-    struct watch watched;
+    double drops;         /* m^dim: that left partners over FV's water and fell into it, evenly */
+    double start;         /* m^dim: all at the start; NAN: not known yet */
+    double missing;       /* m^dim: now */
+    double lasting;       /* m^dim/s: part of the flow that a lasting loss has called for */
+    struct watch watched; /* of `missing' over all water */
 };
 
-/* Of n partners, whose boxes are the caller's to set. */
+/* The balance of n partners before the first coupling step; their boxes are the caller's to set. */
 struct water_budget water_budget_create(int n);
 /* Part of a cell of centre x and size h outside the box that a partner counts as its own. */
 double water_budget_share(const struct fv *s, const double *x, const double *h);
-/* The partners' at the end of the coupling step: their water, and drops that have left them since
- * the start, which become FV's. */
+/* Takes what the partners report at the end of a coupling step, m^dim: water[0], their water, and
+ * water[1], drops that have left them since the start, which become fv's. */
 void water_budget_take(struct fv *s, struct water_budget *w, const double water[2]);
-/* At the end of a coupling step of T s: the flow through the interface for the next one.
- * Collective. */
+/* At the end of a coupling step of T s: adds up the balance and sets the slow flow through the
+ * interface that restores what is missing, s->forcing->inflow, for the next one. The first call
+ * sets what there is at the start. Collective. */
 void water_budget_close(struct fv *s, struct water_budget *w, double T);
+/* Sets d where too large a share of all water is missing. */
 void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagnosis *d);
+/* Writes the balance to a restart file. */
 void water_budget_save(const struct water_budget *w, struct h5 *f);
+/* Reads it back; false: the file does not have it. */
 bool water_budget_load(struct water_budget *w, struct h5 *f);
 
 #endif

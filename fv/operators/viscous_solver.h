@@ -5,6 +5,7 @@
 
 #include "../fv.h"
 
+/* s->viscous. Its arrays are owned. */
 struct viscous_solver {
     double *work[4][3];  /* as struct helmholtz wants them; on uniform cells the last one borrows
                           * s->faces[0] and s->flux */
@@ -15,12 +16,15 @@ struct viscous_solver {
     double cells_a_side; /* the square or cubic root of how many there are */
 };
 
-/* NULL: no viscosity. The grid, its walls and what the cells are must be there. Collective. */
+/* What the solve needs for the grid, its walls and the state of its cells, which must be there
+ * before; owned by the caller (viscous_solver_free). NULL: the fluid has no viscosity.
+ * Collective. */
 struct viscous_solver *viscous_solver_create(const struct fv *s);
+/* Frees s->viscous and sets it to NULL, which it may be. */
 void viscous_solver_free(struct fv *s);
-/* Cells or walls have changed. Collective. */
+/* Finds the spectrum anew after cells or walls have changed. Collective. */
 void viscous_solver_renew(struct fv *s);
-/* Its stiffest, 0 without viscosity. */
+/* The member stiffest, 1/s; 0 without viscosity. */
 double viscous_stiffest(const struct fv *s);
 
 #endif

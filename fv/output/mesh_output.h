@@ -1,4 +1,5 @@
-/* mesh_output.h - places and values on blocks.
+/* mesh_output.h - what outputs have of blocks beyond those of uniform cells: values at points,
+ * positions of blocks that move, the mesh in words and in the summary.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_MESH_OUTPUT_H
 #define FV_MESH_OUTPUT_H
@@ -13,13 +14,16 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
 /* The same of the distance to the surface, linear in what it is more than the height. */
 double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x);
 
-/* mesh_errors.c */
+/* Lines of --check and the banner about the blocks: cells, ranks, overlaps. Makes the mesh and
+ * leaves it for the run (mesh_leave). */
 void mesh_describe(const struct run *r, const struct fv_params *prm);
-/* Places of blocks that move, x y [z] of the centre, the angle or the rotation vector: number of
- * columns and their (static) names; values, as many. */
+/* Columns of the series with the positions of blocks that move, x y [z] of the centre, m, the angle
+ * or the rotation vector, rad: sets their names, which are static, and returns their number. */
 int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns);
+/* Sets their values now, and returns their number. */
 int mesh_places(const struct fv *s, double *values);
-/* What the summary has of blocks alone. */
+/* Adds to the summary what it has of blocks alone: cells and net flux of overlaps, iterations of
+ * the start, solves that were repeated. Collective. */
 void mesh_summarise(struct fv *s);
 /* Whether a later block computes the place of a cell of `block', too. */
 bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x);

@@ -6,6 +6,7 @@
 
 #include "../fv.h"
 
+/* A bound of the step, and what makes it. */
 struct step_limit {
     double dt; /* s */
     enum limit by;
@@ -22,6 +23,7 @@ void limits_check(const struct run *r, const struct fv_params *p, struct faults 
 double limits_time(double cfl, double rate, double rise);
 /* Largest |u_a| of what flows, or will soon. */
 double fv_speed(const struct fv *s, int a);
+/* The largest step that the flow as it is allows, and what bounds it; the same on all ranks. */
 struct step_limit limits_of(const struct fv *s);
 /* Next time after now at which a block's motion starts or ends, s; INFINITY: none. */
 double limits_next_motion(const struct fv *s);

@@ -20,6 +20,7 @@ struct flow_waves {
     double pressure, pressure_all; /* m^(dim+4)/s^4: about the mean */
 };
 
+/* The figures and what they are judged by; the same on all ranks. */
 struct watches {
     struct watch energy, velocity, pressure, growth, returned;
     bool has_energy, has_growth, has_surface, periodic;
@@ -40,34 +41,50 @@ struct watches {
     double sum_before; /* m/s: of the largest velocities, a step ago */
 };
 
-/* p: as the run uses them. */
+/* The figures that apply to a flow on these parameters, as the run uses them; periodic: nothing
+ * but periodic axes bounds it; surface: it has a free surface. Owned by the caller (watches_free).
+ */
 struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
                                bool surface);
-void watches_open(struct watches *w); /* the flow has inlets or outlets */
+/* Says that the flow has inlets or outlets, whose work is known less exactly: a gain of energy then
+ * warns and ends no run. */
+void watches_open(struct watches *w);
+/* Frees them and sets *w to NULL; *w may be NULL. */
 void watches_free(struct watches **w);
-/* Whether this step is one to look at. */
+/* Whether the energy is to be measured after this step. */
 bool watches_want_energy(const struct watches *w, int64_t step);
+/* Whether waves of two cells are to be measured after this step. */
 bool watches_want_waves(const struct watches *w, int64_t step);
+/* Judges the energy e after step number `step' at time t, s, and sets d where it has grown beyond
+ * what sides and gravity have brought in. */
 void watches_energy(struct watches *w, const struct flow_energy *e, double t, int64_t step,
                     struct diagnosis *d);
+/* Judges the waves of two cells in a flow of this volume, m^dim, likewise. */
 void watches_waves(struct watches *w, const struct flow_waves *v, double volume, double t,
                    int64_t step, struct diagnosis *d);
-/* sum: of the largest |u_a| over the axes. */
+/* Judges the growth of the flow since the last step; sum: of the largest |u_a| over the axes,
+ * m/s. */
 void watches_growth(struct watches *w, double sum, double t, int64_t step, struct diagnosis *d);
 
-/* Columns of the series (static names), their values; worst values into the summary, and what is
- * not to be accepted. */
+/* Sets the names, which are static, of the columns that the series has of these figures, and
+ * returns their number. */
 int watches_columns(const struct watches *w, const char **columns);
+/* Sets the values of these columns now, and returns their number. */
 int watches_values(const struct watches *w, double *values);
+/* Adds the worst values to the summary, and "not_accepted" where the surface has lost and got back
+ * too much water. */
 void watches_summarise(const struct watches *w, struct summary *to);
-/* Worst values to and from a restart file. */
 struct h5;
+/* Writes the worst values to a restart file. */
 void watches_save(struct watches *w, struct h5 *f);
+/* Reads them back; budgets start anew. */
 void watches_load(struct watches *w, struct h5 *f);
 
-/* fv_watches.c: all of them, after a step on any grid. */
+/* fv_watches.c: the figures of a state on any grid. Collective, as the next two. */
 struct watches *fv_watches_create(const struct fv *s);
+/* Measures and judges after a step what is due, and sets d if the run must end. */
 void fv_watches_look(struct fv *s, struct diagnosis *d);
-void fv_watches_end(struct fv *s); /* the state that is left; collective, as all */
+/* Measures once more at the end of the run and writes the summary. */
+void fv_watches_end(struct fv *s);
 
 #endif
