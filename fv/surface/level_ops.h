@@ -11,6 +11,7 @@ enum { BAND = 5 }; /* cells on either side of the surface that are advected */
 
 struct cut; /* levelset.h */
 
+/* The table; its functions are collective only where it says so. */
 struct level_ops {
     /* What the surface keeps of the cells, phi of the scene's water at the start, with no ghosts
      * yet. Collective. */
@@ -51,6 +52,7 @@ struct level_ops {
     void (*add_shared)(const struct fv *s, double sums[2]);
 };
 
+/* Of uniform cells and layers of unequal height; of blocks. */
 extern const struct level_ops even_level, block_level;
 
 /* levelset.c: q = w p + (1 - w)(q + dt rate) */

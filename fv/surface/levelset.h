@@ -105,6 +105,8 @@ struct surface {
 
 /* The surface of the scene's water at the start; freed by levelset_free. */
 struct surface *levelset_create(const struct fv *s);
+/* Frees the surface but for what other headers say they free, and sets *w to NULL; *w may be
+ * NULL. */
 void levelset_free(struct surface **w);
 /* Ghosts of a level set: halo, and mirrored (zero gradient) beyond closed sides. Collective. */
 void surface_ghosts(const struct fv *s, double *phi);
@@ -180,8 +182,7 @@ enum extend {
 };
 /* Sets u of dry cells in the layers 1 to `layers'. */
 void extension_apply(const struct fv *s, double *const u[3], enum extend how, int layers);
-/* Extends one field to layers 1 and 2; extension_beyond to the layers further out, within the
- * bounds of what is around. */
+/* Extends one field to layers 1 and 2. */
 void extension_scalar(const struct fv *s, double *q);
 /* The same for the layers further out, within what is around. */
 void extension_beyond(const struct fv *s, double *q);
@@ -190,8 +191,8 @@ void extension_beyond(const struct fv *s, double *q);
  * once in a step of dt, s. */
 void surface_smooth(struct fv *s, double dt);
 
-/* surface_pressure.c */
-/* Finds wet cells, cut faces and stencils of the present phi; poisson_rebuild is due afterwards. */
+/* surface_pressure.c: finds wet cells, cut faces and stencils of the present phi; poisson_rebuild
+ * is due afterwards. */
 void surface_rebuild(struct fv *s);
 /* Sets p/rho on the cut faces, with the viscous stress of the last extension. */
 void surface_set_pressure(struct fv *s);
@@ -199,8 +200,9 @@ void surface_set_pressure(struct fv *s);
 void surface_zero(const struct fv *s, double *q);
 /* Subtracts from div what the surface's pressure adds to the Laplacian of psi. */
 void surface_add_pressure(const struct fv *s, double *div);
-/* Corrects U of cut faces by the pressure there; sets U of dry faces from u. */
+/* Corrects U of the cut faces by tau times the slope of psi there, s: length of the stage. */
 void surface_fluxes(const struct fv *s, double tau, const double *psi);
+/* Sets U of dry faces from u. */
 void surface_dry_fluxes(const struct fv *s);
 /* Slope of psi on a cut face, along its axis; change: of a variation, which is 0 on the surface. */
 double surface_cut_gradient(const struct cut *x, const double *psi, bool change);
@@ -213,7 +215,6 @@ void surface_gradient_change(const struct fv *s, int a, const double *psi, doubl
 /* surface_line.c: recomputes in these two cells the slope of psi along a; uniform cells. */
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out);
 
-/* surface_steps.c */
 /* surface_steps.c: velocities, fluxes and cuts at the start. */
 void surface_start(struct fv *s);
 /* After other cells have become imposed: adjusts the volume, `before', m^dim, being that in the
@@ -221,17 +222,19 @@ void surface_start(struct fv *s);
 void surface_outline_moved(struct fv *s, double before);
 /* Extends the velocity beyond the present surface, with ghosts, and sets the fluxes there. */
 void surface_extend(struct fv *s, int layers);
-/* The parts of a step around that of u: phi moves by half a step before it and half after it, so
- * that phi and u alternate (leapfrog) and oscillate without loss. */
+/* Moves phi by the first half of a step of dt, s. phi and u alternate: phi moves by half a step
+ * before u and by half a step after it (leapfrog), so that they oscillate without loss. */
 void surface_first_half(struct fv *s, double dt);
+/* Moves phi by the second half of the step, keeps its volume and makes it a distance again where
+ * that is due. */
 void surface_second_half(struct fv *s, double dt);
-/* Keeps what a step starts from; surface_back returns to it. */
+/* Keeps what a step starts from. */
 void surface_keep_state(struct fv *s);
+/* Returns to it where the step is taken back. */
 void surface_back(struct fv *s);
 /* Why the run cannot go on; NULL if it can. Static memory. */
 const char *surface_trouble(const struct fv *s);
 
-/* surface_errors.c */
 /* surface_errors.c: kinetic energy of the water over rho, m^(dim+2)/s^2, over all ranks.
  * Collective. */
 double surface_energy(const struct fv *s);
@@ -240,9 +243,9 @@ double surface_reach(const struct fv *s, int a);
 /* Height of the water at x, m: that of the water in the column of cells there, on top of its
  * bottom. This rank's part of it. */
 double surface_level(const struct fv *s, const double *x);
-/* Takes a sample of the oscillation of a standing wave; surface_summarise writes period, damping,
- * volume and counts to the summary. */
+/* Takes a sample of the oscillation of a standing wave. */
 void surface_sample(struct fv *s);
+/* Writes its period and damping, the volume and counts to the summary. */
 void surface_summarise(struct fv *s);
 
 #endif

@@ -16,7 +16,10 @@ struct wet_face {
     double given;
 };
 
+/* What surface_mesh.out says of a ghost behind a side: psi there is mirrored (zero gradient), or
+ * antisymmetric (psi = 0 on the side). */
 enum { BEHIND_EVEN = 1, BEHIND_ODD = 2 };
+/* Most corners of a polygon that is left of a cell. */
 enum { POLYGON_MOST = 16 };
 /* A convex polygon in the plane. */
 struct polygon {
@@ -58,16 +61,17 @@ struct surface_mesh {
 
 struct surface;
 
-/* Whether a part's index lines, or those of any part, are neither along gravity nor across it. */
+/* Whether index lines of this part are neither along gravity nor across it. */
 bool surface_leans(const struct fv *s, const struct part *p);
+/* The same of any part of any rank. */
 bool surface_any_leans(const struct fv *s);
 
 /* surface_mesh.c: also sets the sizes of cells in f over all blocks. Collective. */
 struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f);
+/* Frees the quantities and sets *m to NULL; *m may be NULL. */
 void surface_mesh_free(struct surface_mesh **m);
 /* Sets speed; returns the largest sum over the indices of the rates at which the velocity crosses
- * cells, 1/s, in the band where
- * phi| is less than `band' cells, over all ranks. Collective. */
+ * cells, 1/s, in the band where phi is less than `band' cells off 0, over all ranks. Collective. */
 double surface_mesh_speeds(const struct fv *s, double band);
 /* surface_foot.c: velocity that advects phi of cell c; g: gradients of its indices, 1/m. */
 void surface_foot_velocity(const struct fv *s, const struct part *p, int64_t c,
@@ -81,8 +85,9 @@ void surface_mesh_fill(const struct fv *s, double *phi);
  * after it. */
 void surface_mesh_change_height(const struct fv *s, double sign, double *phi);
 /* For blocks that move: puts all of them where they are at time t, with their donors.
- * surface_mesh_update then renews centres, heights and which cells can hold water. */
+ * Collective. */
 void surface_mesh_place(struct fv *s, double t);
+/* After that: renews centres, heights and which cells can hold water. Collective. */
 void surface_mesh_update(struct fv *s);
 /* Gradient of phi, -, at a cell, by central differences: exact for planes. */
 void surface_mesh_gradient(const struct fv *s, const struct part *p, int64_t c, const double *phi,
@@ -109,9 +114,10 @@ void surface_mesh_interpolate(const struct fv *s, const double *d, double *const
 void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
                                double *const out[3]);
 
-/* surface_line.c: whether a part's last two wet cells of a line have slopes of their own;
- * surface_mesh_line_slopes recomputes them. */
+/* surface_line.c: whether a part's last two wet cells of a line have slopes of their own. */
 bool surface_takes_lines(const struct fv *s, const struct part *p);
+/* Recomputes in these cells the gradient of psi, m/s^2, in out[3]; change: of a variation, which is
+ * 0 on the surface. */
 void surface_mesh_line_slopes(const struct fv *s, const double *psi, bool change,
                               double *const out[3]);
 

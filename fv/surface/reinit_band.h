@@ -25,12 +25,14 @@ struct spot {
                            none */
 };
 
+/* The band on this rank: strips cover all of it, spots are the cells of it at the surface. */
 struct band {
     int64_t nstrips, nspots;
     struct strip *strips;
     struct spot *spots;
 };
 
+/* What a reinitialisation asks of a kind of cells. */
 struct reinit_ops {
     /* m: size of the cell of local row j along axis a; its step to the next one, as `reach' has it,
      * and in m. */
@@ -48,11 +50,13 @@ struct reinit_ops {
     double (*size_beside)(const struct fv *s, const double *phi, const struct spot *x);
 };
 
+/* Of uniform cells and layers of unequal height; of blocks. */
 extern const struct reinit_ops even_reinit, block_reinit;
 
-/* -: of the least size of a cell. */
+/* The pseudo step over the least size of a cell, -. */
 static inline double reinit_cfl(const struct fv *s) { return s->dim == 3 ? 0.3 : 0.45; }
 
+/* The argument of the smaller size, or 0 where the signs differ. */
 static inline double minmod(double a, double b)
 {
     return a * b <= 0.0 ? 0.0 : fabs(a) < fabs(b) ? a : b;

@@ -13,9 +13,9 @@
 
 /* A state, or a variation of one, with ghosts. */
 struct flow {
-    double *p, *u[3];
-    double *U[3]; /* through lower faces */
-    double *G[3]; /* gradient of p, m/s^2 */
+    double *p, *u[3]; /* m^2/s^2, m/s */
+    double *U[3];     /* fluxes through lower faces, in the unit of s->U */
+    double *G[3];     /* gradient of p, m/s^2 */
 };
 
 /* What a residual depends on besides q; constant during a step. */
@@ -43,8 +43,10 @@ struct newton_cells {
     /* div -= D I(x); x with its ghosts. */
     void (*subtract_divergence)(struct fv *s, double *const x[3], double *div);
 };
+/* Of uniform cells and layers of unequal height; of blocks. */
 extern const struct newton_cells newton_even, newton_blocks;
 
+/* What the integrator keeps from step to step, with KINSOL's objects; all is owned. */
 struct newton {
     const struct newton_cells *cells_of;
     SUNContext ctx;
@@ -72,7 +74,10 @@ struct newton {
     int64_t newtons, krylovs, cycles, halvings; /* summed over the run */
 };
 
+/* Makes KINSOL's objects and the scratch for the cells that s has; owned by the caller.
+ * Collective. */
 struct newton *newton_create(struct fv *s);
+/* Frees them and sets *n to NULL; *n may be NULL. */
 void newton_free(struct newton **n);
 /* One step of dt s from s->t; false: not converged, and the state is not one. */
 bool newton_try(struct fv *s, double dt);
@@ -85,21 +90,26 @@ bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
  * steady. Returns that time. */
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d);
 
-/* newton_residual.c: packed vectors of local cells from and to fields with ghosts. */
+/* newton_residual.c: fills the vector q of local cells from fields with ghosts. */
 void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q);
+/* Fills the local cells of the fields from q; ghosts stay as they are. */
 void newton_unpack(const struct fv *s, N_Vector q, double *p, double *const u[3]);
 /* Coefficients of a step of dt after one of dt_old (0: none, then one-sided). */
 void newton_set_step(struct fv *s, double dt, double dt_old);
-/* r = R(q), and out = R'(q) v at the q of the last residual. KINSOL's kinds of function: user is
- * struct fv. */
+/* r = R(q), the residual of the equations. A KINSysFn of KINSOL: user is the struct fv; returns 0.
+ * Collective. */
 int newton_residual(N_Vector q, N_Vector r, void *user);
 /* q = 0 in cells that are not solved for. */
 void newton_clear(const struct fv *s, double *q);
+/* out = R'(q) v at the q of the last residual. A KINLsJacTimesVecFn of KINSOL. Collective. */
 int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
 
-/* newton_report.c: their number; w NULL: none. */
+/* newton_report.c: sets the names, which are static, of newton's columns in the series, and returns
+ * their number: 0 with another integrator. */
 int newton_columns(const struct fv_params *prm, const char **columns);
+/* Sets their values now, counts as sums since the start, and returns their number; w NULL: 0. */
 int newton_values(const struct newton *w, double *values);
+/* Adds iterations and halvings of the run, which took so many steps, to the summary. */
 void newton_summarise(const struct newton *w, double steps, struct summary *to);
 
 /* newton_residual.c: coefficient of the dissipation in newton's convection, -: 1/12 with fv.flux =
@@ -109,8 +119,10 @@ double newton_dissipation(const struct fv *s);
 /* newton_vector.c: gives q, and what is cloned from it, faster sums. */
 void newton_vector_sums(N_Vector q);
 
-/* newton_precond.c: sweeps over momentum, a V-cycle for the pressure. */
+/* newton_precond.c: makes the preconditioner at the state q, an incomplete block factorisation:
+ * sweeps over momentum, a V-cycle for the pressure. KINSOL's functions of such a thing. */
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user);
+/* Applies it to v in place. */
 int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, N_Vector v,
                          void *user);
 
