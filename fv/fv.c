@@ -11,7 +11,6 @@
 #include "boundary/fv_boundary.h"
 #include "case/fv_case.h"
 #include "coupling/fv_coupling.h"
-#include "fv.h"
 #include "grid/fv_grid.h"
 #include "output/fv_output.h"
 #include "surface/fv_surface.h"

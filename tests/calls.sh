@@ -1,8 +1,10 @@
 #!/bin/sh
 # Calls that run upward as the linker sees them: a name that a folder takes from a folder above it, although no include
-# shows it; and exported names that two libraries define. usage: tests/calls.sh BUILD
+# shows it; prototypes in the header of another folder; and exported names that two libraries define.
+# usage: tests/calls.sh BUILD
 # SPDX-License-Identifier: BSD-3-Clause
 b=$(cd "${1:-build}" && pwd)
+cd "$(dirname "$0")/.." || exit 1
 export LC_ALL=C
 failed=0
 bad() { echo "FAIL: $*"; failed=$((failed + 1)); }
@@ -23,6 +25,17 @@ upward() { # PROGRAM LAYERS: lines "name caller owner", files without their endi
                   for (i = 1; i <= m; i++) { split(u[i], d, "/")
                       if (at[has[name]] > at[d[2]]) print name, u[i], owner[name] } } }' | sort
 }
+# Prototypes in a header of another folder than the one that defines them; what the linker sees stays as it is
+elsewhere() { # PROGRAM: lines "header name object"
+    { (cd "$b/o" && nm -A "$1"/*/*.o) && grep -HE '^[a-z].*[ *][a-z_0-9]+\(' "$1"/*/*.h | grep -v ':static '; } | awk '
+        { split($1, f, ":"); dir = f[1]; sub("/[^/]*$", "", dir) }
+        f[1] ~ /o$/ { if ($(NF - 1) == "T") { at[$NF] = dir; object[$NF] = f[1] }; next }
+        { sub(/\(.*/, ""); sub(/.*[ *]/, ""); if (($0 in at) && at[$0] != dir) print f[1], $0, object[$0] }'
+}
+for p in common fv sph coupler; do
+    found=$(elsewhere $p | awk '{ print $1 " declares " $2 " of " $3 ", another folder" }')
+    [ -z "$found" ] || bad "$found"
+done
 for p in common fv sph; do
     eval "layers=\$layers_$p"
     ls "$b/o/$p"/*/*.o >/dev/null 2>&1 || bad "$b/o/$p has no objects: build first"

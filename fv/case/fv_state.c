@@ -13,7 +13,6 @@
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../coupling/fv_coupling.h"
-#include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "../operators/fv_operators.h"
 #include "../output/fv_output.h"

@@ -7,6 +7,7 @@
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
+#include "output.h"
 
 /* Water of a cell in a column, over the cell, with what is cut out below it: a box is ground for
  * the water on it, and on the floor of the domain whether there is water or not. */

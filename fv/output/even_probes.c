@@ -7,6 +7,7 @@
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 #include "even_value.h"
+#include "output.h"
 #include "probe_flow.h"
 
 /* The layer below y, so that it and the next one are layers of the grid; *weight of the next. */

@@ -8,7 +8,6 @@
 #include <math.h>
 
 #include "../../common/base/base.h"
-#include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "mesh_output.h"
 #include "output.h"

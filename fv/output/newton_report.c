@@ -2,6 +2,7 @@
  * Counts are since the start, rates in the summary per step.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../time/fv_time.h"
+#include "output.h"
 
 int newton_columns(const struct fv_params *prm, const char **columns)
 {

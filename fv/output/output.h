@@ -50,6 +50,26 @@ void steady_summarise(struct fv *s);
 /* fv_lines.c: extrema on the centre lines into the summary. */
 void fv_summarise_extrema(const struct fv *s);
 
+/* surface_errors.c: kinetic energy of the water over rho, m^(dim+2)/s^2, over all ranks.
+ * Collective. */
+double surface_energy(const struct fv *s);
+/* Largest coordinate of water along axis a, m, over all ranks. Collective. */
+double surface_reach(const struct fv *s, int a);
+/* Writes period and damping of a standing wave, the volume and counts to the summary. */
+void surface_summarise(struct fv *s);
+/* even_level.c, uniform cells: height of the water at x, m: that of the water in the column of
+ * cells there, on top of its
+ * bottom. This rank's part of it. */
+double surface_level(const struct fv *s, const double *x);
+
+/* newton_report.c: sets the names, which are static, of newton's columns in the series, and returns
+ * their number: 0 with another integrator. */
+int newton_columns(const struct fv_params *prm, const char **columns);
+/* Sets their values now, counts as sums since the start, and returns their number; w NULL: 0. */
+int newton_values(const struct newton *w, double *values);
+/* Adds iterations and halvings of the run, which took so many steps, to the summary. */
+void newton_summarise(const struct newton *w, double steps, struct summary *to);
+
 /* fv_io.c: whether output.fields has this word. */
 bool fv_field_wanted(const struct run *r, const char *name);
 

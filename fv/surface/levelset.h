@@ -215,37 +215,7 @@ void surface_gradient_change(const struct fv *s, int a, const double *psi, doubl
 /* surface_line.c: recomputes in these two cells the slope of psi along a; uniform cells. */
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out);
 
-/* surface_steps.c: velocities, fluxes and cuts at the start. */
-void surface_start(struct fv *s);
-/* After other cells have become imposed: adjusts the volume, `before', m^dim, being that in the
- * free ones before. Collective. */
-void surface_outline_moved(struct fv *s, double before);
-/* Extends the velocity beyond the present surface, with ghosts, and sets the fluxes there. */
-void surface_extend(struct fv *s, int layers);
-/* Moves phi by the first half of a step of dt, s. phi and u alternate: phi moves by half a step
- * before u and by half a step after it (leapfrog), so that they oscillate without loss. */
-void surface_first_half(struct fv *s, double dt);
-/* Moves phi by the second half of the step, keeps its volume and makes it a distance again where
- * that is due. */
-void surface_second_half(struct fv *s, double dt);
-/* Keeps what a step starts from. */
-void surface_keep_state(struct fv *s);
-/* Returns to it where the step is taken back. */
-void surface_back(struct fv *s);
-/* Why the run cannot go on; NULL if it can. Static memory. */
-const char *surface_trouble(const struct fv *s);
-
-/* surface_errors.c: kinetic energy of the water over rho, m^(dim+2)/s^2, over all ranks.
- * Collective. */
-double surface_energy(const struct fv *s);
-/* Largest coordinate of water along axis a, m, over all ranks. Collective. */
-double surface_reach(const struct fv *s, int a);
-/* Height of the water at x, m: that of the water in the column of cells there, on top of its
- * bottom. This rank's part of it. */
-double surface_level(const struct fv *s, const double *x);
-/* Takes a sample of the oscillation of a standing wave. */
+/* surface_mode.c: takes a sample of the oscillation of a standing wave. */
 void surface_sample(struct fv *s);
-/* Writes its period and damping, the volume and counts to the summary. */
-void surface_summarise(struct fv *s);
 
 #endif

@@ -19,6 +19,7 @@
 #include "newton.h"
 #include "relax.h"
 #include "steps.h"
+#include "surface_steps.h"
 
 /* The velocity of an impact is not known before it: a step that turns out too long is taken back
  * and done again in half the time. */

@@ -7,5 +7,6 @@
 #include "newton.h"
 #include "stages.h"
 #include "steps.h"
+#include "surface_steps.h"
 
 #endif

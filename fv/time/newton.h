@@ -104,14 +104,6 @@ void newton_clear(const struct fv *s, double *q);
 /* out = R'(q) v at the q of the last residual. A KINLsJacTimesVecFn of KINSOL. Collective. */
 int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_new, void *user);
 
-/* newton_report.c: sets the names, which are static, of newton's columns in the series, and returns
- * their number: 0 with another integrator. */
-int newton_columns(const struct fv_params *prm, const char **columns);
-/* Sets their values now, counts as sums since the start, and returns their number; w NULL: 0. */
-int newton_values(const struct newton *w, double *values);
-/* Adds iterations and halvings of the run, which took so many steps, to the summary. */
-void newton_summarise(const struct newton *w, double steps, struct summary *to);
-
 /* newton_residual.c: coefficient of the dissipation in newton's convection, -: 1/12 with fv.flux =
  * "upwind", else 1/96. */
 double newton_dissipation(const struct fv *s);

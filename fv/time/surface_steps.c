@@ -17,6 +17,7 @@
 #include "../poisson/poisson.h"
 #include "moving.h"
 #include "stages.h"
+#include "surface_steps.h"
 
 enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
 

@@ -6,6 +6,7 @@
 
 #include "../../../fv/grid/block.h"
 #include "../../../fv/operators/flow_measures.h"
+#include "../../../fv/output/output.h"
 #include "../../../fv/surface/fraction.h"
 #include "../../../fv/surface/near_water.h"
 #include "surface_case.h"

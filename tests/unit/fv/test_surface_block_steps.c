@@ -6,6 +6,7 @@
 
 #include "mesh_case.h"
 
+#include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 
 #define SLIP_I "i_min = \"slip\"; i_max = \"slip\"; "

@@ -6,6 +6,7 @@
 
 #include "mesh_case.h"
 
+#include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
 

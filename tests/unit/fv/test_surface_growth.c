@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
+#include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/time/steps.h"
 #include "fv_case.h"

@@ -5,6 +5,7 @@
 #include "../test.h"
 
 #include "../../../fv/operators/flow_measures.h"
+#include "../../../fv/output/output.h"
 #include "../../../fv/time/newton.h"
 #include "surface_case.h"
 

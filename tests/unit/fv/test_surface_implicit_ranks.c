@@ -3,6 +3,7 @@
  */
 #include "../test.h"
 
+#include "../../../fv/output/output.h"
 #include "fv_restart.h"
 #include "surface_case.h"
 

@@ -8,6 +8,7 @@
 #include "../../../fv/boundary/mesh_bc.h"
 #include "../../../fv/grid/overset.h"
 #include "../../../fv/operators/flow_measures.h"
+#include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
 
