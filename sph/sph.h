@@ -30,9 +30,9 @@ struct zones;        /* transition, buffer, openings; zones.h; NULL: none */
 
 /* The two passes of a pair interaction; scheme.h says what each computes. */
 struct scheme {
-    const char *name;
-    void (*gradients)(struct sph *s); /* NULL: the scheme needs none */
-    void (*rates)(struct sph *s);
+    const char *name;                 /* as in the case: "riemann_ale" */
+    void (*gradients)(struct sph *s); /* first pass; NULL: the scheme needs none */
+    void (*rates)(struct sph *s);     /* second pass */
     bool slopes; /* the second pass reads the slopes of neighbours, so ghosts must have them */
 };
 
@@ -90,7 +90,7 @@ struct sph_totals {
 
 /* The sums at t = 0, against which drifts are measured. */
 struct sph_start {
-    double mass, energy, momentum[3];
+    double mass, energy, momentum[3]; /* kg, J, kg m/s: of all ranks */
     double volume; /* m^dim: of the fluid in a closed room, conserved by volume.h; 0: not closed */
 };
 
@@ -105,8 +105,8 @@ struct mean_force {
 /* One level of particles with all that acts on it. Made by sph_create, freed by sph_free
  * (sph_state.h). */
 struct sph {
-    struct run *run;
-    struct sph_params prm;
+    struct run *run;       /* borrowed from run_main */
+    struct sph_params prm; /* a copy of what sph_params_of found */
     int dim;
     double R, dx, dxD; /* m: support radius of the kernel, spacing; m^dim: dx^dim, volume of a
                           particle at the start */

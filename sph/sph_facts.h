@@ -5,6 +5,7 @@
 
 #include "../common/scene/scene.h"
 
+/* Facts behind those of enum scene_fact; WORDS_X below says what a run with FACT_X has. */
 enum sph_fact {
     FACT_RIEMANN = FACTS_OF_PROGRAM,
     FACT_ONE_SIZE,

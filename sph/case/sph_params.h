@@ -6,6 +6,7 @@
 
 #include "../particles/sph_particles.h"
 
+/* The groups sph and apr of a case, for struct program. */
 enum { SPH_GROUPS = 2 };
 extern const struct param_group sph_groups[SPH_GROUPS];
 

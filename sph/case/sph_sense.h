@@ -26,7 +26,7 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used);
 /* Whether lines and surfaces of walls and bodies stand in the way of the displacement d, m, from
  * x. */
 bool sph_falls_stopped(const struct scene *c, const double *x, const double *d);
-/* sph_bodies.c, 2D: adds faults for motion files, and for bodies that leave the domain or meet
+/* sph_body_paths.c, 2D: adds faults for motion files, and for bodies that leave the domain or meet
  * walls and each other. */
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f);
 

@@ -8,6 +8,7 @@
 #include "../../common/run/run.h"
 #include "../sph.h"
 
+/* Columns that the differences have in the series. */
 enum { OVERLAP_COLUMNS = 3 };
 
 /* The differences and the watches that judge them. */
@@ -25,21 +26,25 @@ struct overlap {
     double where[3];         /* m: one of them */
 };
 
-/* Owned by the caller (overlap_free). */
+/* The watches of a coupled run with their scales; owned by the caller (overlap_free). */
 struct overlap *overlap_create(struct sph *s);
+/* Frees them and sets *o to NULL; *o may be NULL. */
 void overlap_free(struct overlap **o);
 /* Compares SPH with the partner's patch at s->t. Collective. */
 void overlap_look(struct sph *s);
 /* Fills d where the run cannot be trusted. */
 void overlap_judge(struct sph *s, struct diagnosis *d);
-/* Names and values of OVERLAP_COLUMNS columns. */
+/* Names of the columns. */
 extern const char *const overlap_columns[OVERLAP_COLUMNS];
+/* Sets values[OVERLAP_COLUMNS] of the last comparison. */
 void overlap_row(const struct overlap *o, double *values);
+/* Adds the worst values to the summary. */
 void overlap_summary(const struct overlap *o, struct summary *to);
 /* The differences for the progress line of the job, as soon as they are noticeable. */
 void overlap_tell(const struct overlap *o, struct summary *to);
-/* The worst so far, for a restart. */
+/* Writes the worst values and the means to a restart file. */
 void overlap_save(const struct overlap *o, struct h5 *f);
+/* Reads them back; what the file does not have stays as it is. */
 void overlap_load(struct overlap *o, struct h5 *f);
 
 #endif

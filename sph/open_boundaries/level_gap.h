@@ -9,6 +9,7 @@
 #include "../../common/run/run.h"
 #include "../sph.h"
 
+/* Columns that the differences have in the series. */
 enum { LEVEL_COLUMNS = 8 };
 
 /* The measured differences and the correction. */

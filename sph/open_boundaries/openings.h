@@ -20,7 +20,7 @@ static inline double openings_inward(int side) { return side % 2 ? -1.0 : 1.0; }
  * hold, in particles, how deep the new particle stands, in dx, and whether a particle that leaves
  * gives its mass to the points on either side of it. */
 struct birth_law {
-    double along, threshold, depth;
+    double along, threshold, depth; /* dx, particles, dx */
     bool shares;
 };
 
@@ -29,9 +29,9 @@ struct birth_law {
 struct openings {
     int dim;
     const struct birth_law *law; /* borrowed for ever; "face" below is such a point */
-    double dx, lo[3], hi[3];
-    bool open[6], bounded[3]; /* sides that are open; axes that do not repeat */
-    int cells[3];             /* faces along each axis */
+    double dx, lo[3], hi[3];     /* m: spacing of the faces; region of the particles */
+    bool open[6], bounded[3];    /* sides that are open; axes that do not repeat */
+    int cells[3];                /* faces along each axis */
     /* First face of side 2a (low), 2a+1 (high); first[2 dim] is the number of faces. */
     int first[7];
     double *mass;   /* kg: accumulated, the same on all ranks */

@@ -24,17 +24,17 @@ struct level_gap;
 /* The zones of a region and their outer solution. */
 struct zones {
     int dim;
-    double dx, lo[3], hi[3]; /* m: of the region */
-    bool open[6];
+    double dx, lo[3], hi[3];   /* m: of the region */
+    bool open[6];              /* sides, 2a: low, 2a + 1: high */
     double transition, buffer; /* m: widths */
     double overlap;       /* m: width of the margin of the free zone where a partner is free, too */
     double counted[2][3]; /* m: zones_counted_box, as the coupling step has begun */
     bool along[3];        /* the box moves along this axis */
     double way[3],
         speed[3]; /* m, m/s: displacement of the box since the start, velocity over the last step */
-    double fastest;  /* m/s: largest speed that the box will have */
-    double chase[3]; /* m/s: box_tracking.h, speed that it remembers */
-    zones_eval *eval;
+    double fastest;   /* m/s: largest speed that the box will have */
+    double chase[3];  /* m/s: box_tracking.h, speed that it remembers */
+    zones_eval *eval; /* the outer solution */
     struct sph_eos {
         double rho0, c0, gamma;
     } eos; /* the particles', for a partner of constant density */

@@ -15,28 +15,30 @@
 #include "riemann_exact.h"
 #include "vec.h"
 
+/* A third value of enum sph_viscosity, for flows without viscosity; vectors of neighbours that go
+ * through the four loops together. */
 enum { VISCOSITY_OFF = 2, BATCH = 8 };
 
 /* What is fixed at compile time for an instance of the pass. Limiter and gamma are tested at run
  * time: that cost nothing measurable, and leaves 12 instances. */
 struct riemann_variant {
-    int dim, scheme, viscosity;
-    bool exact; /* Riemann problems */
+    int dim, scheme, viscosity; /* 2 or 3; enum sph_scheme; enum sph_viscosity or VISCOSITY_OFF */
+    bool exact;                 /* Riemann problems are solved exactly */
 };
 
 /* Constants of the whole pass, from the parameters and the stage. */
 struct riemann_constants {
     struct tait eos;
-    struct dissipation dissipation;
-    int limiter, gamma;
-    double R_1, eps2;          /* 1/m; m^2: keeps r > 0 */
-    double kernel;             /* 2 |W'|/r = kernel (1 - r/R)^3 */
-    double damper;             /* beta rho0 c0 R, Pa s */
-    double c2_1;               /* 1/c0^2 */
-    double mu;                 /* Pa s, times dim + 2 for Monaghan-Gingold */
-    double slack_rho, slack_u; /* kg/m^3, m/s: what limiters let pass */
-    double sharp[2];           /* weights of u_j - u_i and its estimates in the viscous term */
-    double moment;             /* 1/4: of the moment of shift fluxes, see solve */
+    struct dissipation dissipation; /* bound of it (Zhang, Hu & Adams 2017) */
+    int limiter, gamma;             /* enum sph_limiter; 1 or 7 */
+    double R_1, eps2;               /* 1/m; m^2: keeps r > 0 */
+    double kernel;                  /* 2 |W'|/r = kernel (1 - r/R)^3 */
+    double damper;                  /* beta rho0 c0 R, Pa s */
+    double c2_1;                    /* 1/c0^2 */
+    double mu;                      /* Pa s, times dim + 2 for Monaghan-Gingold */
+    double slack_rho, slack_u;      /* kg/m^3, m/s: what limiters let pass */
+    double sharp[2];                /* weights of u_j - u_i and its estimates in the viscous term */
+    double moment;                  /* 1/4: of the moment of shift fluxes, see solve */
 };
 
 /* The particle whose row is treated, the same in all lanes. */
@@ -49,17 +51,17 @@ struct riemann_own {
 
 /* Vectors of neighbours of one row between the loops that treat them. */
 struct riemann_batch {
-    int n;
-    vec d[3][BATCH]; /* x_j - x_i */
-    vec f[BATCH];    /* 2 w_i w_j |W'|/r */
-    struct weights weights[BATCH];
-    vec rho[BATCH];                  /* of j; then the mean of both states */
-    vec D[3][BATCH];                 /* u_j - u_i as friction takes it */
-    vec parting[BATCH];              /* (u_j - u_i).(x_j - x_i) */
-    vec u[2][3][BATCH], p[2][BATCH]; /* states at the middle: i's side, j's side */
-    vec Q[BATCH], m[2][BATCH], w[BATCH];
-    vec rub[BATCH];  /* times D: momentum that goes to i */
-    vec x[2][BATCH]; /* rho/rho0 of both states, for exact problems */
+    int n;                               /* vectors in use, at most BATCH */
+    vec d[3][BATCH];                     /* x_j - x_i */
+    vec f[BATCH];                        /* 2 w_i w_j |W'|/r */
+    struct weights weights[BATCH];       /* of both states in the star state */
+    vec rho[BATCH];                      /* of j; then the mean of both states */
+    vec D[3][BATCH];                     /* u_j - u_i as friction takes it */
+    vec parting[BATCH];                  /* (u_j - u_i).(x_j - x_i) */
+    vec u[2][3][BATCH], p[2][BATCH];     /* states at the middle: i's side, j's side */
+    vec Q[BATCH], m[2][BATCH], w[BATCH]; /* fluxes of momentum, of mass, of volume */
+    vec rub[BATCH];                      /* times D: momentum that goes to i */
+    vec x[2][BATCH];                     /* rho/rho0 of both states, for exact problems */
 };
 
 /* What the pairs contribute to the rates of their first particle: momentum, volume, mass. */
@@ -94,6 +96,7 @@ static struct riemann_constants constants_of(const struct sph *s)
     };
 }
 
+/* The particle with these packed records, spread over all lanes. */
 INLINE struct riemann_own load_own(const struct riemann_constants *c, const double *prim,
                                    const double *slope, const struct riemann_variant v)
 {
@@ -142,6 +145,7 @@ INLINE void densities(const struct riemann_constants *c, const struct riemann_ow
     }
 }
 
+/* The velocity gradients of LANES neighbours j. */
 INLINE void load_gu(const double *slope, const int *j, vec gu[3][3], const int dim)
 {
     vec spare;
@@ -192,6 +196,7 @@ INLINE void velocities(const struct riemann_constants *c, const struct riemann_o
     }
 }
 
+/* Their transport velocities. */
 INLINE void load_u0(const double *slope, const int *j, vec u0[3], const int dim)
 {
     vec spare;

@@ -12,14 +12,8 @@
 
 #include "../sph.h"
 
+/* One instance of a pass, for the members of struct scheme (sph.h). */
 typedef void scheme_pass(struct sph *s);
-
-/* struct scheme (sph.h):
- * gradients, first pass (one-sided): renormalised gradients of rho and u and the transport velocity
- * of every local particle into slope; zero slope where M is nearly singular (smallest eigenvalue <
- * 0.1), in full above 0.2; rates, second pass (symmetric): p.rate of every local particle from prim
- * and slope. */
-
 /* The passes that the parameters of s name. */
 struct scheme scheme_pick(const struct sph *s);
 

@@ -14,13 +14,17 @@
 #define LANES 4
 #endif
 
+/* LANES doubles; LANES masks of comparisons, all bits set where they hold; two and four doubles
+ * that move between memory and registers whatever LANES is. */
 typedef double vec __attribute__((vector_size(8 * LANES), may_alias));
 typedef long long vec_bits __attribute__((vector_size(8 * LANES)));
 typedef double vec2 __attribute__((vector_size(16), may_alias));
 typedef double vec4 __attribute__((vector_size(32), may_alias));
 
+/* Loops over pairs are compiled into each caller, where dimension and scheme are constants. */
 #define INLINE static inline __attribute__((always_inline))
 
+/* The vector whose lanes all hold a. */
 INLINE vec vec_all(double a)
 {
     vec v = {0};
@@ -89,6 +93,7 @@ INLINE int vec_pack(int *to, const int *from, unsigned bits)
 #endif
 }
 
+/* The two doubles at p. */
 INLINE vec2 load2(const double *p) { return *(const vec2 *)(const void *)p; }
 
 /* Low and high half of one vector. */
@@ -141,11 +146,13 @@ INLINE void vec_add_rows(double *row, const ptrdiff_t stride, const int *j, vec 
 #endif
 }
 
+/* a . b of two vectors in space, lane by lane. */
 INLINE vec vec_dot(const vec *a, const vec *b, const int dim)
 {
     return dim == 2 ? a[0] * b[0] + a[1] * b[1] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* The sum of all lanes. */
 INLINE double vec_sum(vec a)
 {
     double s = 0.0;

@@ -7,12 +7,14 @@
 
 #include <math.h>
 
+/* Pressure at the density rho. */
 static inline double eos_p(double rho, double rho0, double c0, double gamma)
 {
     const double r = rho / rho0, r2 = r * r;
     return gamma == 1.0 ? c0 * c0 * (rho - rho0) : rho0 * c0 * c0 / 7.0 * (r2 * r2 * r2 * r - 1.0);
 }
 
+/* Speed of sound at the density rho, m/s. */
 static inline double eos_c(double rho, double rho0, double c0, double gamma)
 {
     const double r = rho / rho0;

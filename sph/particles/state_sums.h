@@ -5,6 +5,7 @@
 
 struct sph;
 
+/* Places of the sums in sums[SUM_COUNT]. */
 enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
 /* Sums over all particles of all levels and ranks, guards left out: kg, m^dim, J (kinetic), J
  * (kinetic, elastic and potential), kg m/s. With levels the mass is that of sph_step.mass.

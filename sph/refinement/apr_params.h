@@ -8,24 +8,29 @@
 
 struct run;
 
+/* Forms of a region; BODY and WALL: all within `offset' of the surface of one. */
 enum region_shape { REGION_BOX, REGION_SPHERE, REGION_BODY, REGION_WALL };
+/* Indicators of the flow, criteria.h: nearness of the surface, size of the curl of u and of the
+ * gradient of p, jump of p between neighbours after reconstruction. */
 enum criterion_kind { CRITERION_SURFACE, CRITERION_VORTICITY, CRITERION_PRESSURE, CRITERION_JUMP };
 /* Guards: the method of refinement.h. The others exist for comparison: mixed.h. */
 enum apr_method { APR_GUARDS, APR_WEIGHTS, APR_COALESCENCE, APR_GRADED };
+/* Fields of guards: by the slopes of what flows around them, or by Shepard's mean over it. */
 enum apr_guards { GUARDS_SLOPES, GUARDS_MEAN };
+/* Most regions, criteria and levels above the coarsest; rows of the table. */
 enum { REGIONS_MAX = 32, CRITERIA_MAX = 8, APR_LEVELS_MAX = 12, APR_ROWS = 10 };
 
 /* A region of the case in which particles are refined. */
 struct apr_region {
-    int level;                  /* 0: the finest */
-    int shape;                  /* enum region_shape */
-    double min[3], max[3];      /* m: of a box */
-    double centre[3], radius;   /* m: of a sphere (2D: a disc) */
-    char body[PARAM_TEXT_SIZE]; /* name of a body */
-    int wall;                   /* number in the list of walls, from 1 */
-    double offset;              /* m: how far from the surface of a body or wall */
-    double velocity[3];         /* m/s */
-    struct scene_motions motion;
+    int level;                    /* 0: the finest */
+    int shape;                    /* enum region_shape */
+    double min[3], max[3];        /* m: of a box */
+    double centre[3], radius;     /* m: of a sphere (2D: a disc) */
+    char body[PARAM_TEXT_SIZE];   /* name of a body */
+    int wall;                     /* number in the list of walls, from 1 */
+    double offset;                /* m: how far from the surface of a body or wall */
+    double velocity[3];           /* m/s: of the region as a whole */
+    struct scene_motions motion;  /* the same over time */
     char follow[PARAM_TEXT_SIZE]; /* name of a body, or "peak" */
     char along[PARAM_TEXT_SIZE];  /* axes of that, as in "x"; "": all */
     double pressure;              /* Pa: pressure from which on a peak is followed */
@@ -48,7 +53,7 @@ struct apr_params {
                          automatically */
     int around;       /* cells, R of the coarser level wide, around those that a criterion marks */
     double particles; /* of all levels, never exceeded; 0: no bound */
-    bool local_steps;
+    bool local_steps; /* each level has a time step of its own */
     bool unshifted_finest; /* shifting moves particles of the coarser levels only */
     struct apr_regions {
         int n;

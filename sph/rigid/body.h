@@ -29,6 +29,7 @@ struct body_free {
     double axis[3], J;                   /* TURNS_AXIS: unit axis, inertia about it */
     bool hinged, slides, held;           /* held: before release */
     double hinge[3], arm[3], slide[3];   /* point of the hinge, centre from it at the start */
+    /* State in a stage, at the step's start, weighted sum of the rates, rate. */
     double y[BODY_STATE], y0[BODY_STATE], sum[BODY_STATE], rate[BODY_STATE];
     double force[6]; /* N, N m: of the fluid in the last stage, centre */
     double tension[LINES_MAX], slack[LINES_MAX]; /* N, m: of lines; length without force */
@@ -63,7 +64,7 @@ struct body {
 /* Mass, centre, m, and inertia about it as the case has them. body_mass_of returns false if they
  * are impossible, and why[size] says why. mesh: NULL in 2D. */
 struct body_mass {
-    double mass, centre[3], inertia[3][3];
+    double mass, centre[3], inertia[3][3]; /* kg, m, kg m^2; in 2D per metre */
 };
 bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int dim,
                   struct body_mass *m, char *why, size_t size);

@@ -13,6 +13,7 @@ struct level_window {
     double low, high, dx;
 };
 
+/* The window of water between its ground and its level, m, in particles of spacing dx, m. */
 static inline struct level_window level_window(double ground, double level, double dx)
 {
     return (struct level_window){ground + dx, level - 2.5 * dx, dx};
@@ -30,13 +31,13 @@ static inline double level_window_ramp(double z, double h, double dx)
     return fmax(0.0, fmin(1.0, 0.5 + 0.5 * (z - h) / dx));
 }
 
-/* Fraction of a volume at height z that lies above the window; then of the rest, the fraction
- * inside. */
+/* Fraction of a volume at height z, m, that lies above the window. */
 static inline double level_window_above(const struct level_window *w, double z)
 {
     return level_window_ramp(z, w->high, w->dx);
 }
 
+/* Fraction of it that lies inside, given the fraction above. */
 static inline double level_window_inside(const struct level_window *w, double z, double above)
 {
     return (1.0 - above) * level_window_ramp(z, w->low, w->dx);

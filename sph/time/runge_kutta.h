@@ -8,12 +8,13 @@
 #ifndef SPH_RUNGE_KUTTA_H
 #define SPH_RUNGE_KUTTA_H
 
+/* Most stages of a scheme. */
 enum { STAGES_MOST = 4 };
 
 /* The coefficients of one scheme; constant tables. */
 struct rk_stages {
-    const char *name;
-    int n;
+    const char *name;           /* "rk4", "j3" */
+    int n;                      /* stages */
     double at[STAGES_MOST];     /* dt: time of stage k after that of the step's start */
     double ahead[STAGES_MOST];  /* dt: from the start to stage k + 1; of the last stage nothing */
     double weight[STAGES_MOST]; /* of the rates of stage k in the step; their sum is 1 */

@@ -17,12 +17,12 @@ struct segment {
     double length;     /* m */
     double u[2];       /* m/s: of a wall that slides along itself (bodies: walls_velocity) */
     int body;          /* -1: at rest */
-    bool no_slip;
-    double friction; /* -: c_f of quadratic bed friction */
-    bool open[2];    /* a, b: an end where no wall goes on, so that nothing is behind it there */
-    bool beyond;     /* its wall has been prolonged across a periodic side */
-    int of;          /* across a period: the segment that it is the image of; -1: it is itself */
-    double shift[2]; /* m: from that to the image */
+    bool no_slip;      /* else a slip wall */
+    double friction;   /* -: c_f of a slip wall's quadratic bed friction */
+    bool open[2];      /* a, b: an end where no wall goes on, so that nothing is behind it there */
+    bool beyond;       /* its wall has been prolonged across a periodic side */
+    int of;            /* across a period: the segment that it is the image of; -1: it is itself */
+    double shift[2];   /* m: from that to the image */
 };
 
 /* A plane side of the domain, as mirrored ghosts need it. */
@@ -37,8 +37,8 @@ struct wall_plane {
  * lies in a frame of its own, x = X + Q own, so that a body moves without its vertices being
  * touched. */
 struct wall_mesh {
-    struct trimesh mesh; /* normals out of the fluid */
-    struct tree *tree;
+    struct trimesh mesh;         /* normals out of the fluid */
+    struct tree *tree;           /* over its triangles */
     int *plane;                  /* [ntriangles] the same of neighbours in one plane; NULL: thin */
     bool lent;                   /* mesh and tree belong to the scene */
     const struct scene_mesh *of; /* of a file; NULL: sides */
@@ -52,18 +52,17 @@ struct wall_mesh {
     double shift[3];      /* m: that far from it */
 };
 
-/* One way to make walls act on particles, picked by name. What it does not need is NULL. */
 struct walls;
 /* One way to make walls act on particles, picked by name. The functions are called at the points of
  * a step that their comments say, in this order; what a model does not need is NULL. */
 struct wall_model {
-    const char *name;
-    void *(*create)(struct sph *s);
-    void (*destroy)(void *m);
-    void (*ghosts)(struct sph *s); /* once a step, after the halo: adds ghosts */
-    void (*list)(struct sph *s);   /* once a step, after the list of pairs */
-    void (*lines)(struct sph *s);  /* each stage: lines of the ghosts, before the first pass */
-    void (*slopes)(struct sph *s); /* each stage: after the first pass, before its halo */
+    const char *name;               /* as in the case: "nfm" */
+    void *(*create)(struct sph *s); /* the model's state; walls and particles are there */
+    void (*destroy)(void *m);       /* frees it */
+    void (*ghosts)(struct sph *s);  /* once a step, after the halo: adds ghosts */
+    void (*list)(struct sph *s);    /* once a step, after the list of pairs */
+    void (*lines)(struct sph *s);   /* each stage: lines of the ghosts, before the first pass */
+    void (*slopes)(struct sph *s);  /* each stage: after the first pass, before its halo */
     void (*bound_shifts)(struct sph *s); /* the same, after transport_finish */
     void (*ghost_slopes)(struct sph *s); /* after the halo of slopes */
     void (*rates)(struct sph *s);        /* after the second pass */
@@ -78,6 +77,7 @@ struct wall_model {
         const struct sph *s,
         int *who); /* lists locals that are behind a wall into who[n]; returns their number */
 };
+/* Fixed ghosts (Marrone), mirrored ghosts, normal fluxes (Chiron 2017, chapter 4). */
 extern const struct wall_model wall_fixed, wall_ghost, wall_nfm;
 
 /* Force, N, and moment, N m, or impulses of both; in 2D per metre along z, with M[2] alone. */
@@ -105,19 +105,19 @@ struct walls {
     int nsegments;
     struct segment *segments, *start; /* now; at t = 0; images across periods stand last */
     int nplanes;
-    struct wall_plane planes[6];
-    int nmeshes; /* 3D */
-    struct wall_mesh *meshes;
+    struct wall_plane planes[6]; /* sides of the domain, for mirrored ghosts */
+    int nmeshes;                 /* 3D */
+    struct wall_mesh *meshes;    /* of the scene, then their images across periods */
     int nbodies;
-    struct body bodies[BODIES_MAX];
-    double middle[BODIES_MAX][3]; /* m: of each body now */
-    bool any_free;                /* some body moves by forces */
-    bool any_open;                /* 2D: some line ends in the open */
+    struct body bodies[BODIES_MAX]; /* those of the scene, in its order */
+    double middle[BODIES_MAX][3];   /* m: of each body now */
+    bool any_free;                  /* some body moves by forces */
+    bool any_open;                  /* 2D: some line ends in the open */
     bool lent;   /* the state of free bodies is that of the coarser level's walls */
     bool placed; /* all have been moved to their places once */
     double t;    /* s: of `segments' */
-    const struct wall_model *model;
-    void *state; /* of the model */
+    const struct wall_model *model; /* borrowed for ever */
+    void *state;                    /* of the model */
     /* [n] whether a local's support meets a wall; NULL: the model does not report it. */
     bool *beside;
     int beside_capacity;
@@ -152,6 +152,7 @@ bool walls_want_image(const struct sph *s, bool moves, double lo, double hi, int
 /* The walls of level s at s->t; NULL: the scene has none. Needs s->domain. Owned by the caller
  * (walls_free). */
 struct walls *walls_create(struct sph *s);
+/* Frees them with the model's state and sets *w to NULL; *w may be NULL. */
 void walls_free(struct walls **w);
 /* Moves segments, meshes and bodies to time t, s. */
 void walls_move(struct sph *s, double t);
@@ -163,9 +164,13 @@ void walls_velocity(const struct walls *w, const struct segment *g, const double
 /* The nearest of the segments that were added to it: signed distance to it, m, negative behind it.
  * At a corner, of two that are equally near, it is the one from whose line the point is farther. */
 struct wall_side {
-    double distance, least, sure;
+    double distance; /* m: signed */
+    double least;    /* m: its size */
+    double sure;     /* m: distance from the line of that segment */
 };
+/* No segment yet; distances beyond reach, m, do not count. */
 struct wall_side wall_side_none(double reach);
+/* Adds one segment for the point x. */
 void wall_side_add(struct wall_side *to, const struct segment *g, const double *x);
 /* Distance of x to the nearest wall, m, negative behind it, limited to -reach .. reach. */
 double walls_distance(const struct walls *w, const double *x, double reach);
@@ -174,7 +179,7 @@ int walls_nearest(const struct walls *w, const double *x, double *foot);
 /* A point of a wall with its normal and velocity. */
 struct wall_foot {
     double x[3], n[3], u[3]; /* m, -, m/s */
-    int body;
+    int body;                /* -1: a wall at rest */
 };
 /* As walls_distance; if the wall is nearer than reach, `way' is the vector from x to its nearest
  * point, m. */
@@ -200,14 +205,17 @@ void walls_keep_mass(struct sph *s, int n, const int *who);
 int walls_mirrored(const struct sph *s, int i);
 /* wall_mesh.c: makes the meshes of the scene, and those of sides that are walls. */
 void wall_meshes_create(struct sph *s, struct walls *w);
+/* Frees them; what the scene has lent stays. */
 void wall_meshes_free(struct walls *w);
 /* Sets the poses of the meshes of bodies to where these are now. */
 void wall_meshes_move(struct walls *w);
-/* Transforms a point of the world to the mesh's frame, and back; the turn functions do so for
- * vectors. */
+/* Transforms a point of the world to the mesh's frame, m. */
 void wall_mesh_to_own(const struct wall_mesh *m, const double *x, double *own);
+/* Transforms a point of the mesh's frame to the world, m. */
 void wall_mesh_to_world(const struct wall_mesh *m, const double *own, double *x);
+/* Rotates a vector of the world into the mesh's frame. */
 void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own);
+/* Rotates a vector of the mesh's frame into the world. */
 void wall_mesh_turn_to_world(const struct wall_mesh *m, const double *own, double *v);
 /* Velocity, m/s, and acceleration, m/s^2 (NULL: not wanted), of the mesh's material point x. */
 void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const double *x,

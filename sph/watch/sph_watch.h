@@ -39,8 +39,8 @@ enum {
 /* crowding.c, of a refined flow, this rank: number of particles of all levels that count, number of
  * those that overlap, the largest sum w W with its position, m, and level. */
 struct sph_crowd {
-    double counted, crowded, most, place[3];
-    int level;
+    double counted, crowded, most, place[3]; /* -, -, -, m */
+    int level;                               /* of the particle with the largest sum */
 };
 
 /* rest_forces.c: for a body, the number of samples in a row at which it was at rest; the same on
@@ -55,19 +55,19 @@ struct rest_forces {
 /* All watches of a run. The coarsest level has it. */
 struct sph_watch {
     struct watch of[SPH_WATCHES];
-    char remedy[REMEDIES][160]; /* by enum sph_watch_remedy */
-    struct sph_crowd crowd;     /* at the last sample */
-    char crowd_place[256];
-    struct rest_forces still[BODIES_MAX];
-    char still_place[256];
+    char remedy[REMEDIES][160];           /* by enum sph_watch_remedy */
+    struct sph_crowd crowd;               /* at the last sample */
+    char crowd_place[256];                /* where that was, in words */
+    struct rest_forces still[BODIES_MAX]; /* of bodies that are at rest */
+    char still_place[256];                /* which of them is off most, in words */
     bool budget_closed; /* all work done on the flow is known, so that its energy is judged */
     double reference;   /* m/s: largest speed that the scene lets expect */
     double rest;        /* -: static pressure over rho0 c0^2, the compression at rest */
     double friction;    /* the same of the pressures of slow viscous flow */
     double settles;     /* m^2/s^2: energy per mass that a layer of water gains by settling */
-    struct watch_budget budget;
-    double work;           /* J: done on the flow from outside since the start, all ranks */
-    double power, power_t; /* W, s: at the last sample */
+    struct watch_budget budget; /* of the energy less the work */
+    double work;                /* J: done on the flow from outside since the start, all ranks */
+    double power, power_t;      /* W, s: at the last sample */
     /* At the last samples: number of all particles returned so far; magnitude of the moving walls'
      * work, J. */
     double put_back[WATCH_STEPS / SPH_WATCH_EVERY], walls[WATCH_STEPS / SPH_WATCH_EVERY];
