@@ -25,8 +25,7 @@ void fit_add(struct fit *f, double t, double v)
 
 void fit_free(struct fit *f)
 {
-    mem_free(f->t);
-    mem_free(f->v);
+    FREE(f->t, f->v);
     *f = (struct fit){0};
 }
 

@@ -12,7 +12,7 @@
 #include "log.h"
 
 enum { LINE = 64 };
-static size_t held, peak; /* bytes of this process */
+static size_t held; /* bytes of this process */
 
 /* SIZE_MAX / 2 keeps n size, rounded up and with its header, from wrapping round. */
 void *mem_new(size_t n, size_t size)
@@ -29,8 +29,6 @@ void *mem_new(size_t n, size_t size)
     memset(p, 0, bytes);
     memcpy(p, &bytes, sizeof bytes);
     held += bytes;
-    if (held > peak)
-        peak = held;
     return p + LINE;
 }
 
@@ -54,5 +52,10 @@ void mem_free(void *p)
     free(block);
 }
 
+void mem_free_all(size_t n, void *const *p)
+{
+    for (size_t i = 0; i < n; i++)
+        mem_free(p[i]);
+}
+
 size_t mem_held(void) { return held; }
-size_t mem_peak(void) { return peak; }

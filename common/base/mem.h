@@ -16,13 +16,16 @@ void *mem_new(size_t n, size_t size);
 void *mem_grow(void *p, size_t n_old, size_t n, size_t size);
 /* Frees a block of mem_new or mem_grow; NULL does nothing. */
 void mem_free(void *p);
-/* Bytes that this process holds through the functions above, their headers included, and the
- * largest amount it ever held. */
+/* Frees the n blocks p[n], in their order; FREE below is the way to call it. */
+void mem_free_all(size_t n, void *const *p);
+/* Bytes that this process holds through the functions above, their headers included. */
 size_t mem_held(void);
-size_t mem_peak(void);
 
 /* NEW(double, n): n zeroed elements. GROW(p, n_old, n) replaces the pointer p itself. */
 #define NEW(type, n) ((type *)mem_new((size_t)(n), sizeof(type)))
 #define GROW(p, n_old, n) ((p) = mem_grow((p), (size_t)(n_old), (size_t)(n), sizeof *(p)))
+/* FREE(p, q, ...): mem_free of each; the pointers keep their values. */
+#define FREE(...)                                                                                  \
+    mem_free_all(sizeof((void *[]){__VA_ARGS__}) / sizeof(void *), (void *[]){__VA_ARGS__})
 
 #endif

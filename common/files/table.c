@@ -88,9 +88,7 @@ void table_free(struct table **t)
         return;
     for (int k = 0; k < (*t)->ncolumns; k++)
         mem_free((*t)->name[k]);
-    mem_free((*t)->name);
-    mem_free((*t)->v);
-    mem_free(*t);
+    FREE((*t)->name, (*t)->v, *t);
     *t = NULL;
 }
 

@@ -180,11 +180,7 @@ void tree_free(struct tree **t)
 {
     if (!*t)
         return;
-    mem_free((*t)->nodes);
-    mem_free((*t)->order);
-    mem_free((*t)->n);
-    mem_free((*t)->rim);
-    mem_free(*t);
+    FREE((*t)->nodes, (*t)->order, (*t)->n, (*t)->rim, *t);
     *t = NULL;
 }
 

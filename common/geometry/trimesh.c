@@ -12,10 +12,7 @@
 
 void trimesh_free(struct trimesh *m)
 {
-    mem_free(m->x);
-    mem_free(m->vertex);
-    mem_free(m->neighbour);
-    mem_free(m->part);
+    FREE(m->x, m->vertex, m->neighbour, m->part);
     *m = (struct trimesh){0};
 }
 
@@ -118,8 +115,7 @@ static void find_neighbours(struct trimesh *m)
             join_edge(m, s + i, k - i);
         }
     }
-    mem_free(start);
-    mem_free(sides);
+    FREE(start, sides);
 }
 
 /* Walks over neighbours from every triangle that has no part yet. */
@@ -152,8 +148,7 @@ static void find_parts(struct trimesh *m)
 
 void trimesh_connect(struct trimesh *m)
 {
-    mem_free(m->neighbour);
-    mem_free(m->part);
+    FREE(m->neighbour, m->part);
     m->neighbour = (int(*)[3])mem_new((size_t)m->ntriangles, sizeof *m->neighbour);
     m->part = NEW(int, m->ntriangles);
     m->rims = m->junctions = m->clashes = 0;

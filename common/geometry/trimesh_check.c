@@ -208,8 +208,7 @@ int trimesh_orient_closed(struct trimesh *m, int sign)
     for (int k = 0; k < m->nparts; k++)
         if (turn[k])
             trimesh_turn(m, k);
-    mem_free(turn);
-    mem_free(parts);
+    FREE(turn, parts);
     return n;
 }
 

@@ -108,9 +108,7 @@ int trimesh_weld(struct trimesh *m, double tolerance)
         m->vertex[at / 3][at % 3] = to[m->vertex[at / 3][at % 3]];
     const int gone = m->nvertices - kept;
     m->nvertices = kept;
-    mem_free(g.head);
-    mem_free(g.next);
-    mem_free(to);
+    FREE(g.head, g.next, to);
     return gone;
 }
 
@@ -157,9 +155,7 @@ void trimesh_trim(struct trimesh *m)
             memcpy(x[to[v] - 1], m->x[v], sizeof *x);
     for (int at = 0; at < 3 * m->ntriangles; at++)
         vertex[at / 3][at % 3] = to[m->vertex[at / 3][at % 3]] - 1;
-    mem_free(to);
-    mem_free(m->x);
-    mem_free(m->vertex);
+    FREE(to, m->x, m->vertex);
     m->x = x;
     m->vertex = vertex;
     m->nvertices = n;
@@ -222,7 +218,6 @@ int trimesh_orient(struct trimesh *m)
     for (int t = 0; t < m->ntriangles; t++)
         for (int k = 0; k < 3; k++)
             m->clashes += m->neighbour[t][k] > t && same_sense(m, t, k);
-    mem_free(who);
-    mem_free(seen);
+    FREE(who, seen);
     return count;
 }

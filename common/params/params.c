@@ -608,9 +608,7 @@ void params_free(struct params **p)
     config_destroy(&(*p)->cfg);
     for (int k = 0; k < (*p)->noverrides; k++)
         config_destroy(&(*p)->overrides[k].cfg);
-    mem_free((*p)->overrides);
-    mem_free((*p)->given);
-    mem_free(*p);
+    FREE((*p)->overrides, (*p)->given, *p);
     *p = NULL;
 }
 

@@ -310,8 +310,7 @@ static double compare(const struct scene_accept *a, const char *case_dir, const 
         const struct accept_series of_ref =
             series_of(ref, table_column(ref, column_of(a)), room[1], a->start, a->unit);
         d = accept_distance(a->measure, of_run, of_ref, a->from, a->until);
-        mem_free(room[0]);
-        mem_free(room[1]);
+        FREE(room[0], room[1]);
     }
     table_free(&ref);
     table_free(&run);

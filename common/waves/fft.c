@@ -53,8 +53,7 @@ void fft_free(struct fft **f)
 {
     if (!*f)
         return;
-    mem_free((*f)->turn);
-    mem_free(*f);
+    FREE((*f)->turn, *f);
     *f = NULL;
 }
 

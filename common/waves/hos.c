@@ -46,13 +46,7 @@ void hos_free(struct hos **h)
 {
     if (!*h)
         return;
-    mem_free((*h)->factor);
-    mem_free((*h)->keep);
-    mem_free((*h)->W);
-    mem_free((*h)->phi);
-    mem_free((*h)->z);
-    mem_free((*h)->work);
-    mem_free(*h);
+    FREE((*h)->factor, (*h)->keep, (*h)->W, (*h)->phi, (*h)->z, (*h)->work, *h);
     *h = NULL;
 }
 

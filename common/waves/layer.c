@@ -47,8 +47,7 @@ static void differentiate(const struct sigma_layer *l, const double *v, double *
         vy[i] = z[4 * i + 2];
         lap[i] = z[4 * i + 1];
     }
-    mem_free(z);
-    mem_free(work);
+    FREE(z, work);
 }
 
 /* rows is nodes rounded up to a multiple of 4: two real rows are one complex one (layer_solver.c),

@@ -106,16 +106,8 @@ void layer_solver_free(const struct sigma_layer *l, struct layer_solver **s)
     (void)l;
     if (!*s)
         return;
-    mem_free((*s)->D1);
-    mem_free((*s)->D2);
-    mem_free((*s)->lower);
-    mem_free((*s)->inverse);
-    mem_free((*s)->packed);
-    mem_free((*s)->work);
-    mem_free((*s)->slopes);
-    mem_free((*s)->level);
-    mem_free((*s)->start);
-    mem_free((*s)->flat);
+    FREE((*s)->D1, (*s)->D2, (*s)->lower, (*s)->inverse, (*s)->packed, (*s)->work, (*s)->slopes,
+         (*s)->level, (*s)->start, (*s)->flat);
     for (int i = 0; i <= LAYER_VECTORS; i++)
         mem_free((*s)->vectors[i]);
     mem_free(*s);

@@ -179,13 +179,7 @@ void second_order_free(struct second_order **s)
 {
     if (!*s)
         return;
-    mem_free((*s)->of);
-    mem_free((*s)->shares);
-    mem_free((*s)->w);
-    mem_free((*s)->kernels);
-    mem_free((*s)->E);
-    mem_free((*s)->pairs);
-    mem_free(*s);
+    FREE((*s)->of, (*s)->shares, (*s)->w, (*s)->kernels, (*s)->E, (*s)->pairs, *s);
     *s = NULL;
 }
 

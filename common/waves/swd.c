@@ -151,8 +151,7 @@ void swd_close(struct swd **s)
         return;
     if ((*s)->f)
         fclose((*s)->f);
-    mem_free((*s)->values);
-    mem_free(*s);
+    FREE((*s)->values, *s);
     *s = NULL;
 }
 

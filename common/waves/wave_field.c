@@ -193,13 +193,8 @@ void wave_field_free(struct wave_field **f)
     swd_close(&(*f)->file);
     mem_free((*f)->modes);
     wave_grid_free(&(*f)->fine);
-    mem_free((*f)->raise);
-    mem_free((*f)->lower[0]);
-    mem_free((*f)->lower[1]);
-    mem_free((*f)->start);
-    mem_free((*f)->z);
-    mem_free((*f)->padded);
-    mem_free((*f)->work);
+    FREE((*f)->raise, (*f)->lower[0], (*f)->lower[1], (*f)->start, (*f)->z, (*f)->padded,
+         (*f)->work);
     for (int i = 0; i < WAVE_FIELD_KEPT; i++)
         mem_free((*f)->states[i]);
     mem_free(*f);

@@ -156,8 +156,7 @@ static void lift(const struct wave_grid *g, const struct evolution_spec *in, dou
         z[2 * i + 1] = f[4 * i + 2] + f[4 * i] * f[4 * i + 1];
     }
     wave_grid_to_modes(g, 1, z, work);
-    mem_free(f);
-    mem_free(work);
+    FREE(f, work);
 }
 
 /* n^2/2 pairs, once at the start. */
@@ -182,6 +181,5 @@ void wave_field_modes(const struct wave_grid *g, const struct wave_component *of
     for (int m = 0; m < g->cells; m++)
         if (g->size[m] > in->highest)
             z[2 * m] = z[2 * m + 1] = 0.0;
-    mem_free(s.mode);
-    mem_free(s.phase);
+    FREE(s.mode, s.phase);
 }

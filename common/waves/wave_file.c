@@ -30,8 +30,7 @@ struct wave_component *wave_file_components(struct swd *s, double g, double dept
                                                 .phase = -atan2(h[2 * j + 1], h[2 * j]),
                                                 .way = {1.0, 0.0}};
     }
-    mem_free(h);
-    mem_free(phi);
+    FREE(h, phi);
     return c;
 }
 

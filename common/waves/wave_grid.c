@@ -31,8 +31,7 @@ struct wave_grid *wave_grid_create(const int n[2], const double length[2])
             g->size[j * n[0] + i] = hypot(all[0][i], all[1][j]);
             g->mirror[j * n[0] + i] = (n[1] - j) % n[1] * n[0] + (n[0] - i) % n[0];
         }
-    mem_free(all[0]);
-    mem_free(all[1]);
+    FREE(all[0], all[1]);
     return g;
 }
 
@@ -44,9 +43,7 @@ void wave_grid_free(struct wave_grid **g)
         fft_free(&(*g)->of[a]);
         mem_free((*g)->k[a]);
     }
-    mem_free((*g)->size);
-    mem_free((*g)->mirror);
-    mem_free(*g);
+    FREE((*g)->size, (*g)->mirror, *g);
     *g = NULL;
 }
 

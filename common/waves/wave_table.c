@@ -25,9 +25,7 @@ struct wave_table wave_table_create(int n, int rows, double gap, double reach, b
 
 void wave_table_free(struct wave_table *t)
 {
-    mem_free(t->eta);
-    mem_free(t->u);
-    mem_free(t->slope);
+    FREE(t->eta, t->u, t->slope);
     *t = (struct wave_table){.n = 0};
 }
 

@@ -288,10 +288,7 @@ void waves_free(struct waves **w)
     wave_table_free(&(*w)->rise);
     for (int f = 0; f < WAVE_FRAMES; f++)
         wave_table_free(&(*w)->frames[f]);
-    mem_free((*w)->components);
-    mem_free((*w)->profile);
-    mem_free((*w)->turning);
-    mem_free((*w)->filter);
+    FREE((*w)->components, (*w)->profile, (*w)->turning, (*w)->filter);
     if (!(*w)->shares)
         wave_field_free(&(*w)->field);
     second_order_free(&(*w)->second);

@@ -178,8 +178,6 @@ struct zone_response zone_response(double omega, double number, double cosine, d
         is = (struct zone_response){
             .make = 1.0 / leaves(&q, 0), .pass = -back / leaves(&q, 1), .reflected = cabs(back)};
     }
-    mem_free(q.ab);
-    mem_free(q.b);
-    mem_free(pivots);
+    FREE(q.ab, q.b, pivots);
     return is;
 }

@@ -170,6 +170,5 @@ void map_deal(enum map_dealing how, int dim, double R, int ncomp, const double p
     n = deal_within(&a, target, R, false, period, n, left);
     for (double wide = 2.0 * R; n > 0 && isfinite(wide); wide *= 2.0)
         n = deal_within(&a, target, wide, true, period, n, left);
-    mem_free(left);
-    mem_free(a.w);
+    FREE(left, a.w);
 }

@@ -11,10 +11,7 @@
 
 void map_cloud_free(struct map_cloud *c)
 {
-    mem_free(c->x);
-    mem_free(c->gid);
-    mem_free(c->volume);
-    mem_free(c->v);
+    FREE(c->x, c->gid, c->volume, c->v);
     *c = (struct map_cloud){0};
 }
 
@@ -144,15 +141,13 @@ struct near near_create(int dim, double R, const struct map_cloud *c, long n, co
 
 void near_free(struct near *g)
 {
-    mem_free(g->start);
-    mem_free(g->member);
+    FREE(g->start, g->member);
     *g = (struct near){0};
 }
 
 void reach_free(struct reach *r)
 {
-    mem_free(r->j);
-    mem_free(r->room);
+    FREE(r->j, r->room);
     *r = (struct reach){0};
 }
 

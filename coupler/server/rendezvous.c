@@ -55,9 +55,7 @@ static void drop(const struct coupler *c, struct partner_link *l, struct arrival
 
 static void forget_targets(struct asker *a)
 {
-    mem_free(a->x);
-    mem_free(a->gid);
-    mem_free(a->volume);
+    FREE(a->x, a->gid, a->volume);
     a->x = a->volume = NULL;
     a->gid = NULL;
     a->ntarget = 0;
@@ -308,8 +306,7 @@ static void answer_points(struct coupler *c, struct partner_link *l, const struc
         }
         wire_send(&c->wire, c->solver[l->target].peer, r, &p);
     }
-    mem_free(v);
-    mem_free(mask);
+    FREE(v, mask);
 }
 
 /* A piece of a source's block into the patch of its asker; returns the number of cells. The piece
