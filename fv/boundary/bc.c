@@ -234,8 +234,7 @@ void bc_free(struct bc **bp)
         return;
     for (int k = 0; k < 6; k++)
         for (int q = 0; q < 3; q++) {
-            mem_free(bc->w[k][q]);
-            mem_free(bc->slip[k][q]);
+            FREE(bc->w[k][q], bc->slip[k][q]);
         }
     mem_free(bc);
     *bp = NULL;

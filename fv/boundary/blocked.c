@@ -161,8 +161,7 @@ void blocked_free(struct blocked **wp)
         return;
     mem_free(w->box);
     for (int a = 0; a < 3; a++) {
-        mem_free(w->near[a]);
-        mem_free(w->slip[a]);
+        FREE(w->near[a], w->slip[a]);
         for (int t = 0; t < 3; t++)
             mem_free(w->beside[a][t]);
     }

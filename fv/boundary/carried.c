@@ -61,16 +61,9 @@ void carried_free_list(struct outflow **list, int n)
 {
     for (int k = 0; k < n; k++) {
         struct outflow *o = *list + k;
-        mem_free(o->place);
-        mem_free(o->cell);
-        mem_free(o->own);
-        mem_free(o->share);
-        mem_free(o->wet);
-        mem_free(o->h);
+        FREE(o->place, o->cell, o->own, o->share, o->wet, o->h);
         for (int q = 0; q < 3; q++) {
-            mem_free(o->S[q]);
-            mem_free(o->line[q]);
-            mem_free(o->change[q]);
+            FREE(o->S[q], o->line[q], o->change[q]);
         }
     }
     mem_free(*list);

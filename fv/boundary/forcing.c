@@ -324,24 +324,12 @@ void forcing_free(struct forcing **fp)
     struct forcing *f = *fp;
     if (!f)
         return;
-    mem_free(f->forced);
-    mem_free(f->layer);
-    mem_free(f->local);
-    mem_free(f->set);
-    mem_free(f->partner);
-    mem_free(f->known);
+    FREE(f->forced, f->layer, f->local, f->set, f->partner, f->known);
     given_rows_free(&f->gradient);
     parted_free(&f->parted);
     for (int a = 0; a < 3; a++) {
-        mem_free(f->fix[a]);
-        mem_free(f->face[a]);
-        mem_free(f->sign[a]);
-        mem_free(f->counts[a]);
-        mem_free(f->open[a]);
-        mem_free(f->v[a]);
-        mem_free(f->v_next[a]);
-        mem_free(f->v_old[a]);
-        mem_free(f->given[a]);
+        FREE(f->fix[a], f->face[a], f->sign[a], f->counts[a], f->open[a], f->v[a], f->v_next[a],
+             f->v_old[a], f->given[a]);
     }
     mem_free(f);
     *fp = NULL;
@@ -434,8 +422,7 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->npartner + f->nrim; i++)
             f->v_next[a][i] = f->given[a][f->partner[i]];
-    mem_free(has);
-    mem_free(next);
+    FREE(has, next);
 }
 
 void forcing_velocity(const struct fv *s, double t, double *const u[3])

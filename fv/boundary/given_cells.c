@@ -213,11 +213,7 @@ void given_rows_free(struct one_sided **gp)
     struct one_sided *g = *gp;
     if (!g)
         return;
-    mem_free(g->cell);
-    mem_free(g->first);
-    mem_free(g->place);
-    mem_free(g->w);
-    mem_free(g);
+    FREE(g->cell, g->first, g->place, g->w, g);
     *gp = NULL;
 }
 

@@ -39,8 +39,7 @@ void levels_free(struct levels **l)
     if (!*l)
         return;
     carried_free_list(&(*l)->of, (*l)->n);
-    mem_free((*l)->p);
-    mem_free(*l);
+    FREE((*l)->p, *l);
     *l = NULL;
 }
 

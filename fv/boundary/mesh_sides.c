@@ -218,13 +218,11 @@ void mesh_bc_free(struct mesh_bc **b)
             for (int q = 0; q < 5; q++)
                 mem_free(all[q]);
             if (c == 0) {
-                mem_free(d->tilt);
-                mem_free(d->once);
+                FREE(d->tilt, d->once);
             }
         }
     if (*b) {
-        mem_free((*b)->side);
-        mem_free((*b)->beyond);
+        FREE((*b)->side, (*b)->beyond);
         mesh_exchange_free(&(*b)->walls);
     }
     mem_free(*b);

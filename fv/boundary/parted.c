@@ -135,8 +135,7 @@ void parted_free(struct parted **p)
 {
     if (!*p)
         return;
-    mem_free((*p)->of);
-    mem_free(*p);
+    FREE((*p)->of, *p);
     *p = NULL;
 }
 

@@ -69,9 +69,7 @@ struct forced_points forced_points_create(const struct fv *s, double h)
 
 void forced_points_free(struct forced_points *p)
 {
-    mem_free(p->first);
-    mem_free(p->x);
-    mem_free(p->id);
+    FREE(p->first, p->x, p->id);
     *p = (struct forced_points){0};
 }
 

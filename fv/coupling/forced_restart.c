@@ -68,8 +68,7 @@ static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
         good = at != NULL;
         row[i] = at ? at->row : 0;
     }
-    mem_free(all);
-    mem_free(number);
+    FREE(all, number);
     MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, s->comm);
     return good;
 }

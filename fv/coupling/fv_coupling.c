@@ -296,16 +296,8 @@ static void start_forced(struct fv *s, double before)
 
 static void free_room(struct link *k)
 {
-    mem_free(k->got);
-    mem_free(k->one);
-    mem_free(k->mean);
-    mem_free(k->level);
-    mem_free(k->whose);
-    mem_free(k->has);
-    mem_free(k->p);
-    mem_free(k->mask);
-    mem_free(k->share);
-    mem_free(k->share_of_one);
+    FREE(k->got, k->one, k->mean, k->level, k->whose, k->has, k->p, k->mask, k->share,
+         k->share_of_one);
 }
 
 /* For what the partner gives. */

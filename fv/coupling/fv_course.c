@@ -48,9 +48,7 @@ void course_free(struct course **cp)
         mem_free(c->q[m]);
     for (int m = 0; m < COURSE_TERMS; m++)
         mem_free(c->term[m]);
-    mem_free(c->tried);
-    mem_free(c->rate);
-    mem_free(c->scatter);
+    FREE(c->tried, c->rate, c->scatter);
     kept_free(&c->kept);
     mem_free(c);
     *cp = NULL;
@@ -118,8 +116,7 @@ static void look(struct fv *s, const struct course *c, double *q)
         }
     }
     take_out_level(s, c, p, s->t, q);
-    mem_free(p);
-    mem_free(one);
+    FREE(p, one);
 }
 
 /* Levels move one back; the oldest array is reused for the new one. */

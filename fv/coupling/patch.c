@@ -257,8 +257,7 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
     }
     mesh_exchange_create(s->m, &p->sample, 4, n, request);
     block_walls_free(&walls);
-    mem_free(request);
-    mem_free(weight);
+    FREE(request, weight);
     return good;
 }
 

@@ -92,8 +92,7 @@ void block_set_rows(struct block *b, int even, const double *h)
 
 void block_free(struct block *b)
 {
-    mem_free(b->send);
-    mem_free(b->recv);
+    FREE(b->send, b->recv);
     rows_free(&b->rows);
     MPI_Comm_free(&b->cart);
 }

@@ -113,8 +113,7 @@ void block_walls_free(struct block_walls **wp)
 {
     if (!*wp)
         return;
-    mem_free((*wp)->face);
-    mem_free(*wp);
+    FREE((*wp)->face, *wp);
     *wp = NULL;
 }
 

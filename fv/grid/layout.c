@@ -71,8 +71,7 @@ struct layout *layout_load(struct h5 *f, const char *name)
         l->of[k] = box_from(rows + (int64_t)k * NUMBERS);
         l->writer[k] = w;
     }
-    mem_free(rows);
-    mem_free(first);
+    FREE(rows, first);
     return l;
 }
 
@@ -80,9 +79,7 @@ void layout_free(struct layout **l)
 {
     if (!*l)
         return;
-    mem_free((*l)->of);
-    mem_free((*l)->writer);
-    mem_free(*l);
+    FREE((*l)->of, (*l)->writer, *l);
     *l = NULL;
 }
 

@@ -268,22 +268,15 @@ void mesh_free(struct mesh **mp)
     overset_free(&m->search);
     for (int k = 0; k < m->nblocks; k++) {
         struct mesh_block *b = m->block + k;
-        mem_free(b->x);
-        mem_free(b->centre);
-        mem_free(b->volume);
-        mem_free(b->status);
-        mem_free(b->first);
+        FREE(b->x, b->centre, b->volume, b->status, b->first);
     }
     for (int a = 0; a < 3; a++) {
         mem_free(m->open[a]);
         for (int k = 0; k < 3; k++) {
-            mem_free(m->S[a][k]);
-            mem_free(m->G[a][k]);
+            FREE(m->S[a][k], m->G[a][k]);
         }
     }
-    mem_free(m->V);
-    mem_free(m->status);
-    mem_free(m->fringes);
+    FREE(m->V, m->status, m->fringes);
     mesh_exchange_free(&m->halo);
     mesh_exchange_free(&m->fringe);
     mem_free(m);

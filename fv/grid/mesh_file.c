@@ -208,8 +208,7 @@ static double *read_plot3d(const char *path, int zone, int dim, int *cells)
             s.v[k] = int_at(bytes, 4 * k);
     }
     double *x = try_forms(&s, bytes, n, text, zone, dim, cells);
-    mem_free(s.v);
-    mem_free(bytes);
+    FREE(s.v, bytes);
     return x;
 }
 

@@ -102,24 +102,12 @@ void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, in
             x->first_out[k + 1] = x->first_out[k] + given[q];
             k++;
         }
-    mem_free(wanted);
-    mem_free(given);
-    mem_free(out);
-    mem_free(part);
-    mem_free(weight);
+    FREE(wanted, given, out, part, weight);
 }
 
 void mesh_exchange_free(struct mesh_exchange *x)
 {
-    mem_free(x->peer);
-    mem_free(x->first_in);
-    mem_free(x->first_out);
-    mem_free(x->in);
-    mem_free(x->out);
-    mem_free(x->weight);
-    mem_free(x->part);
-    mem_free(x->send);
-    mem_free(x->recv);
+    FREE(x->peer, x->first_in, x->first_out, x->in, x->out, x->weight, x->part, x->send, x->recv);
     *x = (struct mesh_exchange){0};
 }
 

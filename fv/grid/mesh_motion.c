@@ -255,9 +255,7 @@ void mesh_motion_free(struct mesh *m)
             mem_free(b->motion);
         }
         if (b->made && b->made != b) {
-            mem_free(b->made->x);
-            mem_free(b->made->centre);
-            mem_free((struct mesh_block *)b->made);
+            FREE(b->made->x, b->made->centre, (struct mesh_block *)b->made);
         }
         mem_free(b->faces);
     }

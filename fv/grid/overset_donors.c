@@ -189,15 +189,12 @@ void overset_free(struct overset **op)
     if (!o)
         return;
     for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
-        mem_free(o->bins[k].first);
-        mem_free(o->bins[k].cell);
+        FREE(o->bins[k].first, o->bins[k].cell);
         for (int a = 0; a < 3; a++)
             mem_free(o->bins[k].line[a]);
         mem_free(o->last[k]);
     }
-    mem_free(o->old);
-    mem_free(o->donor);
-    mem_free(o);
+    FREE(o->old, o->donor, o);
     *op = NULL;
 }
 

@@ -202,15 +202,7 @@ void rows_free(struct rows **rp)
     struct rows *r = *rp;
     if (!r)
         return;
-    mem_free(r->edge);
-    mem_free(r->h - GHOSTS);
-    mem_free(r->y - GHOSTS);
-    mem_free(r->step - GHOSTS);
-    mem_free(r->scale - GHOSTS);
-    mem_free(r->face - GHOSTS);
-    mem_free(r->slope - GHOSTS);
-    mem_free(r->gradient - GHOSTS);
-    mem_free(r->laplace - GHOSTS);
-    mem_free(r);
+    FREE(r->edge, r->h - GHOSTS, r->y - GHOSTS, r->step - GHOSTS, r->scale - GHOSTS,
+         r->face - GHOSTS, r->slope - GHOSTS, r->gradient - GHOSTS, r->laplace - GHOSTS, r);
     *rp = NULL;
 }

@@ -86,8 +86,7 @@ void viscous_solver_free(struct fv *s)
         for (int a = 0; a < 3; a++)
             if (v->work[k][a] != s->faces[0] && v->work[k][a] != s->flux)
                 mem_free(v->work[k][a]);
-    mem_free(v->scale);
-    mem_free(v);
+    FREE(v->scale, v);
     s->viscous = NULL;
 }
 

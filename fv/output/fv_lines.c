@@ -135,8 +135,7 @@ static void on_even_cells(const struct fv *s, double found[3])
                          : extremum(lines[0], s->b.cells[1], -1.0);
     found[1] = extremum(lines[1], s->b.cells[0], 1.0);
     found[2] = extremum(lines[1], s->b.cells[0], -1.0);
-    mem_free(lines[0]);
-    mem_free(lines[1]);
+    FREE(lines[0], lines[1]);
 }
 
 /* Least and largest value of component q on the line through the middle along the other axis: the

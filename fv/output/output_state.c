@@ -20,7 +20,6 @@ void output_free(struct fv_output **op)
     if (!o)
         return;
     overset_free(&o->search);
-    mem_free(o->history);
-    mem_free(o);
+    FREE(o->history, o);
     *op = NULL;
 }

@@ -36,11 +36,7 @@ struct flow_samples flow_samples_create(const struct fv *s, const struct scene_p
     return f;
 }
 
-void flow_samples_free(struct flow_samples *f)
-{
-    mem_free(f->x);
-    mem_free(f->value);
-}
+void flow_samples_free(struct flow_samples *f) { FREE(f->x, f->value); }
 
 /* m^dim/s: area of a sample times the sum. */
 double flow_samples_sum(const struct flow_samples *f, int dim)

@@ -132,6 +132,5 @@ void steady_summarise(struct fv *s)
         return;
     const int n = columns(s, &eta, &is);
     (s->exact.field == FIELD_SOLITARY ? solitary : regular)(s, n, eta, is);
-    mem_free(eta);
-    mem_free(is);
+    FREE(eta, is);
 }

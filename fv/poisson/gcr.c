@@ -21,8 +21,7 @@ void gcr_free(struct gcr *g)
 {
     mem_free(g->r);
     for (int k = 0; k < GCR_KEPT; k++) {
-        mem_free(g->z[k]);
-        mem_free(g->Az[k]);
+        FREE(g->z[k], g->Az[k]);
     }
 }
 

@@ -162,9 +162,7 @@ static void keep_rows(const struct fv *s, struct mesh_pressure *p)
 
 static void free_rows(struct mesh_pressure *p)
 {
-    mem_free(p->row_first);
-    mem_free(p->row_col);
-    mem_free(p->row_value);
+    FREE(p->row_first, p->row_col, p->row_value);
     p->row_first = NULL;
     p->row_col = NULL;
     p->row_value = NULL;
@@ -235,10 +233,7 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
         v[pinned_at + q] = col[pinned_at + q] == p->pinned ? v[pinned_at + q] : 0.0;
     if (p->singular)
         matrix_create(&p->solved, s, ncols, col, v);
-    mem_free(col);
-    mem_free(v);
-    mem_free(ncols);
-    mem_free(fringe);
+    FREE(col, v, ncols, fringe);
     if (!m->moves)
         free_rows(p);
 }

@@ -139,9 +139,7 @@ void pfmg_free(struct pfmg **pp)
     HYPRE_StructVectorDestroy(p->x);
     HYPRE_StructStencilDestroy(p->stencil);
     HYPRE_StructGridDestroy(p->grid);
-    mem_free(p->of.lo);
-    mem_free(p->of.hi);
-    mem_free(p);
+    FREE(p->of.lo, p->of.hi, p);
     *pp = NULL;
 }
 

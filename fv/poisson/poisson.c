@@ -62,12 +62,7 @@ void poisson_free(struct poisson **pp)
     if (!p)
         return;
     p->by->free(&p->of);
-    mem_free(p->place);
-    mem_free(p->V);
-    mem_free(p->b);
-    mem_free(p->x);
-    mem_free(p->psi);
-    mem_free(p);
+    FREE(p->place, p->V, p->b, p->x, p->psi, p);
     *pp = NULL;
 }
 

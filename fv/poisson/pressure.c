@@ -177,8 +177,7 @@ static void make_matrix(const struct fv *s, struct pressure *p)
         row += cells;
     }
     pfmg_set_matrix(p->pfmg, rows);
-    mem_free(rows);
-    mem_free(values);
+    FREE(rows, values);
 }
 
 static void *create(struct fv *s)
@@ -221,11 +220,7 @@ static void free_pressure(void **of)
     halving_free(&p->halving);
     pfmg_free(&p->pfmg);
     wet_boxes_free(&p->boxes);
-    mem_free(p->diagonal);
-    mem_free(p->p);
-    mem_free(p->Ap);
-    mem_free(p->z);
-    mem_free(p);
+    FREE(p->diagonal, p->p, p->Ap, p->z, p);
     *of = NULL;
 }
 

@@ -447,8 +447,7 @@ static bool is_fast(struct tiles *t)
     balance(t, b);
     const double goal = 1e-4 * gcr_norm(&t->gcr, b);
     gcr_solve(&t->gcr, b, x, goal, TRIAL, &left);
-    mem_free(b);
-    mem_free(x);
+    FREE(b, x);
     return left <= goal;
 }
 
@@ -459,10 +458,7 @@ static void free_tiles(void **of)
         return;
     pfmg_free(&t->pfmg);
     gcr_free(&t->gcr);
-    mem_free(t->psi);
-    mem_free(t->flux);
-    mem_free(t->box);
-    mem_free(t);
+    FREE(t->psi, t->flux, t->box, t);
     *of = NULL;
 }
 

@@ -151,7 +151,6 @@ bool wet_boxes_find(const struct fv *s, struct wet_boxes *w)
 
 void wet_boxes_free(struct wet_boxes *w)
 {
-    mem_free(w->lo);
-    mem_free(w->hi);
+    FREE(w->lo, w->hi);
     *w = (struct wet_boxes){0};
 }

@@ -172,13 +172,7 @@ static void free_wet(void **of)
         mem_free(p->special[a]);
     for (int k = 0; k < 2; k++)
         mem_free(p->beyond[k]);
-    mem_free(p->row_of);
-    mem_free(p->dry);
-    mem_free(p->whole);
-    mem_free(p->count);
-    mem_free(p->col);
-    mem_free(p->entry);
-    mem_free(p);
+    FREE(p->row_of, p->dry, p->whole, p->count, p->col, p->entry, p);
     *of = NULL;
 }
 

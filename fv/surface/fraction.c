@@ -96,13 +96,9 @@ void fraction_free(struct fraction **fp)
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         mem_free(fields[k]);
     for (int a = 0; a < 3; a++) {
-        mem_free(f->n[a]);
-        mem_free(f->flow[a]);
-        mem_free(f->area[a]);
+        FREE(f->n[a], f->flow[a], f->area[a]);
     }
-    mem_free(f->air);
-    mem_free(f->smooth);
-    mem_free(f);
+    FREE(f->air, f->smooth, f);
     *fp = NULL;
 }
 

@@ -242,22 +242,12 @@ void levelset_free(struct surface **fp)
     if (!f)
         return;
     fit_free(&f->oscillation);
-    mem_free(f->closed);
-    mem_free(f->phi);
-    mem_free(f->phi_new);
-    mem_free(f->rate);
-    mem_free(f->kept);
-    mem_free(f->half);
-    mem_free(f->stress);
-    mem_free(f->layer);
-    mem_free(f->deep);
-    mem_free(f->at);
+    FREE(f->closed, f->phi, f->phi_new, f->rate, f->kept, f->half, f->stress, f->layer, f->deep,
+         f->at);
     patterns_free(&f->patterns);
-    mem_free(f->weight);
-    mem_free(f->grad);
+    FREE(f->weight, f->grad);
     for (int a = 0; a < 3; a++) {
-        mem_free(f->open[a]);
-        mem_free(f->cut[a]);
+        FREE(f->open[a], f->cut[a]);
     }
     surface_mesh_free(&f->mesh);
     for (int k = 0; k < 26; k++)

@@ -136,8 +136,7 @@ void near_water_find(struct fv *s)
         for (int j = 0; j < p->n[1]; j++)
             leave_row(s, j, k, p->near[part_row(p, j, k)], now[part_row(p, j, k)]);
     memcpy(p->near, now, bytes);
-    mem_free(now);
-    mem_free(work);
+    FREE(now, work);
 }
 
 void near_water_free(struct fv *s)

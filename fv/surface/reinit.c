@@ -245,8 +245,7 @@ static void redistance(struct fv *s, int width, int steps)
     for (int k = 0; k < steps; k++)
         (steps > 1 && s->surface->reinit->is_known ? carry_step : pseudo_step)(s, &w);
     s->surface->keeps = false;
-    mem_free(w.strips);
-    mem_free(w.spots);
+    FREE(w.strips, w.spots);
 }
 
 void surface_reinit(struct fv *s, int steps)

@@ -123,14 +123,7 @@ void surface_forced_free(struct surface_forced **fp)
     struct surface_forced *f = *fp;
     if (!f)
         return;
-    mem_free(f->cell);
-    mem_free(f->holds);
-    mem_free(f->first);
-    mem_free(f->x);
-    mem_free(f->profile);
-    mem_free(f->phi[0]);
-    mem_free(f->phi[1]);
-    mem_free(f);
+    FREE(f->cell, f->holds, f->first, f->x, f->profile, f->phi[0], f->phi[1], f);
     *fp = NULL;
 }
 

@@ -267,23 +267,13 @@ void surface_mesh_free(struct surface_mesh **wp)
     if (!w)
         return;
     for (int a = 0; a < 3; a++) {
-        mem_free(w->x[a]);
-        mem_free(w->speed[a]);
-        mem_free(w->face[a]);
+        FREE(w->x[a], w->speed[a], w->face[a]);
         for (int b = 0; b < 3; b++)
             mem_free(w->K[a][b]);
         for (int up = 0; up < 2; up++)
             mem_free(w->slopes[a][up]);
     }
-    mem_free(w->count);
-    mem_free(w->height);
-    mem_free(w->shared);
-    mem_free(w->piece);
-    mem_free(w->out);
-    mem_free(w->keep);
-    mem_free(w->at);
-    mem_free(w->weight);
-    mem_free(w);
+    FREE(w->count, w->height, w->shared, w->piece, w->out, w->keep, w->at, w->weight, w);
     *wp = NULL;
 }
 

@@ -170,8 +170,7 @@ void pressure_start(struct fv *s)
         if (s->stages.psi[a])
             memset(s->stages.psi[a], 0, bytes);
         if (a < s->dim) {
-            mem_free(keep[0][a]);
-            mem_free(keep[1][a]);
+            FREE(keep[0][a], keep[1][a]);
         }
     }
     memcpy(s->p_before, s->p, bytes);

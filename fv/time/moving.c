@@ -99,20 +99,15 @@ void moving_free(struct fv *s)
     if (!v)
         return;
     for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
-        mem_free(v->status[k]);
-        mem_free(v->born[k]);
+        FREE(v->status[k], v->born[k]);
     }
     for (int a = 0; a < 4; a++) {
-        mem_free(v->now[a]);
-        mem_free(a < 3 ? v->push[a] : NULL);
-        mem_free(a < 3 ? v->first[a] : NULL);
-        mem_free(a < 3 ? s->fringe.delta[a] : NULL);
+        FREE(v->now[a], a < 3 ? v->push[a] : NULL, a < 3 ? v->first[a] : NULL,
+             a < 3 ? s->fringe.delta[a] : NULL);
     }
-    mem_free(s->fringe.psi);
-    mem_free(s->fringe.z);
+    FREE(s->fringe.psi, s->fringe.z);
     s->fringe = (struct fringe_jumps){.psi = NULL};
-    mem_free(v->local);
-    mem_free(v);
+    FREE(v->local, v);
     s->moving = NULL;
 }
 
