@@ -58,11 +58,7 @@ struct body_bins bins_create(int dim, int n, const double *x, size_t stride, dou
     return b;
 }
 
-void bins_free(struct body_bins *b)
-{
-    mem_free(b->start);
-    mem_free(b->who);
-}
+void bins_free(struct body_bins *b) { FREE(b->start, b->who); }
 
 int bins_near(const struct body_bins *b, const double *x, struct bins_run run[BINS_RUNS])
 {

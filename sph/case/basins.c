@@ -371,9 +371,7 @@ static void relax(const struct basins *b, const bool *is_free, double *x)
         for (int i = 0; i < n; i++)
             p[i] = r[i] + rr / old * p[i];
     }
-    mem_free(r);
-    mem_free(p);
-    mem_free(Ap);
+    FREE(r, p, Ap);
 }
 
 /* Groups of runs that links hold together; returns by group[r] the least run of each. */
@@ -417,11 +415,7 @@ static void find_levels(struct basins *b)
         if (is_free[r])
             b->runs[r].level = x[r];
     level_of_closed(b, group);
-    mem_free(group);
-    mem_free(open);
-    mem_free(is_free);
-    mem_free(x);
-    mem_free(mean);
+    FREE(group, open, is_free, x, mean);
 }
 
 /* What touches no floor falls: no level. */
@@ -500,8 +494,7 @@ static void drop_pockets(struct basins *b)
         b->waters += r == part && !cut[part];
         b->lost += r == part && cut[part] ? cells[part] : 0;
     }
-    mem_free(cells);
-    mem_free(cut);
+    FREE(cells, cut);
 }
 
 static const struct basin_run *run_at(const struct basins *b, int64_t cell)
@@ -623,8 +616,7 @@ static void drop_dry(struct basins *b)
         b->wet += r == part && wet[part] && cells[part] >= LEAST_CELLS;
         b->dry += r == part && !wet[part] && cells[part] >= LEAST_CELLS;
     }
-    mem_free(cells);
-    mem_free(wet);
+    FREE(cells, wet);
     refuse_sheets(b);
 }
 
@@ -650,10 +642,7 @@ struct basins *basins_create(const struct sph *s, const struct lattice *l)
 
 void basins_free(struct basins **b)
 {
-    mem_free((*b)->start);
-    mem_free((*b)->runs);
-    mem_free((*b)->links);
-    mem_free(*b);
+    FREE((*b)->start, (*b)->runs, (*b)->links, *b);
     *b = NULL;
 }
 

@@ -90,11 +90,7 @@ static struct fill_columns columns_create(const struct sph *s, const struct exac
     return c;
 }
 
-static void columns_free(struct fill_columns *c)
-{
-    mem_free(c->x);
-    mem_free(c->height);
-}
+static void columns_free(struct fill_columns *c) { FREE(c->x, c->height); }
 
 /* What the cells are looked through with. */
 struct look {

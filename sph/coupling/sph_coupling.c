@@ -165,13 +165,7 @@ void sph_coupling_free(struct sph *s)
 {
     struct sph_link *k = s->zones->ctx;
     overlap_free(&s->zones->watched);
-    mem_free(k->x);
-    mem_free(k->u);
-    mem_free(k->p);
-    mem_free(k->w);
-    mem_free(k->ones);
-    mem_free(k->id);
-    mem_free(k);
+    FREE(k->x, k->u, k->p, k->w, k->ones, k->id, k);
 }
 
 /* m: how far around its part a rank may look in a window of T s: a support, and where the box goes.

@@ -147,12 +147,7 @@ static struct birth_strip strip_create(const struct sph *s)
     return t;
 }
 
-static void strip_free(struct birth_strip *t)
-{
-    mem_free(t->x);
-    mem_free(t->next);
-    mem_free(t->head);
-}
+static void strip_free(struct birth_strip *t) { FREE(t->x, t->next, t->head); }
 
 /* Whether anything stands within dx/2 of x; all within that distance are in the 3^dim cells around
  * it. */

@@ -57,8 +57,7 @@ void level_gap_free(struct level_gap **g)
 {
     if (!*g)
         return;
-    mem_free((*g)->profile);
-    mem_free(*g);
+    FREE((*g)->profile, *g);
     *g = NULL;
 }
 
@@ -90,12 +89,7 @@ static struct gap_columns columns_of(const struct sph *s, int side)
     return c;
 }
 
-static void columns_free(struct gap_columns *c)
-{
-    mem_free(c->x);
-    mem_free(c->depth);
-    mem_free(c->share);
-}
+static void columns_free(struct gap_columns *c) { FREE(c->x, c->depth, c->share); }
 
 /* Foot of column (i, j) on the lower end of the region. */
 static void foot(const struct sph *s, const struct gap_columns *c, int i, int j, double *x)

@@ -60,14 +60,8 @@ void openings_free(struct openings **o)
 {
     if (!*o)
         return;
-    mem_free((*o)->mass);
-    mem_free((*o)->change);
-    mem_free((*o)->flux);
-    mem_free((*o)->shift);
-    mem_free((*o)->share);
-    mem_free((*o)->room);
-    mem_free((*o)->ghost_x);
-    mem_free(*o);
+    FREE((*o)->mass, (*o)->change, (*o)->flux, (*o)->shift, (*o)->share, (*o)->room, (*o)->ghost_x,
+         *o);
     *o = NULL;
 }
 

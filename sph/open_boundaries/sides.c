@@ -449,10 +449,9 @@ static void water_outside(void *ctx, double t, int n, const double *x, double *p
 static void free_sides(struct zones *z)
 {
     struct sides *d = z->ctx;
-    mem_free(d->table);
-    mem_free(d->planes);
     for (int side = 0; side < 6; side++)
         mem_free(d->of[side].cut);
+    FREE(d->table, d->planes);
     side_levels_free(&d->levels);
     mem_free(d);
 }

@@ -118,14 +118,7 @@ void zones_free(struct zones **z)
     openings_free(&(*z)->openings);
     if ((*z)->free_ctx)
         (*z)->free_ctx(*z);
-    mem_free((*z)->who);
-    mem_free((*z)->x);
-    mem_free((*z)->u);
-    mem_free((*z)->p);
-    mem_free((*z)->gu);
-    mem_free((*z)->gp);
-    mem_free((*z)->phi);
-    mem_free((*z)->gphi);
+    FREE((*z)->who, (*z)->x, (*z)->u, (*z)->p, (*z)->gu, (*z)->gp, (*z)->phi, (*z)->gphi);
     level_gap_free(&(*z)->gap);
     mem_free(*z);
     *z = NULL;

@@ -81,6 +81,5 @@ void sph_summarise_extrema(const struct sph *s)
     const double found[3] = {extremum(lines[0], n[1], -1.0), extremum(lines[1], n[0], 1.0),
                              extremum(lines[1], n[0], -1.0)};
     summary_extrema(s->run->summary, found, s->prm.extrema);
-    mem_free(lines[0]);
-    mem_free(lines[1]);
+    FREE(lines[0], lines[1]);
 }

@@ -44,23 +44,11 @@ void neighbours_free(struct neighbours **l)
     if (!*l)
         return;
     struct list_grid *g = (*l)->grid;
-    mem_free(g->first);
-    mem_free(g->ghost);
-    mem_free(g->order);
-    mem_free(g->cell);
+    FREE(g->first, g->ghost, g->order, g->cell);
     for (int a = 0; a < 3; a++)
         mem_free(g->x[a]);
-    mem_free(g->id);
-    mem_free(g);
-    mem_free((*l)->start);
-    mem_free((*l)->count);
-    mem_free((*l)->tail);
-    mem_free((*l)->order);
-    mem_free((*l)->whole);
-    mem_free((*l)->close);
-    mem_free((*l)->taken);
-    mem_free((*l)->j);
-    mem_free(*l);
+    FREE(g->id, g, (*l)->start, (*l)->count, (*l)->tail, (*l)->order, (*l)->whole, (*l)->close,
+         (*l)->taken, (*l)->j, *l);
     *l = NULL;
 }
 

@@ -168,12 +168,9 @@ static bool ranks_touch(const struct domain *d, int from, int to, double reach)
 static void free_peers(struct domain *d)
 {
     for (int k = 0; k < d->npeers; k++) {
-        mem_free(d->peers[k].who);
-        mem_free(d->peers[k].image);
-        mem_free(d->peers[k].lines);
+        FREE(d->peers[k].who, d->peers[k].image, d->peers[k].lines);
     }
-    mem_free(d->peers);
-    mem_free(d->requests);
+    FREE(d->peers, d->requests);
     d->peers = NULL;
     d->requests = NULL;
     d->npeers = 0;
@@ -334,9 +331,7 @@ void domain_free(struct domain **d)
     if (!*d)
         return;
     free_peers(*d);
-    mem_free((*d)->cuts);
-    mem_free((*d)->box);
-    mem_free(*d);
+    FREE((*d)->cuts, (*d)->box, *d);
     *d = NULL;
 }
 
@@ -417,8 +412,7 @@ bool domain_balance(struct sph *s, double tolerance)
     }
     if (uneven)
         cut_anew(s, n, (const double(*)[3])x, work);
-    mem_free(x);
-    mem_free(work);
+    FREE(x, work);
     return uneven;
 }
 
@@ -453,8 +447,7 @@ static double *send_rows(const struct domain *d, const double *rows, const int *
     double *got = NEW(double, total);
     MPI_Alltoallv(packed, count, at, MPI_DOUBLE, got, rcount, rat, MPI_DOUBLE, d->comm);
     *nrecv = total / width;
-    mem_free(packed);
-    mem_free(count);
+    FREE(packed, count);
     return got;
 }
 
@@ -465,8 +458,7 @@ int domain_send_items(struct sph *s, double **items, int n, int width)
     for (int i = 0; i < n; i++)
         owner[i] = domain_owner(d, *items + (size_t)i * width);
     double *rows = send_rows(d, *items, owner, n, width, &got);
-    mem_free(owner);
-    mem_free(*items);
+    FREE(owner, *items);
     *items = rows;
     return got;
 }
@@ -543,9 +535,7 @@ void domain_migrate(struct sph *s)
     double *in = send_rows(d, rows, owner, nleave, width, &got);
     for (int k = 0; k < got; k++)
         unpack_row(p, in + (size_t)k * width, slopes);
-    mem_free(in);
-    mem_free(rows);
-    mem_free(owner);
+    FREE(in, rows, owner);
 }
 
 /* Locals that another rank or image can need: closer than reach to a bounded side of this part. The

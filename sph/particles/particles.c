@@ -54,16 +54,7 @@ void particles_create(struct particles *p, int dim, int capacity)
 
 void particles_free(struct particles *p)
 {
-    mem_free(p->y);
-    mem_free(p->y0);
-    mem_free(p->sum);
-    mem_free(p->rate);
-    mem_free(p->prim);
-    mem_free(p->slope);
-    mem_free(p->id);
-    mem_free(p->zone);
-    mem_free(p->role);
-    mem_free(p->size);
+    FREE(p->y, p->y0, p->sum, p->rate, p->prim, p->slope, p->id, p->zone, p->role, p->size);
     *p = (struct particles){0};
 }
 
@@ -158,9 +149,7 @@ void particles_permute(struct particles *p, int n, const int *order, bool slopes
     p->y0 = y;
     if (p->size)
         permute_sizes(p, n, order);
-    mem_free(p->id);
-    mem_free(p->zone);
-    mem_free(p->role);
+    FREE(p->id, p->zone, p->role);
     p->id = id;
     p->zone = zone;
     p->role = role;

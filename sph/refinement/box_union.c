@@ -157,8 +157,7 @@ struct box_union box_union_create(int dim, int n, const struct box *box, double 
 
 void box_union_free(struct box_union *u)
 {
-    mem_free(u->of);
-    mem_free(u->rest);
+    FREE(u->of, u->rest);
     *u = (struct box_union){0};
 }
 

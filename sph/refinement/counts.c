@@ -276,8 +276,7 @@ static void grant(struct population *c, struct sph *s, double *wish,
                 wish[i] = GRANTED;
             }
     }
-    mem_free(leading);
-    mem_free(ghosts);
+    FREE(leading, ghosts);
 }
 
 /* Creates the child in the hole found for parent i. */
@@ -338,11 +337,7 @@ static void mark_level(struct sph *s, const struct refinement *r)
     look_at_flowing(&c);
     if (s->run->step % CHILDREN_EVERY == 0)
         look_at_children(&c);
-    mem_free(c.gap);
-    mem_free(c.hole);
-    mem_free(c.ghost_gap);
-    mem_free(c.depth);
-    mem_free(c.found.j);
+    FREE(c.gap, c.hole, c.ghost_gap, c.depth, c.found.j);
 }
 
 /* s may be any level: with local steps the finer ones alone are at one time. */

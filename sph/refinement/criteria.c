@@ -112,12 +112,7 @@ void criteria_free(struct regions *g)
     for (int n = 1; g->criteria && n <= g->criteria->levels; n++) {
         struct criteria_grid *q = g->criteria->grid + n;
         marks_free(&q->cells);
-        mem_free(q->value);
-        mem_free(q->until);
-        mem_free(q->surface);
-        mem_free(q->seed);
-        mem_free(q->units);
-        mem_free(q->allowed);
+        FREE(q->value, q->until, q->surface, q->seed, q->units, q->allowed);
     }
     mem_free(g->criteria);
     g->criteria = NULL;

@@ -47,16 +47,8 @@ void guards_free(struct guards **g)
 {
     if (!*g)
         return;
-    mem_free((*g)->who);
-    mem_free((*g)->source);
-    mem_free((*g)->near);
-    mem_free((*g)->first);
-    mem_free((*g)->count);
-    mem_free((*g)->j);
-    mem_free((*g)->ghost);
-    mem_free((*g)->prior);
-    mem_free((*g)->created);
-    mem_free(*g);
+    FREE((*g)->who, (*g)->source, (*g)->near, (*g)->first, (*g)->count, (*g)->j, (*g)->ghost,
+         (*g)->prior, (*g)->created, *g);
     *g = NULL;
 }
 
@@ -80,8 +72,7 @@ static void share_roles(struct sph *s)
         if (from >= 0)
             g->ghost[k] = from < s->p.n ? s->p.role[from] : g->ghost[from - s->p.n];
     }
-    mem_free(own);
-    mem_free(ghosts);
+    FREE(own, ghosts);
 }
 
 /* Room for n guards; contents are kept. */

@@ -47,11 +47,7 @@ static struct depths depths_of(const struct regions *g, const struct sph *s, boo
 }
 
 /* Frees both arrays. */
-static void depths_free(struct depths *is)
-{
-    mem_free(is->own);
-    mem_free(is->next);
-}
+static void depths_free(struct depths *is) { FREE(is->own, is->next); }
 
 /* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. Runs through the finer
  * levels until one does not flow at the particle; the last that does is the source. */
@@ -439,8 +435,7 @@ void refinement_free(struct sph *s)
     if (!s->refinement)
         return;
     regions_free(&s->refinement->regions);
-    mem_free(s->refinement->held);
-    mem_free(s->refinement);
+    FREE(s->refinement->held, s->refinement);
     s->refinement = NULL;
 }
 

@@ -37,8 +37,7 @@ bool marks_create(struct marks *c, int dim, const double lo[3], const double hi[
 
 void marks_free(struct marks *c)
 {
-    mem_free(c->mark);
-    mem_free(c->depth);
+    FREE(c->mark, c->depth);
     *c = (struct marks){0};
 }
 
@@ -194,8 +193,7 @@ void marks_measure(struct marks *c)
         for (size_t k = 0; k < n; k++)
             c->depth[k] = (signed char)(c->depth[k] + inner[k]);
     }
-    mem_free(inner);
-    mem_free(outer);
+    FREE(inner, outer);
 }
 
 /* The cells at most two off along an axis, in the order of their distance from the middle one:

@@ -83,15 +83,10 @@ void mixed_free(struct sph *s)
     if (!s->mixed)
         return;
     for (int k = 0; k < CLASSES; k++) {
-        mem_free(s->mixed->of[k].who);
-        mem_free(s->mixed->of[k].x);
-        mem_free(s->mixed->of[k].y);
-        mem_free(s->mixed->of[k].half);
-        mem_free(s->mixed->of[k].first);
+        FREE(s->mixed->of[k].who, s->mixed->of[k].x, s->mixed->of[k].y, s->mixed->of[k].half,
+             s->mixed->of[k].first);
     }
-    mem_free(s->mixed->spare);
-    mem_free(s->mixed->pair);
-    mem_free(s->mixed);
+    FREE(s->mixed->spare, s->mixed->pair, s->mixed);
     s->mixed = NULL;
 }
 
@@ -164,8 +159,7 @@ void mixed_sort(struct sph *s)
     for (int i = 0; i < s->p.n; i++)
         order[i] = keys[i].i;
     particles_permute(&s->p, s->p.n, order, true);
-    mem_free(keys);
-    mem_free(order);
+    FREE(keys, order);
 }
 
 /* Periodic images take the sizes of their originals; they have been made before, and domain_share

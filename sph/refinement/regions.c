@@ -350,8 +350,7 @@ void regions_free(struct regions **of)
         return;
     for (int n = 1; n <= g->prm->levels; n++) {
         box_union_free(&g->level[n].boxes);
-        mem_free(g->level[n].balls);
-        mem_free(g->level[n].layers);
+        FREE(g->level[n].balls, g->level[n].layers);
     }
     for (int n = 0; n < g->nshells; n++)
         shell_free(g->shells + n);

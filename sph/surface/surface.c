@@ -34,13 +34,7 @@ void sph_surface_free(struct free_surface **f)
 {
     if (!*f)
         return;
-    mem_free((*f)->is);
-    mem_free((*f)->normal);
-    mem_free((*f)->M);
-    mem_free((*f)->g);
-    mem_free((*f)->lambda);
-    mem_free((*f)->less);
-    mem_free(*f);
+    FREE((*f)->is, (*f)->normal, (*f)->M, (*f)->g, (*f)->lambda, (*f)->less, *f);
     *f = NULL;
 }
 

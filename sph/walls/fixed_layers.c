@@ -125,8 +125,7 @@ void fixed_layers_lay(const struct sph *s, struct fixed_layers *to)
             for (double depth = 0.5 * s->dx; depth < s->R; depth += s->dx)
                 lay(s, to, n, chain, depth);
         }
-    mem_free(listed);
-    mem_free(chain);
+    FREE(listed, chain);
 }
 
 void fixed_carry(const struct walls *w, int segment, const double *from, double *to)

@@ -372,12 +372,7 @@ static void part_plane(struct cover_plane *p)
 
 static void free_plane(struct cover_plane *p)
 {
-    mem_free(p->line);
-    mem_free(p->piece);
-    mem_free(p->cut);
-    mem_free(p->node);
-    mem_free(p->face);
-    mem_free(p->shut);
+    FREE(p->line, p->piece, p->cut, p->node, p->face, p->shut);
 }
 
 struct wall_parts wall_cover(int n, const double (*ends)[2][2], const double *lo, const double *hi,

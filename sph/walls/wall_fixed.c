@@ -62,14 +62,7 @@ static void *fixed_create(struct sph *s)
 static void fixed_destroy(void *state)
 {
     struct fixed *m = state;
-    mem_free(m->ghosts.rub);
-    mem_free(m->layers.of);
-    mem_free(m->room);
-    mem_free(m->gradient);
-    mem_free(m->first);
-    mem_free(m->near);
-    mem_free(m->close);
-    mem_free(m);
+    FREE(m->ghosts.rub, m->layers.of, m->room, m->gradient, m->first, m->near, m->close, m);
 }
 
 /* The fluid at an image. */

@@ -30,10 +30,7 @@ static void *mirror_create(struct sph *s)
 static void mirror_destroy(void *state)
 {
     struct mirror *m = state;
-    mem_free(m->ghosts.rub);
-    mem_free(m->source);
-    mem_free(m->plane);
-    mem_free(m);
+    FREE(m->ghosts.rub, m->source, m->plane, m);
 }
 
 static void add(struct sph *s, struct mirror *m, int source, int plane)

@@ -13,16 +13,9 @@ enum { WALL_GROUP = 8 };
 
 void wall_list_free(struct wall_list *l)
 {
-    mem_free(l->who);
-    mem_free(l->first);
-    mem_free(l->touch);
-    mem_free(l->gamma);
-    mem_free(l->boxes);
+    FREE(l->who, l->first, l->touch, l->gamma, l->boxes);
     wall_joints_free(&l->joints);
-    mem_free(l->parted);
-    mem_free(l->cut);
-    mem_free(l->share);
-    mem_free(l->asked);
+    FREE(l->parted, l->cut, l->share, l->asked);
     wall_list3_free(l);
 }
 

@@ -31,17 +31,9 @@ static void create_frames(const struct sph *s, struct wall_list *l)
 void wall_list3_free(struct wall_list *l)
 {
     for (int k = 0; k < l->nframes; k++) {
-        mem_free(l->of3[k].facet);
-        mem_free(l->of3[k].triangle);
-        mem_free(l->of3[k].slot);
+        FREE(l->of3[k].facet, l->of3[k].triangle, l->of3[k].slot);
     }
-    mem_free(l->of3);
-    mem_free(l->found);
-    mem_free(l->near);
-    mem_free(l->rim);
-    mem_free(l->seen_from);
-    mem_free(l->piece);
-    mem_free(l->shown);
+    FREE(l->of3, l->found, l->near, l->rim, l->seen_from, l->piece, l->shown);
 }
 
 const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t)

@@ -95,10 +95,7 @@ static void nfm_destroy(void *state)
 {
     struct nfm *m = state;
     wall_list_free(&m->list);
-    mem_free(m->pushes);
-    mem_free(m->room);
-    mem_free(m->q);
-    mem_free(m);
+    FREE(m->pushes, m->room, m->q, m);
 }
 
 static void list(struct sph *s)

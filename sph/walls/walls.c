@@ -468,8 +468,7 @@ static void leave_out_covered(const struct sph *s, struct walls *w)
         add_segment(w, a, b, g);
         length -= w->segments[w->nsegments - 1].length;
     }
-    mem_free(old);
-    mem_free(parts.part);
+    FREE(old, parts.part);
     if (length > near && s->level == 0)
         log_say("%.3g m of walls lie behind others, where no fluid comes, and are left out",
                 length);
@@ -606,12 +605,8 @@ void walls_free(struct walls **w)
         body_destroy((*w)->bodies + k);
     }
     wall_meshes_free(*w);
-    mem_free((*w)->beside);
-    mem_free((*w)->wedge);
     for (int k = 0; k < BODIES_MAX; k++)
         mem_free((*w)->rest[k]);
-    mem_free((*w)->segments);
-    mem_free((*w)->start);
-    mem_free(*w);
+    FREE((*w)->beside, (*w)->wedge, (*w)->segments, (*w)->start, *w);
     *w = NULL;
 }
