@@ -59,9 +59,8 @@ struct motion_files *motion_files_create(const char *dir)
 
 void motion_files_free(struct motion_files *all)
 {
-    for (int k = 0; all && k < all->n; k++) {
+    for (int k = 0; all && k < all->n; k++)
         FREE(all->of[k]->path, all->of[k]->rows, all->of[k]);
-    }
     if (all)
         mem_free(all->of);
     mem_free(all);

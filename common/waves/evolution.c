@@ -54,12 +54,8 @@ void evolution_free(struct evolution **e)
     layer_free(&q->layer);
     hos_free(&q->hos);
     wave_grid_free(&q->grid);
-    double *const of[] = {q->state, q->eta,   q->phi,     q->fields,  q->work[0], q->work[1],
-                          q->at[0], q->at[1], q->rate[0], q->rate[1], q->rate[2], q->rate[3]};
-    mem_free(q->linear);
-    for (int i = 0; i < 12; i++)
-        mem_free(of[i]);
-    mem_free(q);
+    FREE(q->state, q->eta, q->phi, q->fields, q->work[0], q->work[1], q->at[0], q->at[1],
+         q->rate[0], q->rate[1], q->rate[2], q->rate[3], q->linear, q);
     *e = NULL;
 }
 

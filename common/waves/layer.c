@@ -95,11 +95,8 @@ void layer_free(struct sigma_layer **l)
     if (!*l)
         return;
     struct sigma_layer *q = *l;
-    double *const of[] = {q->sigma,  q->phi,      q->phi_s,    q->phi_x[0], q->phi_x[1],
-                          q->D,      q->eta_x[0], q->eta_x[1], q->eta_xx,   q->h,
-                          q->h_x[0], q->h_x[1],   q->h_xx};
-    for (int i = 0; i < 13; i++)
-        mem_free(of[i]);
+    FREE(q->sigma, q->phi, q->phi_s, q->phi_x[0], q->phi_x[1], q->D, q->eta_x[0], q->eta_x[1],
+         q->eta_xx, q->h, q->h_x[0], q->h_x[1], q->h_xx);
     layer_solver_free(q, &q->solver);
     mem_free(q);
     *l = NULL;

@@ -233,9 +233,8 @@ void bc_free(struct bc **bp)
     if (!bc)
         return;
     for (int k = 0; k < 6; k++)
-        for (int q = 0; q < 3; q++) {
+        for (int q = 0; q < 3; q++)
             FREE(bc->w[k][q], bc->slip[k][q]);
-        }
     mem_free(bc);
     *bp = NULL;
 }

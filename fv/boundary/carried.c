@@ -62,9 +62,8 @@ void carried_free_list(struct outflow **list, int n)
     for (int k = 0; k < n; k++) {
         struct outflow *o = *list + k;
         FREE(o->place, o->cell, o->own, o->share, o->wet, o->h);
-        for (int q = 0; q < 3; q++) {
+        for (int q = 0; q < 3; q++)
             FREE(o->S[q], o->line[q], o->change[q]);
-        }
     }
     mem_free(*list);
     *list = NULL;

@@ -327,10 +327,9 @@ void forcing_free(struct forcing **fp)
     FREE(f->forced, f->layer, f->local, f->set, f->partner, f->known);
     given_rows_free(&f->gradient);
     parted_free(&f->parted);
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3; a++)
         FREE(f->fix[a], f->face[a], f->sign[a], f->counts[a], f->open[a], f->v[a], f->v_next[a],
              f->v_old[a], f->given[a]);
-    }
     mem_free(f);
     *fp = NULL;
 }

@@ -213,13 +213,9 @@ void mesh_bc_free(struct mesh_bc **b)
     for (int k = 0; *b && k < (*b)->n; k++)
         for (int c = 0; c < 3; c++) {
             struct side *d = (*b)->side + k;
-            double *const all[] = {d->w[c], d->w_old[c], d->slip[c], d->grad_xi[0][c],
-                                   d->grad_xi[1][c]};
-            for (int q = 0; q < 5; q++)
-                mem_free(all[q]);
-            if (c == 0) {
+            FREE(d->w[c], d->w_old[c], d->slip[c], d->grad_xi[0][c], d->grad_xi[1][c]);
+            if (c == 0)
                 FREE(d->tilt, d->once);
-            }
         }
     if (*b) {
         FREE((*b)->side, (*b)->beyond);

@@ -51,14 +51,9 @@ void fv_make_fields(struct fv *s)
 
 static void free_fields(struct fv *s)
 {
-    double *const one[] = {s->p, s->p_before, s->flux, s->free};
-    for (size_t k = 0; k < sizeof one / sizeof one[0]; k++)
-        mem_free(one[k]);
-    for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->u[a], s->U[a], s->rhs[a], s->delta[a], s->faces[a]};
-        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-            mem_free(all[k]);
-    }
+    FREE(s->p, s->p_before, s->flux, s->free);
+    for (int a = 0; a < 3; a++)
+        FREE(s->u[a], s->U[a], s->rhs[a], s->delta[a], s->faces[a]);
 }
 
 /* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */

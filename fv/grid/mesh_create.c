@@ -272,9 +272,8 @@ void mesh_free(struct mesh **mp)
     }
     for (int a = 0; a < 3; a++) {
         mem_free(m->open[a]);
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; k++)
             FREE(m->S[a][k], m->G[a][k]);
-        }
     }
     FREE(m->V, m->status, m->fringes);
     mesh_exchange_free(&m->halo);

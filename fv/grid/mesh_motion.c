@@ -254,9 +254,8 @@ void mesh_motion_free(struct mesh *m)
         if (b->motion && b->motion->block == k) {
             mem_free(b->motion);
         }
-        if (b->made && b->made != b) {
+        if (b->made && b->made != b)
             FREE(b->made->x, b->made->centre, (struct mesh_block *)b->made);
-        }
         mem_free(b->faces);
     }
     for (int a = 0; a < 3; a++)

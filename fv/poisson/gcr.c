@@ -20,9 +20,8 @@ void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
 void gcr_free(struct gcr *g)
 {
     mem_free(g->r);
-    for (int k = 0; k < GCR_KEPT; k++) {
+    for (int k = 0; k < GCR_KEPT; k++)
         FREE(g->z[k], g->Az[k]);
-    }
 }
 
 static void add(int n, double a, const double *restrict x, double *restrict y)

@@ -150,9 +150,7 @@ void halving_free(struct halving **hp)
     if (!h)
         return;
     for (struct halved *l = h->level; l < h->level + h->n; l++) {
-        double *const fields[] = {l->own, l->diagonal, l->per, l->x, l->y, l->b};
-        for (int k = 0; k < 6; k++)
-            mem_free(fields[k]);
+        FREE(l->own, l->diagonal, l->per, l->x, l->y, l->b);
         for (int a = 0; a < h->dim; a++)
             mem_free(l->through[a]);
         mem_free(l->run);

@@ -92,12 +92,9 @@ void fraction_free(struct fraction **fp)
     struct fraction *f = *fp;
     if (!f)
         return;
-    double *const fields[] = {f->C, f->layer, f->alpha, f->volume, f->flux, f->work, f->next};
-    for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        mem_free(fields[k]);
-    for (int a = 0; a < 3; a++) {
+    FREE(f->C, f->layer, f->alpha, f->volume, f->flux, f->work, f->next);
+    for (int a = 0; a < 3; a++)
         FREE(f->n[a], f->flow[a], f->area[a]);
-    }
     FREE(f->air, f->smooth, f);
     *fp = NULL;
 }

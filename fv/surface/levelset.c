@@ -246,9 +246,8 @@ void levelset_free(struct surface **fp)
          f->at);
     patterns_free(&f->patterns);
     FREE(f->weight, f->grad);
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3; a++)
         FREE(f->open[a], f->cut[a]);
-    }
     surface_mesh_free(&f->mesh);
     for (int k = 0; k < 26; k++)
         mem_free(f->before[k]);

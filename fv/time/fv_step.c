@@ -169,9 +169,8 @@ void pressure_start(struct fv *s)
     for (int a = 0; a < 3; a++) {
         if (s->stages.psi[a])
             memset(s->stages.psi[a], 0, bytes);
-        if (a < s->dim) {
+        if (a < s->dim)
             FREE(keep[0][a], keep[1][a]);
-        }
     }
     memcpy(s->p_before, s->p, bytes);
     s->totals.iterations = s->totals.viscous_iterations = 0;

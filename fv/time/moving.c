@@ -98,13 +98,11 @@ void moving_free(struct fv *s)
     struct moving *v = s->moving;
     if (!v)
         return;
-    for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
+    for (int k = 0; k < MESH_BLOCKS_MAX; k++)
         FREE(v->status[k], v->born[k]);
-    }
-    for (int a = 0; a < 4; a++) {
+    for (int a = 0; a < 4; a++)
         FREE(v->now[a], a < 3 ? v->push[a] : NULL, a < 3 ? v->first[a] : NULL,
              a < 3 ? s->fringe.delta[a] : NULL);
-    }
     FREE(s->fringe.psi, s->fringe.z);
     s->fringe = (struct fringe_jumps){.psi = NULL};
     FREE(v->local, v);

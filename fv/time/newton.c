@@ -124,14 +124,9 @@ void newton_free(struct newton **wp)
     N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual};
     for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
         N_VDestroy(vectors[k]);
-    double *const plain[] = {w->v.p, w->face, w->dface, w->phi, w->div, w->d};
-    for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
-        mem_free(plain[k]);
-    for (int a = 0; a < 3; a++) {
-        double *const fields[] = {w->v.u[a], w->v.U[a], w->v.G[a], w->G[a], w->x[a], w->r[a]};
-        for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-            mem_free(fields[k]);
-    }
+    FREE(w->v.p, w->face, w->dface, w->phi, w->div, w->d);
+    for (int a = 0; a < 3; a++)
+        FREE(w->v.u[a], w->v.U[a], w->v.G[a], w->G[a], w->x[a], w->r[a]);
     for (int e = 0; e < 7; e++)
         mem_free(w->A[e]);
     SUNContext_Free(&w->ctx);

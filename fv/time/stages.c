@@ -34,12 +34,8 @@ void stage_fields_create(struct fv *s)
 void stage_fields_free(struct fv *s)
 {
     struct stage_fields *f = &s->stages;
-    for (int a = 0; a < 3; a++) {
-        double *const all[] = {f->psi[a],   f->start[a], f->N[a],
-                               f->N_old[a], f->u_old[a], f->step_p[a]};
-        for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-            mem_free(all[k]);
-    }
+    for (int a = 0; a < 3; a++)
+        FREE(f->psi[a], f->start[a], f->N[a], f->N_old[a], f->u_old[a], f->step_p[a]);
     *f = (struct stage_fields){.psi = {NULL}};
 }
 

@@ -167,9 +167,8 @@ static bool ranks_touch(const struct domain *d, int from, int to, double reach)
 /* Frees the list of peers with their buffers. */
 static void free_peers(struct domain *d)
 {
-    for (int k = 0; k < d->npeers; k++) {
+    for (int k = 0; k < d->npeers; k++)
         FREE(d->peers[k].who, d->peers[k].image, d->peers[k].lines);
-    }
     FREE(d->peers, d->requests);
     d->peers = NULL;
     d->requests = NULL;

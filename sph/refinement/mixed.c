@@ -82,10 +82,9 @@ void mixed_free(struct sph *s)
 {
     if (!s->mixed)
         return;
-    for (int k = 0; k < CLASSES; k++) {
+    for (int k = 0; k < CLASSES; k++)
         FREE(s->mixed->of[k].who, s->mixed->of[k].x, s->mixed->of[k].y, s->mixed->of[k].half,
              s->mixed->of[k].first);
-    }
     FREE(s->mixed->spare, s->mixed->pair, s->mixed);
     s->mixed = NULL;
 }

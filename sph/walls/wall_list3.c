@@ -30,9 +30,8 @@ static void create_frames(const struct sph *s, struct wall_list *l)
 
 void wall_list3_free(struct wall_list *l)
 {
-    for (int k = 0; k < l->nframes; k++) {
+    for (int k = 0; k < l->nframes; k++)
         FREE(l->of3[k].facet, l->of3[k].triangle, l->of3[k].slot);
-    }
     FREE(l->of3, l->found, l->near, l->rim, l->seen_from, l->piece, l->shown);
 }
 
