@@ -132,7 +132,9 @@ void log_warn(const char *fmt, ...)
         SAY(true, true, "warning: ");
 }
 
-void log_here(const char *fmt, ...)
+/* From any rank, with "program rank N: " before the text: to the terminal, on rank 0 to the file
+ * too. */
+static void __attribute__((format(printf, 1, 2))) say_here(const char *fmt, ...)
 {
     char prefix[96];
     snprintf(prefix, sizeof prefix, "%s rank %d: ", state.program, rank_now());
@@ -161,7 +163,7 @@ void fail_at(const char *file, int line, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(reason, sizeof reason, fmt, args);
     va_end(args);
-    log_here("%s (%s:%d)", reason, file, line);
+    say_here("%s (%s:%d)", reason, file, line);
     leave(1, reason);
 }
 
@@ -172,6 +174,6 @@ void fail_with(int code, const char *fmt, ...)
     va_start(args, fmt);
     vsnprintf(reason, sizeof reason, fmt, args);
     va_end(args);
-    log_here("%s", reason);
+    say_here("%s", reason);
     leave(code, reason);
 }

@@ -1,6 +1,6 @@
 /* log.h - what a program prints: to the terminal and to its log file, always in whole lines. Rank 0
- * of the program prints; the calls are legal on all ranks and silent on the others. abort_run(),
- * fail_with() and log_here() print from any rank. None of the calls communicates.
+ * of the program prints; the calls are legal on all ranks and silent on the others. abort_run()
+ * and fail_with() print from any rank. None of the calls communicates.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_LOG_H
 #define COMMON_LOG_H
@@ -32,9 +32,6 @@ struct log_use {
 void log_uses(const struct log_use *uses, int n);
 /* As log_say, with "warning: " before the text. */
 void log_warn(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
-/* From any rank, with "program rank N: " before the text: to the terminal, on rank 0 to the file
- * too. */
-void log_here(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 
 /* An error of the code or of a library, not of the user: prints program, rank, reason (at most 2047
  * bytes), file and line, calls fail_hook and ends all programs of the world with exit code 1 by

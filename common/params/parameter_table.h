@@ -197,8 +197,5 @@ int params_report(const struct faults *f);
  * in markdown. Both write to standard output, on the calling rank. */
 void params_help(const struct param_group *groups, int ngroups, const char *key);
 void params_manual(const struct param_group *groups, int ngroups);
-/* The member of a group's row as text for attributes and --check: "0.01 m". Static buffer,
- * overwritten by the next call. */
-const char *params_value(const struct param *row, const void *target);
 
 #endif

@@ -277,17 +277,6 @@ static void print_value(char *to, size_t size, const struct param *r, const void
     }
 }
 
-const char *params_value(const struct param *row, const void *target)
-{
-    static char text[512];
-    print_value(text, sizeof text - 32, row, target);
-    if (row->unit && strcmp(row->unit, "-") != 0) {
-        const size_t n = strlen(text);
-        snprintf(text + n, sizeof text - n, " %s", row->unit);
-    }
-    return text;
-}
-
 /* Most bytes that a row takes as text. */
 static size_t room_of(const struct param *r)
 {

@@ -19,9 +19,8 @@ enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
 /* How the fluid's force on a free body is measured: as the momentum that the particles lose to it,
  * or as the integral of pressure and friction averaged by the kernel at its surface. */
 enum force_rule { FORCE_CONSERVING, FORCE_AVERAGE };
-/* Most terms of a body's motion, most springs and mooring lines of a body; BODY_NEVER is the
- * default of times that lie beyond the end of every run, s. */
-enum { MOTIONS_MAX = 32, LINES_MAX = 8, BODY_NEVER = 1000000000 };
+/* Most terms of a body's motion, most springs and mooring lines of a body. */
+enum { MOTIONS_MAX = 32, LINES_MAX = 8 };
 
 /* One term of a prescribed motion. The terms of a body add up, each along one degree of freedom but
  * for files, which have all. */

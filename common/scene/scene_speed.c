@@ -466,5 +466,3 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
     take_still(s, &v);
     return v;
 }
-
-double scene_reference_speed(const struct scene *s) { return scene_speed_of(s, 0.0, 0.0).speed; }

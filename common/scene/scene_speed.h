@@ -29,8 +29,5 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
 /* Height of the highest water of the shapes, m against gravity; -INFINITY without gravity or
  * shapes. */
 double scene_water_top(const struct scene *s);
-/* The speed of scene_speed_of alone, m/s, with bodies that follow motion files taken to be at
- * rest. */
-double scene_reference_speed(const struct scene *s);
 
 #endif

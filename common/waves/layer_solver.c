@@ -17,7 +17,7 @@ enum { PLANE_KINDS = 2049 };
 /* Trefethen's differentiation matrix on cos(pi i/N), for (y - 1)/2. Negative sums on the diagonal
  * make the derivative of a constant exactly zero (Baltensperger & Trummer, SIAM J. Sci. Comput. 24,
  * 2003). D2 = D1 D1. */
-void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double *D2)
+static void make_points(int nodes, int rows, double *sigma, double *D1, double *D2)
 {
     const int N = nodes - 1;
     for (int i = 0; i < nodes; i++)
@@ -86,7 +86,7 @@ struct layer_solver *layer_solver_create(const struct sigma_layer *l, double dep
     s->start = NEW(double, cells *rows);
     for (int i = 0; i <= LAYER_VECTORS; i++)
         s->vectors[i] = NULL;
-    layer_solver_points(l->nodes, l->rows, l->sigma, s->D1, s->D2);
+    make_points(l->nodes, l->rows, l->sigma, s->D1, s->D2);
     for (int m = 0; m < l->grid->cells; m++) {
         const double k = l->grid->size[m];
         s->lower[m] = k * tanh(fmin(k * (depth - l->a), 300.0));

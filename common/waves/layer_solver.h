@@ -27,9 +27,6 @@ struct layer_solver {
 /* y = A x for a matrix stored transposed, [nodes][rows]; rows beyond nodes are zeros. */
 void layer_solver_multiply(const double *transposed, int nodes, int rows, const double *x,
                            double *restrict y);
-/* Sets sigma[nodes] to Chebyshev's points in -1 .. 0, and D1, D2 to the first and second derivative
- * along them, [nodes][rows], transposed. */
-void layer_solver_points(int nodes, int rows, double *sigma, double *D1, double *D2);
 /* The solver of a layer over water of `depth', m; owned by the layer. */
 struct layer_solver *layer_solver_create(const struct sigma_layer *l, double depth);
 void layer_solver_free(const struct sigma_layer *l, struct layer_solver **s);

@@ -84,7 +84,7 @@ void layout_free(struct layout **l)
 }
 
 /* The largest end of all boxes of this grid along each axis. */
-void layout_cells(const struct layout *l, int grid, int cells[3])
+static void cells_of(const struct layout *l, int grid, int cells[3])
 {
     memset(cells, 0, 3 * sizeof *cells);
     for (int k = 0; k < l->nboxes; k++)
@@ -103,7 +103,7 @@ bool layout_same_ranks(const struct h5 *f, int size)
 bool layout_fits(const struct layout *l, int grid, const int cells[3])
 {
     int then[3];
-    layout_cells(l, grid, then);
+    cells_of(l, grid, then);
     if (then[0] == cells[0] && then[1] == cells[1] && then[2] == cells[2])
         return true;
     log_say("the restart file is of %d x %d x %d cells, the case of %d x %d x %d", then[0], then[1],
@@ -168,7 +168,7 @@ bool layout_read(const struct layout *l, struct h5 *f, const char *name, int nco
     int cells[3], (*pair[3])[2];
     int64_t *first = h5_first_rows(f, name);
     bool good = first != NULL;
-    layout_cells(l, mine->grid, cells);
+    cells_of(l, mine->grid, cells);
     for (int a = 0; a < 3; a++)
         pair[a] = mem_new((size_t)width(mine, a), sizeof *pair[a]);
     for (int k = 0; good && k < l->nboxes; k++) {

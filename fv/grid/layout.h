@@ -36,8 +36,6 @@ void layout_free(struct layout **l);
 bool layout_same_ranks(const struct h5 *f, int size);
 /* Whether the file is of a grid of these cells; if not, logs of which. */
 bool layout_fits(const struct layout *l, int grid, const int cells[3]);
-/* Cells of a grid by its boxes. */
-void layout_cells(const struct layout *l, int grid, int cells[3]);
 /* Fills this rank's box, ghosts included, from a dataset of ncomp components: what lies in the grid
  * from the box that owns it; ghosts beyond its end likewise along axes that wrap, else from the box
  * that owns the cell beside them. to[0] is the corner of `mine'. false: the dataset does not fit.

@@ -26,7 +26,11 @@ static bool any_curved(const struct mesh *m)
     return curved;
 }
 
-const char *fraction_obstacle(const struct run *r, const struct mesh *m, double least)
+/* Why a scene cannot have shares, for the log; NULL: it can, cells are axis-aligned, at rest and do
+ * not overlap. m: blocks, NULL: uniform cells; least: smallest size of a cell, m. Creeping water
+ * cannot: it breaks nothing off, and what the shares make rough in phi grows at steps of its
+ * viscosity. Collective. */
+static const char *obstacle(const struct run *r, const struct mesh *m, double least)
 {
     const struct gravity split = still_split(&r->scene);
     const double *still = split.hydrostatic;
@@ -49,8 +53,7 @@ const char *fraction_obstacle(const struct run *r, const struct mesh *m, double 
 void fraction_describe(const struct run *r, const struct fv_params *prm, const struct mesh *m,
                        double least)
 {
-    const char *why =
-        prm->volume == VOLUME_SHIFT ? "fv.volume says so" : fraction_obstacle(r, m, least);
+    const char *why = prm->volume == VOLUME_SHIFT ? "fv.volume says so" : obstacle(r, m, least);
     if (!why)
         log_say("water is kept where it is: the fluxes carry the share of it in each cell");
     else if (prm->volume == VOLUME_FRACTION)
@@ -62,7 +65,7 @@ void fraction_describe(const struct run *r, const struct fv_params *prm, const s
 
 bool fraction_wanted(const struct fv *s)
 {
-    return s->prm.volume != VOLUME_SHIFT && !fraction_obstacle(s->run, s->m, s->surface->least);
+    return s->prm.volume != VOLUME_SHIFT && !obstacle(s->run, s->m, s->surface->least);
 }
 
 static struct fraction *create(const struct fv *s)

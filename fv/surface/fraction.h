@@ -44,11 +44,6 @@ struct fraction {
     double excess;  /* m^dim: volume error that the projection left, of this advance and rank */
 };
 
-/* Why a scene cannot have shares, for the log; NULL: it can, cells are axis-aligned, at rest and do
- * not overlap. m: blocks, NULL: uniform cells; least: smallest size of a cell, m. Creeping water
- * cannot: it breaks nothing off, and what the shares make rough in phi grows at steps of its
- * viscosity. Collective. */
-const char *fraction_obstacle(const struct run *r, const struct mesh *m, double least);
 /* Logs how the volume of water is conserved, and why so. */
 void fraction_describe(const struct run *r, const struct fv_params *prm, const struct mesh *m,
                        double least);

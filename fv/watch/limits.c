@@ -6,7 +6,7 @@
  * 0.20, 0.097 at 10, 100, 1000), and 0 without viscosity. limits_of gives the next step from the
  * state as it was measured, limits_estimate one from the scene alone, for --check; both take the
  * least of the bounds and name it. A bound of the kind "rate now and rise per second" is solved for
- * the time in which dt (rate + rise dt) reaches cfl (limits_time).
+ * the time in which dt (rate + rise dt) reaches cfl (time_to_cross).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "limits.h"
 
@@ -67,7 +67,7 @@ void limits_check(const struct run *r, const struct fv_params *p, struct faults 
 }
 
 /* The positive root of rise dt^2 + rate dt = cfl, in the form without cancellation. */
-double limits_time(double cfl, double rate, double rise)
+static double time_to_cross(double cfl, double rate, double rise)
 {
     const double sum = rate + sqrt(rate * rate + 4.0 * cfl * rise);
     return sum > 0.0 ? 2.0 * cfl / sum : INFINITY;
@@ -363,7 +363,7 @@ static struct step_limit bulk_limit(const struct scene *s, const struct fv_param
     /* what falls within an implicit step is seen when it has: the step is taken back */
     const bool falls = surface && p->integrator != INTEGRATOR_NEWTON;
     const double rise = surface && !falls ? 0.0 : rise_of(s, p, surface, h),
-                 dt = limits_time(limits_cfl(p), rate, rise);
+                 dt = time_to_cross(limits_cfl(p), rate, rise);
     struct step_limit l = {INFINITY, LIMIT_NONE};
     lower(&l, dt, rise * dt > rate ? LIMIT_FORCES : LIMIT_FLOW);
     if (surface)
@@ -403,7 +403,8 @@ static void lower_motion(struct step_limit *l, const struct fv *s)
 static struct step_limit limit_on_blocks(const struct fv *s)
 {
     const bool falls = s->surface && s->newton; /* such a step is taken back */
-    const double rise = falls ? 0.0 : s->max.rise, dt = limits_time(s->prm.cfl, s->max.rate, rise);
+    const double rise = falls ? 0.0 : s->max.rise,
+                 dt = time_to_cross(s->prm.cfl, s->max.rate, rise);
     struct step_limit l = {dt, rise * dt > s->max.rate ? LIMIT_FORCES : LIMIT_FLOW};
     if (s->surface) {
         const double h = s->surface->least;
@@ -412,7 +413,7 @@ static struct step_limit limit_on_blocks(const struct fv *s)
                       (const double[]){h, h, h});
     }
     if (s->outflows && s->outflows->convects && s->prm.integrator != INTEGRATOR_NEWTON)
-        lower(&l, limits_time(fmin(s->prm.cfl, OUTFLOW_CFL), s->max.rate, 0.0), LIMIT_OUTFLOW);
+        lower(&l, time_to_cross(fmin(s->prm.cfl, OUTFLOW_CFL), s->max.rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->max.rate, s->max.Re), LIMIT_BDF2);
     lower_start(&l, s);
@@ -446,7 +447,7 @@ struct step_limit limits_of(const struct fv *s)
     const double rate = fmax(s->max.rate, imposed_rate(scene, h));
     struct step_limit l = bulk_limit(scene, &s->prm, rate, s->surface != NULL, h);
     if (s->outflows && s->outflows->convects && s->prm.integrator != INTEGRATOR_NEWTON)
-        lower(&l, limits_time(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
+        lower(&l, time_to_cross(fmin(cfl, OUTFLOW_CFL), rate, 0.0), LIMIT_OUTFLOW);
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, Re), LIMIT_BDF2);
     lower_start(&l, s);
@@ -469,7 +470,7 @@ struct step_limit limits_estimate(const struct run *r, const struct fv_params *p
     struct step_limit l = bulk_limit(s, p, rate, p->water, h);
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].carried && p->integrator != INTEGRATOR_NEWTON)
-            lower(&l, limits_time(OUTFLOW_CFL, rate, 0.0), LIMIT_OUTFLOW);
+            lower(&l, time_to_cross(OUTFLOW_CFL, rate, 0.0), LIMIT_OUTFLOW);
     if (p->integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, limits_reference(r) * longest / s->fluid.nu), LIMIT_BDF2);
     return l;

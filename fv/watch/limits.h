@@ -18,9 +18,6 @@ const char *limit_name(enum limit by);
 double limits_cfl(const struct fv_params *p);
 /* Faults of fv.cfl, and of bdf2 without viscosity. */
 void limits_check(const struct run *r, const struct fv_params *p, struct faults *f);
-/* Time in which a flow that crosses `rate' cells a second, and `rise' more each second, crosses
- * cfl of them, s. */
-double limits_time(double cfl, double rate, double rise);
 /* Largest |u_a| of what flows, or will soon. */
 double fv_speed(const struct fv *s, int a);
 /* The largest step that the flow as it is allows, and what bounds it; the same on all ranks. */

@@ -567,7 +567,8 @@ static void check_motion(const struct run *r, struct faults *f)
         check_way(r, prm, f);
 }
 
-double sph_params_viscous_bound(const struct run *r, const struct sph_params *prm)
+/* Largest stable dt nu/R^2 of the scheme. */
+static double viscous_bound(const struct run *r, const struct sph_params *prm)
 {
     const bool nfm = has_nfm(&r->scene, prm);
     const double axis = viscous_axis(prm);
@@ -584,7 +585,7 @@ static void check_steps(const struct run *r, struct faults *f)
     const struct sph_params *prm = sph_params_of(r);
     const double R = prm->R_dx * prm->dx, nu = r->scene.fluid.nu;
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
-    const double viscous = sph_params_viscous_bound(r, prm);
+    const double viscous = viscous_bound(r, prm);
     if (prm->cfl > bound)
         params_fault(r->params, f, "sph.cfl", "%g is unstable with this scheme: at most %g",
                      prm->cfl, bound);

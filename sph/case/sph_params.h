@@ -15,6 +15,4 @@ extern const struct param_group sph_groups[SPH_GROUPS];
 const struct sph_params *sph_params_of(const struct run *r);
 /* Adds the faults between keys. Call on all ranks alike. */
 void sph_params_check(const struct run *r, struct faults *f);
-/* Largest stable dt nu/R^2 of the scheme. */
-double sph_params_viscous_bound(const struct run *r, const struct sph_params *prm);
 #endif

@@ -250,8 +250,9 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     return w;
 }
 
-/* Tries c0 in steps of 5 %, each with T chosen anew. */
-double windows_c0(const struct run *r, const struct sph_params *prm)
+/* The lowest c0 with a loop gain of at most 1, m/s; 0: ten times the case's c0 is too low. Tries it
+ * in steps of 5 %, each with T chosen anew. */
+static double lowest_c0(const struct run *r, const struct sph_params *prm)
 {
     struct sph_params other = *prm;
     while (other.c0 < c0_most * prm->c0) {
@@ -265,7 +266,7 @@ double windows_c0(const struct run *r, const struct sph_params *prm)
 /* What runs, but not as well as it could. */
 static void advise(const struct run *r, const struct sph_params *prm, const struct windows *w)
 {
-    const double h = least_cell(r), c0 = w->gain > gain_most ? windows_c0(r, prm) : 0.0;
+    const double h = least_cell(r), c0 = w->gain > gain_most ? lowest_c0(r, prm) : 0.0;
     char mend[160] = "a wider coupling.overlap, or a box whose open sides lie nearer to walls";
     if (h < cells_least * prm->dx * (1.0 - 1e-9))
         log_warn("fv.cells: cells of %.3g m are %.3g times sph.dx; below %g the programs' errors "

@@ -27,8 +27,6 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
 /* Factor by which smoothing over `memory' coupling steps reduces an alternation:
  * common/base/fit.h. */
 double windows_smoothed(int memory);
-/* The lowest c0 with a loop gain of at most 1, m/s; 0: ten times the case's c0 is too low. */
-double windows_c0(const struct run *r, const struct sph_params *prm);
 /* Logs the choice in a line, with warnings. */
 void windows_describe(const struct run *r, const struct sph_params *prm);
 /* Warns where the coupling steps, T s, are shorter than chosen, for another program wished them so,

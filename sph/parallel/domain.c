@@ -450,18 +450,6 @@ static double *send_rows(const struct domain *d, const double *rows, const int *
     return got;
 }
 
-int domain_send_items(struct sph *s, double **items, int n, int width)
-{
-    const struct domain *d = s->domain;
-    int *owner = NEW(int, n), got;
-    for (int i = 0; i < n; i++)
-        owner[i] = domain_owner(d, *items + (size_t)i * width);
-    double *rows = send_rows(d, *items, owner, n, width, &got);
-    FREE(owner, *items);
-    *items = rows;
-    return got;
-}
-
 /* Brings positions along periodic axes back into [lo, hi). One that is not finite becomes lo, so
  * that it has a cell, and marks the momentum, which the next look at the state finds. */
 static void wrap(struct sph *s)

@@ -31,10 +31,6 @@ int domain_owner(const struct domain *d, const double *x);
 void domain_bounds(const struct domain *d, double lo[3], double hi[3]);
 /* Wraps periodic positions and sends particles to their owners. Ghosts are gone afterwards. */
 void domain_migrate(struct sph *s);
-/* Sends items, n records of `width' doubles with a position in the first dim of them, to the owners
- * of their positions. Returns the new number; *items is reallocated (mem_grow). They come ordered
- * by sending rank, then as they were. */
-int domain_send_items(struct sph *s, double **items, int n, int width);
 /* Makes the ghosts, all particles and images within R + skin of this rank's part, and fills their
  * prim. */
 void domain_ghosts(struct sph *s);

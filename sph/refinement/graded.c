@@ -14,8 +14,6 @@
 
 static const double growth = 0.025;
 
-double graded_growth(void) { return growth; }
-
 struct filler {
     struct sph *s;
     struct exact exact;

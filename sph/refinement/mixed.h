@@ -49,8 +49,6 @@ void mixed_split(struct sph *s);
 
 /* graded.c: makes the first particles, instead of a lattice. */
 void graded_fill(struct sph *s);
-/* Largest relative change of the spacing from one layer to the next. */
-double graded_growth(void);
 
 /* R of particle i, and its weight. */
 static inline double *mixed_R(const struct sph *s, int i) { return &s->p.size[i][0]; }

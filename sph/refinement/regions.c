@@ -216,7 +216,8 @@ static void make_level(struct regions *g, int n)
     mem_free(boxes.box);
 }
 
-void regions_make(struct regions *g)
+/* Makes boxes, balls and layers of all levels from the regions as they have moved. */
+static void make_parts(struct regions *g)
 {
     for (int n = 1; n <= g->prm->levels; n++)
         make_level(g, n);
@@ -338,7 +339,7 @@ struct regions *regions_create(const struct run *r, const struct sph_params *prm
     add_shells(g);
     find_alone(g);
     region_sets_move(g, r->t);
-    regions_make(g);
+    make_parts(g);
     g->criteria = criteria_create(g);
     return g;
 }
@@ -388,7 +389,7 @@ void regions_move(struct regions *g, double t)
 {
     move_shells(g);
     if (region_sets_move(g, t) || g->gone)
-        regions_make(g);
+        make_parts(g);
     g->gone = false;
 }
 
@@ -452,6 +453,6 @@ bool regions_load(struct regions *g, struct h5 *f)
         memcpy(g->bodies[k].Q, pose[k] + 3, sizeof g->bodies[k].Q);
     }
     move_shells(g);
-    regions_make(g);
+    make_parts(g);
     return criteria_load(g, f);
 }

@@ -77,8 +77,6 @@ static inline double regions_margin(const struct regions *g, int n)
     return g->prm->margin * regions_R(g, n - 1);
 }
 
-/* regions.c: makes boxes, balls and layers of all levels from the regions as they have moved. */
-void regions_make(struct regions *g);
 /* Signed distance of x to the edge of a level's boxes, balls and layers alone, without marked
  * cells, m. */
 double regions_fixed_distance(const struct regions *g, int level, const double *x);

@@ -435,7 +435,8 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
     return l->share;
 }
 
-double wall_list_nearest(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
+/* Sets foot to the point of the touch's piece nearest to x; returns the distance, m. */
+static double nearest_on(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                          const double *x, double *foot)
 {
     if (s->dim == 3)
@@ -517,7 +518,7 @@ bool wall_list_strayed(const struct sph *s, const struct wall_list *l, int k, st
     for (int j = l->first[k]; j < l->first[k + 1]; j++) {
         const struct wall_touch *t = l->touch + j;
         double foot[2];
-        const double d = wall_list_nearest(s, l, t, x, foot);
+        const double d = nearest_on(s, l, t, x, foot);
         if (d >= least)
             continue;
         least = d;

@@ -90,9 +90,6 @@ double wall_list_weight(const struct sph *s, const struct wall_list *l, const st
  * call. */
 const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int body,
                                const double *x);
-/* Sets foot to the point of the touch's piece nearest to x; returns the distance, m. */
-double wall_list_nearest(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
-                         const double *x, double *foot);
 /* Points y of the plane's part of a touch within R of x, with their shares of its weight W, which
  * sum to 1; returns how many. In 2D. */
 enum { FACE_POINTS = 4 };
@@ -135,8 +132,6 @@ void wall_list3_to_own(const struct sph *s, const struct wall_touch *t, const do
 
 /* --- wall_thin3.c --- */
 
-/* Whether some mesh is thin. */
-bool wall_list3_any_thin(const struct walls *w);
 /* Removes pairs from the list that would interact through thin walls. */
 void wall_list3_cut(const struct sph *s, struct wall_list *l);
 /* After the integrals: pieces of thin walls that the particle does not see count for nothing, and

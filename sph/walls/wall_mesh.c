@@ -11,7 +11,8 @@
 #include "../particles/sph_particles.h"
 #include "wall_cover3.h"
 
-void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own)
+/* Rotates a vector of the world into the mesh's frame. */
+static void turn_to_own(const struct wall_mesh *m, const double *v, double *own)
 {
     for (int a = 0; a < 3; a++)
         own[a] = m->Q[0][a] * v[0] + m->Q[1][a] * v[1] + m->Q[2][a] * v[2];
@@ -27,7 +28,7 @@ void wall_mesh_to_own(const struct wall_mesh *m, const double *x, double *own)
 {
     double d[3];
     vec3_from(m->X, x, d);
-    wall_mesh_turn_to_own(m, d, own);
+    turn_to_own(m, d, own);
 }
 
 void wall_mesh_to_world(const struct wall_mesh *m, const double *own, double *x)

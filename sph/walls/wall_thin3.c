@@ -11,7 +11,8 @@
 #include "../../common/base/base.h"
 #include "wall_shadow.h"
 
-bool wall_list3_any_thin(const struct walls *w)
+/* Whether some mesh is thin. */
+static bool any_thin(const struct walls *w)
 {
     bool any = false;
     for (int k = 0; k < w->nmeshes; k++)
@@ -74,7 +75,7 @@ static bool has_thin(const struct sph *s, const struct wall_list *l, int k)
 
 void wall_list3_cut(const struct sph *s, struct wall_list *l)
 {
-    if (!wall_list3_any_thin(s->walls))
+    if (!any_thin(s->walls))
         return;
     for (int k = 0; k < l->n; k++)
         if (has_thin(s, l, k))
@@ -271,7 +272,7 @@ static void shade(const struct sph *s, struct wall_list *l, int k)
 
 void wall_list3_shade(const struct sph *s, struct wall_list *l)
 {
-    if (!wall_list3_any_thin(s->walls))
+    if (!any_thin(s->walls))
         return;
     for (int k = 0; k < l->n; k++) {
         memset(l->rim[k], 0, sizeof *l->rim);

@@ -29,7 +29,8 @@ struct fault_place {
 
 static const double fastest = 1.0; /* c0 */
 
-double sph_fault_density_limit(const struct sph *s)
+/* The largest |rho/rho0 - 1| that is legal. */
+static double legal_change(const struct sph *s)
 {
     if (s->prm.density_limit > 0.0)
         return s->prm.density_limit;
@@ -50,8 +51,7 @@ double sph_fault_of(const struct sph *s, const double *y, double *speed, double 
     *rho = m / y[at_volume(dim)];
     if (sum != 0.0 || !isfinite(*speed) || !isfinite(*rho) || *rho <= 0.0)
         return 1e300;
-    return fmax(fabs(*rho / s->rho0 - 1.0) / sph_fault_density_limit(s),
-                *speed / (fastest * s->c0));
+    return fmax(fabs(*rho / s->rho0 - 1.0) / legal_change(s), *speed / (fastest * s->c0));
 }
 
 /* Whether a is worse than b, so that all ranks, and any number of them, choose the same: faults
@@ -176,7 +176,7 @@ static void describe_fault(const struct sph *s, const struct culprit *c, struct 
     else
         snprintf(d->reason, sizeof d->reason,
                  "density of a particle is %.4g kg/m^3, %+.1f %% from rho0, limit %.3g %%", c->rho,
-                 100.0 * (c->rho / s->rho0 - 1.0), 100.0 * sph_fault_density_limit(s));
+                 100.0 * (c->rho / s->rho0 - 1.0), 100.0 * legal_change(s));
 }
 
 /* The first that the figures bear out. They are ordered from what is certain (a parameter beyond a

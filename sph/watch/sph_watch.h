@@ -120,8 +120,6 @@ bool sph_watch_load(struct sph *s, struct h5 *f);
  * at the largest speed so far is legal, at most 0.5: a jet of Mach number Ma that meets a wall
  * raises rho by the fraction Ma (rho c U over rho c^2), in a corner twice. */
 double sph_fault_of(const struct sph *s, const double *y, double *speed, double *rho);
-/* The largest |rho/rho0 - 1| that is legal. */
-double sph_fault_density_limit(const struct sph *s);
 /* Fills d with the worst particle of all ranks, named by its position, and the likely cause by what
  * is measured there; the same on any number of ranks. y0 must be the state before the step.
  * Collective. */

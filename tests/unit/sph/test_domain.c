@@ -202,32 +202,6 @@ static void halo_brings_the_owners_values(void **state)
     }
 }
 
-static void items_reach_owners_in_order_of_senders(void **state)
-{
-    (void)state;
-    struct sph_case c;
-    start(&c, 2, 40, false);
-    const int n = 50 + 10 * c.run.rank;
-    double *items = NEW(double, 4 * n), last = -1.0;
-    for (int i = 0; i < n; i++) { /* some outside the region */
-        items[4 * i] = 1.4 * noise(i + 1000 * c.run.rank) - 0.2;
-        items[4 * i + 1] = 1.4 * noise(i + 1000 * c.run.rank + 500) - 0.2;
-        items[4 * i + 2] = c.run.rank;
-        items[4 * i + 3] = i + 1000 * c.run.rank;
-    }
-    const int got = domain_send_items(c.s, &items, n, 4);
-    long bad = 0, sum = got - n;
-    for (int i = 0; i < got; i++) {
-        bad += domain_owner(c.s->domain, items + 4 * i) != c.run.rank;
-        bad += items[4 * i + 3] <= last;
-        last = items[4 * i + 3];
-    }
-    assert_true(none_anywhere(bad));
-    assert_true(none_anywhere(sum));
-    mem_free(items);
-    sph_free(&c.s);
-}
-
 static void balance_evens_out_a_crowd(void **state)
 {
     (void)state;
@@ -297,7 +271,6 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {cmocka_unit_test(particles_reach_their_owners),
                                        cmocka_unit_test(ghosts_are_all_images_within_reach),
                                        cmocka_unit_test(halo_brings_the_owners_values),
-                                       cmocka_unit_test(items_reach_owners_in_order_of_senders),
                                        cmocka_unit_test(what_is_not_finite_keeps_its_mark),
                                        cmocka_unit_test(balance_evens_out_a_crowd),
                                        cmocka_unit_test(balance_evens_out_the_pairs)};
