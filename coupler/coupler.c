@@ -73,24 +73,24 @@ static void look_around(struct coupler *c)
     report_progress(c);
 }
 
-/* Next message of a peer (-1: any). Short naps between polls; every `look_every' seconds a look at
- * the partners. The time waited is counted as idle. */
+/* Next message of a peer (-1: any). Short sleeps between polls; every `look_every' seconds a look
+ * at the partners. The time waited is counted as idle. */
 static struct message *await(struct coupler *c, int peer)
 {
     struct message *m;
-    struct nap nap;
-    nap_begin(&nap);
+    struct backoff backoff;
+    backoff_begin(&backoff);
     while (!(m = wire_poll(&c->wire, peer))) {
         const double now = wire_time();
-        if (now - nap.checked > look_every) {
-            nap.checked = now;
+        if (now - backoff.checked > look_every) {
+            backoff.checked = now;
             look_after_partners();
         }
         if (c->rank == 0)
             look_around(c);
-        nap_take(&nap);
+        backoff_sleep(&backoff);
     }
-    c->idle += wire_time() - nap.since;
+    c->idle += wire_time() - backoff.since;
     if (m->peer < c->nsolvers)
         c->solver[m->peer].heard = wire_time();
     return m;
@@ -176,7 +176,7 @@ static bool plan(struct coupler *c)
 
 /* Every rank of a solver says goodbye to every rank of the coupler: behind it nothing of it is on
  * the way. The worst code counts. */
-static void take_bye(struct coupler *c, struct solver *s, struct message *m)
+static void take_close(struct coupler *c, struct solver *s, struct message *m)
 {
     if (c->rank == 0 && c->action != CPL_STOP)
         abort_run("%s left in coupling step %lld, before the end", s->name, (long long)c->window);
@@ -186,10 +186,10 @@ static void take_bye(struct coupler *c, struct solver *s, struct message *m)
     s->waited = m->rank == 0 ? waited : s->waited;
     s->cpu += take_real(&c->wire, m);
     report_told(&c->wire, m, &s->told);
-    s->said_bye = ++s->byes == s->size;
+    s->has_closed = ++s->nclosed == s->size;
     c->over = true;
     for (int i = 0; i < c->nsolvers; i++)
-        c->over = c->over && c->solver[i].said_bye;
+        c->over = c->over && c->solver[i].has_closed;
 }
 
 /* One message of a solver's rank. After each, a look whether the programs can go on at all: a
@@ -213,8 +213,8 @@ static void answer(struct coupler *c, struct message **m)
     case WIRE_SAVED:
         checkpoint_saved(c, s, *m);
         break;
-    case WIRE_BYE:
-        take_bye(c, s, *m);
+    case WIRE_CLOSE:
+        take_close(c, s, *m);
         break;
     default:
         abort_run("%s rank %d sent message %d out of order", s->name, (*m)->rank, (*m)->head.kind);
@@ -259,7 +259,7 @@ static int serve(struct coupler *c)
     int code = c->rank == 0 ? report_summary(c, all) : 0;
     for (int i = 0; i < c->nsolvers && c->rank == 0; i++) {
         struct pack p;
-        pack_begin(&p, WIRE_BYE_ACK, 0, 0);
+        pack_begin(&p, WIRE_CLOSED, 0, 0);
         pack_int(&p, code);
         wire_send_all(&c->wire, c->solver[i].peer, &p);
     }

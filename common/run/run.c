@@ -75,8 +75,8 @@ static void collect_groups(struct life *l)
 static void check_place(struct life *l)
 {
     struct run *r = &l->r;
-    char kin[PARAM_PROGRAMS_MAX][64];
-    r->scene.has_sph = params_programs(l->params, "sph", kin) > 0;
+    char names[PARAM_PROGRAMS_MAX][64];
+    r->scene.has_sph = params_programs(l->params, "sph", names) > 0;
     r->scene.has_fv = params_has_group(l->params, "fv");
     if (!params_has_group(l->params, r->name))
         params_fault(l->params, &l->faults, r->name,

@@ -49,13 +49,13 @@ static _Noreturn void broken(const char *what) { failure_die(4, what); }
 
 /* Whether a partner is dead, looked up at most every `look_every' s; leaves the reason as the error
  * text. */
-static bool partner_lost(struct cpl *c, struct nap *nap)
+static bool partner_lost(struct cpl *c, struct backoff *backoff)
 {
     const double now = wire_time();
     char note[512];
-    if (now - nap->checked < look_every)
+    if (now - backoff->checked < look_every)
         return false;
-    nap->checked = now;
+    backoff->checked = now;
     if (!failure_seen())
         return false;
     if (!failure_read(note, sizeof note))
@@ -96,20 +96,20 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
                              const char *what)
 {
     struct message *found = NULL;
-    struct nap nap;
+    struct backoff backoff;
     char doing[256];
     snprintf(doing, sizeof doing, "in coupling step %lld, waiting for %s", (long long)c->window,
              what);
     failure_doing(doing);
-    nap_begin(&nap);
+    backoff_begin(&backoff);
     for (;;) {
         if ((found = from_inbox(c, kind, field, tick, rank)))
             break;
         struct message *m = wire_poll(&c->wire, -1);
         if (!m) {
-            if (partner_lost(c, &nap))
+            if (partner_lost(c, &backoff))
                 break;
-            nap_take(&nap);
+            backoff_sleep(&backoff);
             continue;
         }
         c->heard = wire_time();
@@ -123,7 +123,7 @@ struct message *client_await(struct cpl *c, enum wire_kind kind, int field, int6
             *end = m;
         }
     }
-    c->waited += wire_time() - nap.since;
+    c->waited += wire_time() - backoff.since;
     at_work(c);
     return found;
 }
@@ -440,7 +440,7 @@ static int goodbye(struct cpl *c, int code)
     struct pack p;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &cpu);
     for (int r = 0; r < c->ncoupler; r++) {
-        pack_begin(&p, WIRE_BYE, 0, c->window);
+        pack_begin(&p, WIRE_CLOSE, 0, c->window);
         pack_int(&p, code);
         pack_real(&p, c->waited);
         pack_real(&p, (double)cpu.tv_sec + 1e-9 * (double)cpu.tv_nsec);
@@ -450,7 +450,7 @@ static int goodbye(struct cpl *c, int code)
             pack_int(&p, 0);
         wire_send(&c->wire, 0, r, &p);
     }
-    struct message *m = client_await(c, WIRE_BYE_ACK, -1, 0, 0, "the other programs' end");
+    struct message *m = client_await(c, WIRE_CLOSED, -1, 0, 0, "the other programs' end");
     if (!m)
         return c->error;
     const int job = (int)take_int(&c->wire, m);

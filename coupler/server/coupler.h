@@ -32,12 +32,12 @@ struct told {
 
 /* A program of the job other than the coupler: what it declared and how far it is. */
 struct solver {
-    const char *name;                  /* borrowed from the handshake */
-    int size, peer;                    /* ranks; its place in wire */
-    bool met, ready, said_bye;         /* its WIRE_MEET, WIRE_READY and all its WIRE_BYE are here */
-    int64_t restart_window;            /* coupling step that it restarts at, -1: at the start */
-    uint64_t hash;                     /* of its case; 0: it has read none */
-    int faults, nzones;                /* faults of its input, boxes that it published */
+    const char *name;            /* borrowed from the handshake */
+    int size, peer;              /* ranks; its place in wire */
+    bool met, ready, has_closed; /* its WIRE_MEET, WIRE_READY and all its WIRE_CLOSE are here */
+    int64_t restart_window;      /* coupling step that it restarts at, -1: at the start */
+    uint64_t hash;               /* of its case; 0: it has read none */
+    int faults, nzones;          /* faults of its input, boxes that it published */
     char fault_lines[TEXT], dir[1024]; /* what is wrong with its input; -o */
     struct named_box {
         char name[CPL_NAME];
@@ -60,7 +60,7 @@ struct solver {
         int64_t last_tick; /* source: of its last put, as of its last advance or get */
     } field[LIMIT_FIELDS];
     int64_t advanced;                      /* last coupling step done, -1: none */
-    int byes, code;                        /* ranks that have closed; the worst code among them */
+    int nclosed, code;                     /* ranks that have closed; the worst code among them */
     double waited, cpu;                    /* s; cpu summed over ranks, known at the end */
     double heard;                          /* wire_time of its last message */
     double advanced_at;                    /* wall time of its last advance */

@@ -72,8 +72,8 @@ static void look(struct scene *s, MPI_Comm comm, const struct command_line *l)
     struct faults scrap = {0};
     struct params *p =
         params_read(comm, l->case_file, l->noverrides, l->overrides, NULL, 0, NULL, &scrap);
-    char kin[PARAM_PROGRAMS_MAX][64];
-    s->has_sph = params_programs(p, "sph", kin) > 0;
+    char names[PARAM_PROGRAMS_MAX][64];
+    s->has_sph = params_programs(p, "sph", names) > 0;
     s->has_fv = params_has_group(p, "fv");
     params_free(&p);
     mem_free(scrap.text);

@@ -69,14 +69,14 @@ static void check_programs(const struct coupler *c, char *text)
                     c->solver[i].name);
     if (c->job.programs[0])
         return;
-    char kin[PARAM_PROGRAMS_MAX][64];
-    const int n = params_programs(c->params, "sph", kin);
+    char names[PARAM_PROGRAMS_MAX][64];
+    const int n = params_programs(c->params, "sph", names);
     for (int k = 0; k < n; k++)
-        if (!present(c, kin[k]))
+        if (!present(c, names[k]))
             problem(text,
                     "the case has a group %s, but no program `%s' is in this job "
                     "(coupler.programs: others in its place)",
-                    kin[k], kin[k]);
+                    names[k], names[k]);
     if (c->scene.has_fv && !present(c, "fv"))
         problem(text, "the case has a group fv, but no program `fv' is in this job "
                       "(coupler.programs: others in its place)");

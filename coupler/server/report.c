@@ -196,7 +196,7 @@ static void put_told(const struct coupler *c, struct summary *s)
 }
 
 /* What a solver waited for solver j; j = nsolvers: for the coupler, mapping and messages. The
- * coupler's clock and the solver's own may differ by a nap. */
+ * coupler's clock and the solver's own may differ by a sleep between polls. */
 static double waited_for(const struct coupler *c, int i, int j)
 {
     double all = 0.0;

@@ -94,18 +94,18 @@ static struct hello *exchange(MPI_Comm world, const char *name, int version, int
         MPI_Irecv(&all[r], (int)sizeof *all, MPI_BYTE, r, TAG, world, &request[r]);
         MPI_Isend(own, (int)sizeof *own, MPI_BYTE, r, TAG, world, &request[size + r]);
     }
-    struct nap nap;
-    nap_begin(&nap);
+    struct backoff backoff;
+    backoff_begin(&backoff);
     for (int left = size - 1; left > 0;) {
         for (int r = 0; r < size; r++)
             if (!heard[r]) {
                 MPI_Test(&request[r], &heard[r], MPI_STATUS_IGNORE);
                 left -= heard[r];
             }
-        if (left > 0 && wire_time() - nap.since > deadline)
+        if (left > 0 && wire_time() - backoff.since > deadline)
             too_late(world, all, heard, deadline);
         if (left > 0)
-            nap_take(&nap);
+            backoff_sleep(&backoff);
     }
     /* All have spoken, so all have posted their receives. */
     MPI_Waitall(2 * size, request, MPI_STATUSES_IGNORE);

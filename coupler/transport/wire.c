@@ -1,6 +1,6 @@
 /* wire.c - messages and waiting. Measured on Open MPI 4.1.4: a blocking receive burns its core and
  * starves an oversubscribed node; probing twice and then sleeping leaves it free. A wake-up costs
- * 10 (bare metal) to 35 us (virtual machine), so long waits need long naps: 1 ms takes 1.7 to
+ * 10 (bare metal) to 35 us (virtual machine), so long waits need long sleeps: 1 ms takes 1.7 to
  * 4 % of a core, 10 ms 0.33 %. SPDX-License-Identifier: BSD-3-Clause */
 #include "wire.h"
 
@@ -12,8 +12,8 @@
 #include <time.h>
 
 enum { MAGIC = 0x4c504345, TAG = 77, TAG_REST = 76 };
-enum { LARGEST_PIECE = 1 << 30 };                                            /* MPI counts in int */
-enum { SPIN_US = 30, FIRST_NAP = 20, SHORT_NAP = 200, LONGEST_NAP = 10000 }; /* us */
+enum { LARGEST_PIECE = 1 << 30 }; /* MPI counts in int */
+enum { SPIN_US = 30, FIRST_SLEEP = 20, SHORT_SLEEP = 200, LONGEST_SLEEP = 10000 }; /* us */
 #define LONG_WAIT 0.02 /* of the time waited */
 
 struct pending {
@@ -208,12 +208,12 @@ bool wire_flushed(struct wire *w)
 
 static void finish(MPI_Request *request)
 {
-    struct nap nap;
+    struct backoff backoff;
     int done = 0;
-    nap_begin(&nap);
+    backoff_begin(&backoff);
     for (MPI_Test(request, &done, MPI_STATUS_IGNORE); !done;
          MPI_Test(request, &done, MPI_STATUS_IGNORE))
-        nap_take(&nap);
+        backoff_sleep(&backoff);
 }
 
 /* The pieces behind the first `got' bytes of a long message. */
@@ -276,22 +276,22 @@ struct message *wire_poll(struct wire *w, int peer)
     return NULL;
 }
 
-void nap_begin(struct nap *n)
+void backoff_begin(struct backoff *n)
 {
     n->since = n->checked = wire_time();
-    n->us = FIRST_NAP;
+    n->us = FIRST_SLEEP;
 }
 
-/* Spins at first, then naps that grow by a quarter each, up to LONG_WAIT of the time waited so far,
- * but to SHORT_NAP at least: a wait is lengthened by 2 % or 0.2 ms at most. */
-void nap_take(struct nap *n)
+/* Spins at first, then sleeps that grow by a quarter each, up to LONG_WAIT of the time waited so
+ * far, but to SHORT_SLEEP at least: a wait is lengthened by 2 % or 0.2 ms at most. */
+void backoff_sleep(struct backoff *n)
 {
     const double waited = wire_time() - n->since;
-    if (n->us == FIRST_NAP && waited < 1e-6 * SPIN_US)
+    if (n->us == FIRST_SLEEP && waited < 1e-6 * SPIN_US)
         return;
     const struct timespec us = {.tv_nsec = 1000 * n->us};
     nanosleep(&us, NULL);
-    const long share = (long)fmin(1e6 * waited * LONG_WAIT, LONGEST_NAP);
-    const long cap = share > SHORT_NAP ? share : SHORT_NAP;
+    const long share = (long)fmin(1e6 * waited * LONG_WAIT, LONGEST_SLEEP);
+    const long cap = share > SHORT_SLEEP ? share : SHORT_SLEEP;
     n->us = n->us * 5 / 4 < cap ? n->us * 5 / 4 : cap;
 }

@@ -38,8 +38,8 @@ enum wire_kind {
     WIRE_VALUES,   /* > the answer to WIRE_GET */
     WIRE_ADVANCE,  /* coupling step done, told numbers, stop wanted */
     WIRE_SAVED,    /* restart file complete */
-    WIRE_BYE,      /* last message to each coupler rank */
-    WIRE_BYE_ACK,  /* > exit code of the job */
+    WIRE_CLOSE,    /* last message to each coupler rank */
+    WIRE_CLOSED,   /* > exit code of the job */
     WIRE_KINDS
 };
 
@@ -88,7 +88,7 @@ struct wire {
 
 /* The state of one wait: it polls for some 30 us, then sleeps longer and longer, up to 0.2 ms, then
  * 2 % of the time waited so far, at most 10 ms. */
-struct nap {
+struct backoff {
     double since;   /* s: when the waiting began */
     double checked; /* s: last look at whether all partners are alive */
     long us;        /* microseconds: of the next sleep */
@@ -138,8 +138,8 @@ bool wire_flushed(struct wire *w);
 /* Frees the message and sets *m to NULL; *m may be NULL. */
 void message_free(struct message **m);
 
-/* Starts a wait; nap_take sleeps once. */
-void nap_begin(struct nap *n);
-void nap_take(struct nap *n);
+/* Starts a wait; backoff_sleep sleeps once. */
+void backoff_begin(struct backoff *n);
+void backoff_sleep(struct backoff *n);
 
 #endif

@@ -27,10 +27,10 @@ static void jump(const char *what)
 static struct message *await(struct wire *w)
 {
     struct message *m;
-    struct nap nap;
-    nap_begin(&nap);
+    struct backoff backoff;
+    backoff_begin(&backoff);
     while (!(m = wire_poll(w, -1)))
-        nap_take(&nap);
+        backoff_sleep(&backoff);
     return m;
 }
 
@@ -135,12 +135,12 @@ static void waiting_leaves_the_processor_alone(void **state)
 {
     (void)state;
     struct wire w = to_myself();
-    struct nap nap;
+    struct backoff backoff;
     const clock_t before = clock();
-    nap_begin(&nap);
-    while (wire_time() - nap.since < 1.0) {
+    backoff_begin(&backoff);
+    while (wire_time() - backoff.since < 1.0) {
         assert_null(wire_poll(&w, -1));
-        nap_take(&nap);
+        backoff_sleep(&backoff);
     }
     const double cpu = (double)(clock() - before) / CLOCKS_PER_SEC;
     printf("waiting takes %.1f %% of a core\n", 100.0 * cpu);
