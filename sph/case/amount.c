@@ -1,5 +1,5 @@
 /* amount.c - see amount.h. A cell with filled cells all around is full; of the others, which shapes
- * or walls may cut, 64 places on a lattice of their own are asked, so askew that a level across an
+ * or walls may cut, 64 places on a lattice of their own are asked, turned so that a level across an
  * axis is known to a 128th of a cell.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "amount.h"

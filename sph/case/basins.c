@@ -24,7 +24,7 @@ enum { LEAST_CELLS = 8 };
 struct basin_run {
     int first, last; /* cells along the axis of the runs */
     int part;        /* representative: a run of the same water */
-    bool roofed, dropped;
+    bool covered, dropped;
     double level;
 };
 
@@ -168,7 +168,7 @@ static void join_runs(struct basins *b, int r, int q, int column, int beside)
 static void link_runs(struct basins *b, int r, int q, int column, int beside)
 {
     const struct basin_run *A = b->runs + r, *B = b->runs + q;
-    if (!A->roofed && !B->roofed)
+    if (!A->covered && !B->covered)
         return;
     const int width = common_width(b, r, q, column, beside);
     if (width == 0)
@@ -278,8 +278,8 @@ static void find_tops(struct basins *b)
             struct basin_run *run = b->runs + r;
             int ic[3];
             cell_in(b, c, top_cell(b, run), ic);
-            run->roofed = look(b, ic, b->up, b->sign) == BEYOND_WALL;
-            run->level = run->roofed ? NAN : top_of(b, ic);
+            run->covered = look(b, ic, b->up, b->sign) == BEYOND_WALL;
+            run->level = run->covered ? NAN : top_of(b, ic);
         }
 }
 
@@ -399,16 +399,16 @@ static void find_levels(struct basins *b)
     bool *open = NEW(bool, b->nruns), *is_free = NEW(bool, b->nruns);
     double *x = NEW(double, b->nruns), *mean = NEW(double, 2 * (size_t)b->nruns);
     for (int r = 0; r < b->nruns; r++)
-        if (!b->runs[r].roofed) {
+        if (!b->runs[r].covered) {
             open[group[r]] = true;
             mean[2 * group[r]] += b->runs[r].level;
             mean[2 * group[r] + 1] += 1.0;
         }
     for (int r = 0; r < b->nruns; r++) { /* the first guess: the mean of the open tops around */
-        is_free[r] = b->runs[r].roofed && open[group[r]];
-        x[r] = is_free[r]          ? mean[2 * group[r]] / mean[2 * group[r] + 1]
-               : b->runs[r].roofed ? 0.0
-                                   : b->runs[r].level;
+        is_free[r] = b->runs[r].covered && open[group[r]];
+        x[r] = is_free[r]           ? mean[2 * group[r]] / mean[2 * group[r] + 1]
+               : b->runs[r].covered ? 0.0
+                                    : b->runs[r].level;
     }
     relax(b, is_free, x);
     for (int r = 0; r < b->nruns; r++)

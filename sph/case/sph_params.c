@@ -544,7 +544,7 @@ static void check_motion(const struct run *r, struct faults *f)
             r->params, f, key,
             "no box has both sides open along an axis on which it would move: give sph.box "
             "(or sph.free) inside the domain");
-    const bool crest = strcmp(prm->box_follows, BOX_CHASE) == 0;
+    const bool crest = strcmp(prm->box_follows, BOX_TRACKING) == 0;
     if (!named && !crest)
         params_fault(r->params, f, key,
                      "no body is named `%s'; \"breaker\" is the crest of the water",

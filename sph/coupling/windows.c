@@ -239,7 +239,7 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     shorten(&w, transition / (w.U + box), "the path through the transition");
     /* cells are forced in a row or two ahead of it, and have values there; behind a crest the box
      * goes half as fast as it may at most, and shorter windows want more memory */
-    const double cells = strcmp(prm->box_follows, BOX_CHASE) == 0 ? 2.0 : 1.0;
+    const double cells = strcmp(prm->box_follows, BOX_TRACKING) == 0 ? 2.0 : 1.0;
     if (box > 0.0)
         shorten(&w, cells * least_cell(r) / box, "the path of the box through a cell");
     w.steps = c->steps > 0 ? c->steps : (int)fmax(floor(w.T / dt * (1.0 + 1e-9)), 1.0);

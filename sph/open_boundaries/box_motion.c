@@ -31,7 +31,7 @@ bool box_motion_wanted(const struct sph_params *prm)
 
 static bool chases(const struct sph_params *prm)
 {
-    return strcmp(prm->box_follows, BOX_CHASE) == 0;
+    return strcmp(prm->box_follows, BOX_TRACKING) == 0;
 }
 
 bool box_motion_along(const struct run *r, const struct sph_params *prm, int a)

@@ -102,7 +102,7 @@ static bool hold_back(const struct sph *s, int a, double *way)
 void box_tracking_step(struct sph *s, double dt, const bool along[3], double way[3])
 {
     const double most = box_tracking_speed(s->run);
-    double at[3], *v = s->zones->chase;
+    double at[3], *v = s->zones->tracked;
     if (!(dt > 0.0))
         return;
     const bool seen = find_crest(s, along, at);

@@ -7,7 +7,7 @@
 #include "../sph.h"
 
 /* The value of sph.box_follows that asks for it. */
-#define BOX_CHASE "breaker"
+#define BOX_TRACKING "breaker"
 
 /* Largest speed of the box, m/s: sqrt(g H) with the height H of the domain; 0 without gravity. */
 double box_tracking_speed(const struct run *r);

@@ -381,7 +381,7 @@ void zones_save(struct sph *s, struct h5 *f)
     h5_write_int(f, "zones_counted", 3, counted);
     h5_write_real(f, "zones_way", "m", 3, 1, s->zones->way, false);
     if (s->prm.box_follows[0])
-        h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->chase, false);
+        h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->tracked, false);
     if (s->zones->update)
         sides_save(s, f);
     if (s->zones->gap)
@@ -421,7 +421,7 @@ bool zones_load(struct sph *s, struct h5 *f)
         !h5_read_parts(f, "zones_through", 6, o->through) ||
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
         !h5_read_same(f, "zones_owed", 1, &o->deficit) || !h5_read_same(f, "zones_way", 3, way) ||
-        (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->chase)) ||
+        (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->tracked)) ||
         !load_counts(s, f, counted) || (s->zones->update && !sides_load(s, f)) ||
         (s->zones->gap && !level_gap_load(s, f)) || !wet_faces_load(s, f))
         return false;

@@ -32,9 +32,9 @@ struct zones {
     bool along[3];        /* the box moves along this axis */
     double way[3],
         speed[3]; /* m, m/s: displacement of the box since the start, velocity over the last step */
-    double fastest;   /* m/s: largest speed that the box will have */
-    double chase[3];  /* m/s: box_tracking.h, speed that it remembers */
-    zones_eval *eval; /* the outer solution */
+    double fastest;    /* m/s: largest speed that the box will have */
+    double tracked[3]; /* m/s: smoothed speed of what the box follows, box_tracking.h */
+    zones_eval *eval;  /* the outer solution */
     struct sph_eos {
         double rho0, c0, gamma;
     } eos; /* the particles', for a partner of constant density */

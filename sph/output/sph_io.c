@@ -351,7 +351,7 @@ static void save_levels(struct sph *s, struct h5 *f)
     h5_write_real(f, "levels_mass", "kg", 3, 1, (double[3]){r->added, s->step.mass, r->gone},
                   false);
     h5_attribute_real(f, "levels_mass0", r->mass0);
-    h5_attribute_real(f, "levels_debt", r->debt);
+    h5_attribute_real(f, "levels_debt", r->mass_surplus);
     for (struct sph *q = s->finer; q; q = q->finer) {
         h5_attribute_real(f, name(q, "skin"), q->lists.skin);
         h5_attribute_real(f, name(q, "signal"), q->step.signal);
@@ -499,7 +499,7 @@ static bool read_levels(struct sph *s, struct h5 *f)
     double parts[3] = {0.0, 0.0, 0.0};
     bool fits = h5_read_parts(f, "levels_mass", 3, parts) &&
                 h5_read_attribute_real(f, "levels_mass0", &r->mass0) &&
-                h5_read_attribute_real(f, "levels_debt", &r->debt);
+                h5_read_attribute_real(f, "levels_debt", &r->mass_surplus);
     r->added = parts[0];
     s->step.mass = parts[1];
     r->gone = parts[2];

@@ -20,7 +20,7 @@ enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
  * a guard's two source levels. Restart files hold these bits: see `meaning' in struct program. */
 enum sph_role {
     ROLE_GUARD = 1,
-    ROLE_MOTHER = 2,
+    ROLE_PARENT = 2,
     ROLE_DEEP = 4,
     ROLE_EDGE = 8,
     ROLE_SURFACE = 16,

@@ -108,7 +108,7 @@ static double gap_at(struct population *c, const double *x)
     double gap = 0.0;
     look_around(s, x, fine->R + 0.5 * s->dx, &c->found);
     for (int k = 0; k < c->found.n; k++)
-        if (role_of(s, c->found.j[k]) & ROLE_MOTHER)
+        if (role_of(s, c->found.j[k]) & ROLE_PARENT)
             gap += family(s, x, prim_line(&s->p, c->found.j[k]), fine->R);
     look_around(fine, x, fine->R, &c->found);
     for (int k = 0; k < c->found.n; k++)
@@ -129,7 +129,7 @@ static void find_gaps(struct population *c)
     for (int i = 0; i < s->p.n; i++) {
         const double *x = prim_line(&s->p, i);
         c->gap[i] = nothing;
-        if ((s->p.role[i] & (ROLE_MOTHER | ROLE_GUARD)) != ROLE_MOTHER)
+        if ((s->p.role[i] & (ROLE_PARENT | ROLE_GUARD)) != ROLE_PARENT)
             continue;
         c->depth[i] = regions_distance(c->regions, s->level + 1, x);
         if (c->depth[i] >= 0.5 * s->dx)
@@ -333,7 +333,7 @@ static void look_at_children(struct population *c)
 static void mark_level(struct sph *s, const struct refinement *r)
 {
     struct population c = {.s = s, .fine = s->finer, .regions = r->regions};
-    c.off = fmax(-1.0, fmin(r->debt / most_off, 1.0));
+    c.off = fmax(-1.0, fmin(r->mass_surplus / most_off, 1.0));
     look_at_flowing(&c);
     if (s->run->step % CHILDREN_EVERY == 0)
         look_at_children(&c);

@@ -5,8 +5,8 @@
  * removal have a hysteresis of half the coarser spacing, so that none is created to be removed.
  *
  * refinement_adapt runs at the end of a step, level by level from the coarsest: children of one
- * level are there when the next is looked at. Then refinement_repay restores the mass of the fluid,
- * slowly, where levels take over from each other with unequal numbers.
+ * level are there when the next is looked at. Then refinement_restore_mass restores the mass of the
+ * fluid, slowly, where levels take over from each other with unequal numbers.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "guards.h"
 #include "refinement.h"
@@ -19,8 +19,8 @@
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
 
-static const double hysteresis = 0.5;                   /* coarser dx */
-static const double paid_back = 0.03, most_paid = 2e-4; /* a step: of the debt; of the mass */
+static const double hysteresis = 0.5;                      /* coarser dx */
+static const double restored = 0.03, most_restored = 2e-4; /* a step: of the surplus; of the mass */
 static const double steepest = 0.05; /* change of rho from parent to child, its share */
 
 /* Distances of the particles of a level to the edges of its own region and of the next finer one;
@@ -49,7 +49,7 @@ static struct depths depths_of(const struct regions *g, const struct sph *s, boo
 /* Frees both arrays. */
 static void depths_free(struct depths *is) { FREE(is->own, is->next); }
 
-/* Bits of enum sph_role of particle i but ROLE_MOTHER, with the source. Runs through the finer
+/* Bits of enum sph_role of particle i but ROLE_PARENT, with the source. Runs through the finer
  * levels until one does not flow at the particle; the last that does is the source. */
 static int role_of(const struct regions *g, const struct sph *s, const struct depths *is, int i)
 {
@@ -206,7 +206,7 @@ static void give_birth(struct sph *s, int i)
         const int child = refinement_child(s, s->finer, i, d);
         s->finer->p.role[child] = ROLE_GUARD; /* until it gets its role */
     }
-    s->p.role[i] |= ROLE_MOTHER;
+    s->p.role[i] |= ROLE_PARENT;
 }
 
 /* Particles of a level that have entered the region of the next one (next: their distances) get
@@ -215,10 +215,10 @@ static void enter(struct sph *s, const double *next)
 {
     s->finer->p.nghost = 0;
     for (int i = 0; i < s->p.n; i++)
-        if (!(s->p.role[i] & ROLE_MOTHER) && next[i] >= 0.0)
+        if (!(s->p.role[i] & ROLE_PARENT) && next[i] >= 0.0)
             give_birth(s, i);
         else if (next[i] < -hysteresis * s->dx)
-            s->p.role[i] &= (unsigned short)~ROLE_MOTHER;
+            s->p.role[i] &= (unsigned short)~ROLE_PARENT;
 }
 
 /* Whether it leaves its region, or is one guard too many, which does not come to flow now. */
@@ -262,7 +262,7 @@ static void book_energy(struct sph *s, double gained)
  * its step. */
 static void give_roles(const struct regions *g, struct sph *s, const struct depths *is, bool held)
 {
-    const int kept = ROLE_MOTHER | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0);
+    const int kept = ROLE_PARENT | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0);
     double woken = 0.0, kinetic;
     for (int i = 0; i < s->p.n; i++) {
         const int before = s->p.role[i];
@@ -442,17 +442,19 @@ void refinement_free(struct sph *s)
 /* A closed room restores 3 % of its surplus of mass in each step, at most 2e-4 of the mass, by one
  * factor on momentum, volume and mass of all that flows. Energy goes along and is entered in the
  * watch's account. */
-void refinement_repay(struct sph *s)
+void refinement_restore_mass(struct sph *s)
 {
     struct refinement *r = s->refinement;
     double sums[2] = {s->step.mass, r->gone};
     if (s->zones)
         return;
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    const double debt = r->debt = sums[0] > 0.0 ? (sums[0] + sums[1] - r->mass0) / sums[0] : 0.0;
+    const double mass_surplus = r->mass_surplus =
+        sums[0] > 0.0 ? (sums[0] + sums[1] - r->mass0) / sums[0] : 0.0;
     const double steps = r->local_steps ? fmin(ldexp(1.0, regions_levels(r->regions)), 4.0) : 1.0;
-    const double most = steps * most_paid, part = fmax(-most, fmin(steps * paid_back * debt, most));
-    if (fabs(debt) < 1e-12)
+    const double most = steps * most_restored,
+                 part = fmax(-most, fmin(steps * restored * mass_surplus, most));
+    if (fabs(mass_surplus) < 1e-12)
         return;
     double energy = 0.0, kinetic;
     s->step.mass *= 1.0 - part;

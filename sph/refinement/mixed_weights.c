@@ -36,7 +36,7 @@ static void give_birth(struct sph *s, int i, int level)
         const double d[2] = {k & 1 ? quarter : -quarter, k & 2 ? quarter : -quarter};
         mixed_bear(s, i, d, R);
     }
-    s->p.role[i] |= ROLE_MOTHER;
+    s->p.role[i] |= ROLE_PARENT;
 }
 
 /* Sets the weight chi = ramp at its own region's edge times what the next finer level leaves.
@@ -68,10 +68,10 @@ void mixed_weights(struct sph *s)
             particles_copy(&s->p, i, --s->p.n);
             continue;
         }
-        if (next >= 0.0 && !(s->p.role[i] & ROLE_MOTHER))
+        if (next >= 0.0 && !(s->p.role[i] & ROLE_PARENT))
             give_birth(s, i, level);
         else if (next < -hysteresis * dx)
-            s->p.role[i] &= (unsigned short)~ROLE_MOTHER;
+            s->p.role[i] &= (unsigned short)~ROLE_PARENT;
         weigh(s, i++, level, own, next);
     }
 }

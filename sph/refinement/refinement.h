@@ -21,7 +21,8 @@ struct refinement {
     int (*held)[APR_LEVELS_MAX + 1]; /* [BODIES_MAX]: cover.c; NULL before the first step */
     double added;       /* kg: to the mass of what flows, by changes of level; this rank */
     double mass0, gone; /* kg: of the fluid at the start, all ranks; removed since, this rank */
-    double debt;  /* -: by what fraction of the fluid's mass too much flows, at the last step */
+    double
+        mass_surplus; /* -: by what fraction of the fluid's mass too much flows, at the last step */
     double grown; /* m^dim: volume added by changes of level within this common step; this rank */
 };
 
@@ -36,7 +37,7 @@ void refinement_begin(struct sph *s, void (*settle)(struct sph *level));
 /* Generations agree in number on average only, so that mass is created and lost as they take over
  * from each other. In a closed room all that flows compensates it, slowly; volumes as well, so that
  * densities stay. Collective. */
-void refinement_repay(struct sph *s);
+void refinement_restore_mass(struct sph *s);
 /* Takes the present mass of the fluid for that of the start. Collective. */
 void refinement_remember(struct sph *s);
 /* To be called before local particle i of a level is removed. */

@@ -264,7 +264,7 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
     if (s->finer) {
         refinement_adapt(s);
         start(s, "levels");
-        refinement_repay(s);
+        refinement_restore_mass(s);
         volume_renew(s);
         stop(s, "levels");
     }
