@@ -285,7 +285,7 @@ static enum net_flux net_of(const struct fv *s, const struct forcing *f)
     const double small = 1e-9 * sum[3], *to = sides;
     const bool closed = hypot(hypot(whole[0], whole[1]), whole[2]) <= small;
     if (closed && (open || grid_overlaps(&s->grid)))
-        return NET_OUTLINE;
+        return NET_INTERFACE;
     const bool closes =
         !s->m || hypot(hypot(sum[0] + to[0], sum[1] + to[1]), sum[2] + to[2]) <= small;
     return closes && !open ? NET_SIDES : NET_OTHERS;

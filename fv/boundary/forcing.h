@@ -28,9 +28,9 @@ struct fix {
 /* Who takes the net flux of the interface with imposed cells. A partner's density is not constant,
  * and its surplus must not drive the flow between it and an outflow. */
 enum net_flux {
-    NET_OUTLINE, /* its faces, uniformly: it has a whole inside */
-    NET_SIDES,   /* they do, with that of walls and inflows: nothing leaves elsewhere */
-    NET_OTHERS   /* an outflow, or all cells in the solve for psi: the interface ends there */
+    NET_INTERFACE, /* its faces, uniformly: it has a whole inside */
+    NET_SIDES,     /* they do, with that of walls and inflows: nothing leaves elsewhere */
+    NET_OTHERS     /* an outflow, or all cells in the solve for psi: the interface ends there */
 };
 
 struct one_sided; /* given_cells.c */

@@ -59,13 +59,13 @@ static double size_of(const double still[3])
 }
 
 /* 1e-3 of |g| across is a lean; rounding is not. */
-bool still_leans(const double still[3])
+bool still_is_inclined(const double still[3])
 {
     const double g = size_of(still);
-    bool leans = false;
+    bool inclined = false;
     for (int a = 0; a < 3; a++)
-        leans = leans || (fabs(still[a]) > 1e-3 * g && fabs(still[a]) < (1.0 - 1e-6) * g);
-    return leans;
+        inclined = inclined || (fabs(still[a]) > 1e-3 * g && fabs(still[a]) < (1.0 - 1e-6) * g);
+    return inclined;
 }
 
 /* nu/(h sqrt(g h)), 0 without viscosity. */

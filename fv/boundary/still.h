@@ -20,7 +20,7 @@ struct gravity still_split(const struct scene *scene);
 /* Axis along which the balanced gravity is strongest; without any the last. */
 int still_upright(const struct scene *scene);
 /* Whether it is not along an axis. */
-bool still_leans(const double still[3]);
+bool still_is_inclined(const double still[3]);
 /* nu/(h sqrt(g h)): how fast viscosity nu, m^2/s, moves water over h, m, over how fast gravity
  * does; 0 without viscosity, else infinite without gravity. */
 double still_creep(const double still[3], double nu, double h);

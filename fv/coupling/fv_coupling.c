@@ -32,7 +32,7 @@ struct source {
     bool moves;
     double given[2][3], free[2][3]; /* m: what it gives, its free zone, at the start */
     double box[2][3];               /* m: and all of it, with its zones */
-    double pace;                    /* m/s: as fast as its box will be */
+    double fastest;                 /* m/s: as fast as its box will be */
     double stands[3];               /* m: of the box whose cells are forced now */
     double moved[9]; /* m: how far it has moved last; the box that it counts as its own then */
 };
@@ -203,7 +203,7 @@ static void meet_source(struct fv *s, const struct link *k, struct source *g)
         s->partners.moves[a] = s->partners.moves[a] || number[a] != 0.0;
     }
     find_zone(k, g, "pace", number, number);
-    g->pace = number[0];
+    g->fastest = number[0];
     find_zone(k, g, "speed", number, number);
     if (s->run->scene.nbodies > 0)
         s->speed.partner = fmax(s->speed.partner, number[0]);
@@ -395,7 +395,7 @@ void fv_coupling_create(struct fv *s)
         compare_walls(s, k, (const double(*)[2][3])all);
     make_patch(s, k, (const double(*)[2][3])all);
     k->seen = seen_size(s);
-    k->wish = s->m && k->of[0].pace > 0.0 ? least_height(s) / k->of[0].pace : INFINITY;
+    k->wish = s->m && k->of[0].fastest > 0.0 ? least_height(s) / k->of[0].fastest : INFINITY;
     if (s->surface)
         s->surface->forced = surface_forced_create(s);
     tell_of_friction(s);

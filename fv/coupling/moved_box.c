@@ -236,7 +236,7 @@ static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3],
     return f;
 }
 
-/* With a surface the volume before decides what surface_outline_moved restores. */
+/* With a surface the volume before decides what surface_interface_moved restores. */
 bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
 {
     *why = '\0';
@@ -252,7 +252,7 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
     if (s->m || !s->surface)
         renew_pressure(s);
     if (s->surface) {
-        surface_outline_moved(s, before);
+        surface_interface_moved(s, before);
         return true;
     }
     if (s->m && sides_give_pressure(s) && f->net == NET_OTHERS)

@@ -359,13 +359,13 @@ void mesh_viscous(struct fv *s, const double *q, double *out)
             layers(m->dim, a, 1, down, up);
             PART_ROWS (p, down, up, c, n)
                 normal_slope(q + c, p->stride[a], n, s->faces[0] + c);
-            const bool askew = p->kind == PART_CURVED;
-            if (askew)
+            const bool skewed = p->kind == PART_CURVED;
+            if (skewed)
                 face_values(p, m->dim, a, 2, q, s->faces[1]);
             layers(m->dim, a, 0, down, up);
             PART_ROWS (p, down, up, c, n) {
                 product_row(s->faces[0] + c, m->G[a][a] + c, tangent, nt, n, true, s->flux + c);
-                for (int t = 0; askew && t < nt; t++)
+                for (int t = 0; skewed && t < nt; t++)
                     add_tangential(s->faces[1] + c, m->G[a][axis[t]] + c, tangent[t], tangent, nt,
                                    n, s->flux + c);
             }

@@ -1,6 +1,6 @@
 /* tiles.c - the pressure of joined blocks that fill one index space (a box, an L, a ring), turned
  * or not: PFMG over all of them. Its matrix leaves out the fluxes that slopes along a face make
- * where cells are askew; the conjugate residuals round it have them. Blocks on which its cycles do
+ * where cells are skewed; the conjugate residuals round it have them. Blocks on which its cycles do
  * too little (cells of strongly different shape) are left to the others: a rough right side is
  * solved for at the start, and the cycles are counted. Given cells have rows of their own, 1, and
  * psi = 0; no flux passes their faces. SPDX-License-Identifier: BSD-3-Clause */
@@ -38,7 +38,7 @@ struct tiles {
     double least;       /* 1/m^2: shift of the cycle's matrix */
     double shift;
     bool singular;
-    bool askew; /* some cells are, and slopes along their faces look at given ones */
+    bool skewed; /* some cells are, and slopes along their faces read imposed ones */
 };
 
 static int common_divisor(int a, int b) { return b == 0 ? a : common_divisor(b, a % b); }
@@ -352,7 +352,7 @@ static void apply_part(const struct tiles *t, const struct part *p, double *out)
     }
 }
 
-static void add_askew(const struct tiles *t, const struct part *p, double *out)
+static void add_skewed(const struct tiles *t, const struct part *p, double *out)
 {
     static const int none[3] = {0, 0, 0};
     const struct mesh *m = t->s->m;
@@ -394,7 +394,7 @@ static void apply_rows(void *of, double *x, double *Ax)
             memcpy(t->psi + c, from, (size_t)n * sizeof(double));
             from += n;
         }
-    if (s->forcing && t->askew)
+    if (s->forcing && t->skewed)
         given_mirror(s, t->psi);
     else
         mesh_halo(s->m, 1, &t->psi);
@@ -403,7 +403,7 @@ static void apply_rows(void *of, double *x, double *Ax)
         const struct part *p = s->grid.part + q;
         apply_part(t, p, to);
         if (p->kind == PART_CURVED)
-            add_askew(t, p, to);
+            add_skewed(t, p, to);
         to += (int64_t)p->n[0] * p->n[1] * p->n[2];
     }
     for (int i = 0; i < t->gcr.n && s->forcing; i++)
@@ -479,8 +479,8 @@ static void *create(struct fv *s)
     gcr_create(&t->gcr, m->comm, s->poisson->n, t, apply_rows, cycle_rows);
     t->gcr.galerkin = true;
     for (int k = 0; k < m->nparts; k++)
-        t->askew = t->askew || m->part[k].kind == PART_CURVED;
-    MPI_Allreduce(MPI_IN_PLACE, &t->askew, 1, MPI_C_BOOL, MPI_LOR, m->comm);
+        t->skewed = t->skewed || m->part[k].kind == PART_CURVED;
+    MPI_Allreduce(MPI_IN_PLACE, &t->skewed, 1, MPI_C_BOOL, MPI_LOR, m->comm);
     make_pfmg(t);
     if (!is_fast(t))
         free_tiles(&of);

@@ -196,7 +196,7 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
     static const double origin[3] = {0.0, 0.0, 0.0};
     struct least_squares q;
     const int dim = s->dim,
-              order = surface_leans(s, p->part) ||
+              order = surface_inclined(s, p->part) ||
                               still_creep(s->gravity.hydrostatic, s->nu, p->spacing) > STILL_CREEPS
                           ? 1
                           : 2;
@@ -219,10 +219,10 @@ static bool is_thin(const struct fv *s, const struct place *p, int layer)
     if (window_reach(s, layer) == 1)
         return 2 * p->known < p->room;
     /* slopes over what two blocks have, each for itself, drive them apart */
-    if (p->mixed && surface_any_leans(s))
+    if (p->mixed && surface_any_inclined(s))
         return true;
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
-    if (surface_leans(s, p->part) && p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
+    if (surface_inclined(s, p->part) && p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
         return true;
     return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
 }
@@ -232,7 +232,7 @@ static bool is_thin(const struct fv *s, const struct place *p, int layer)
  * and even; and on blocks that lean rough water at rest grows faster without. */
 static bool may_slow(const struct fv *s, double h)
 {
-    return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_leans(s);
+    return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_inclined(s);
 }
 
 static void list_carry(struct surface *f, int layer, const struct carry *x)

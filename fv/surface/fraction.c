@@ -42,7 +42,7 @@ static const char *obstacle(const struct run *r, const struct mesh *m, double le
         return "blocks overlap";
     if (m && any_curved(m))
         return "cells are not upright, or change their size where blocks join";
-    if (still_leans(still))
+    if (still_is_inclined(still))
         return "gravity leans against the lines of the cells";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;
     if (falls && still_creep(still, r->scene.fluid.nu, least) > STILL_CREEPS)

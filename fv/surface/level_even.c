@@ -208,7 +208,7 @@ static void fill_even(const struct fv *s, double *phi)
 static void set_sizes(const struct block *b, const double *g, struct surface *f)
 {
     f->least = f->across = INFINITY;
-    f->leans[0] = f->any_leans = still_leans(g);
+    f->inclined[0] = f->any_inclined = still_is_inclined(g);
     for (int a = 0; a < b->dim; a++) {
         const double along = fabs(g[a]);
         if (along < 0.7 * f->g)

@@ -83,16 +83,16 @@ struct surface {
     /* m^dim: volume to be conserved, including what has come in through openings; net volume that
      * the shifts have restored. */
     double volume0, returned;
-    double lost, gained;         /* m^dim: parts of returned: restored losses, removed surplus */
-    double passed;               /* m^dim: through openings and a partner's interface, in and out */
-    double entered;              /* m^dim: through openings, in less out */
-    double carried_in;           /* m^dim: the same of the first half of a step, by the shares */
-    double through[3];           /* m^dim/s: at the start of a step, see flows() */
-    double travelled;            /* -: cells that it has moved since the last reinitialisation */
-    double least, largest;       /* m: sizes of cells */
-    bool keeps;                  /* slopes of phi behind inclined walls stay as they are */
-    bool leans[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
-    bool any_leans;              /* those of some block */
+    double lost, gained;   /* m^dim: parts of returned: restored losses, removed surplus */
+    double passed;         /* m^dim: through openings and a partner's interface, in and out */
+    double entered;        /* m^dim: through openings, in less out */
+    double carried_in;     /* m^dim: the same of the first half of a step, by the shares */
+    double through[3];     /* m^dim/s: at the start of a step, see flows() */
+    double travelled;      /* -: cells that it has moved since the last reinitialisation */
+    double least, largest; /* m: sizes of cells */
+    bool keeps;            /* slopes of phi behind inclined walls stay as they are */
+    bool inclined[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
+    bool any_inclined;              /* those of some block */
     double across;          /* m: least spacing of cells across gravity, of 45 degrees and less */
     double theta_least;     /* -: least distance of the surface from a wet centre, of h */
     double rise;            /* s^2: implicit steps: see surface_pressure.c */

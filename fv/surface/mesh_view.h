@@ -62,9 +62,9 @@ struct surface_mesh {
 struct surface;
 
 /* Whether index lines of this part are neither along gravity nor across it. */
-bool surface_leans(const struct fv *s, const struct part *p);
+bool surface_inclined(const struct fv *s, const struct part *p);
 /* The same of any part of any rank. */
-bool surface_any_leans(const struct fv *s);
+bool surface_any_inclined(const struct fv *s);
 
 /* surface_mesh.c: also sets the sizes of cells in f over all blocks. Collective. */
 struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f);

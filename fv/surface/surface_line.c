@@ -85,7 +85,7 @@ static bool look(const struct fv *s, int a, const struct cut *x, const double *p
 
 bool surface_takes_lines(const struct fv *s, const struct part *p)
 {
-    return !surface_leans(s, p) && !grid_overlaps(&s->grid);
+    return !surface_inclined(s, p) && !grid_overlaps(&s->grid);
 }
 
 void surface_line_slopes(const struct fv *s, int a, const double *psi, bool change, double *out)

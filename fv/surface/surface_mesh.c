@@ -32,12 +32,12 @@ static double mean_spacing(const struct mesh_block *b, int dim, int a)
     return sum / (double)n;
 }
 
-bool surface_leans(const struct fv *s, const struct part *p)
+bool surface_inclined(const struct fv *s, const struct part *p)
 {
-    return s->surface->leans[p - s->grid.part];
+    return s->surface->inclined[p - s->grid.part];
 }
 
-bool surface_any_leans(const struct fv *s) { return s->surface->any_leans; }
+bool surface_any_inclined(const struct fv *s) { return s->surface->any_inclined; }
 
 /* Whether some edge of the block is neither along gravity nor across it. */
 static bool is_slanting(const struct fv *s, const struct mesh_block *b)
@@ -232,7 +232,7 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
     w->count = mesh_field(s->m);
     w->height = mesh_field(s->m);
     for (int k = 0; k < s->m->nblocks; k++)
-        f->any_leans = f->any_leans || is_slanting(s, s->m->block + k);
+        f->any_inclined = f->any_inclined || is_slanting(s, s->m->block + k);
     w->out = NEW(unsigned char, s->size);
     w->keep = NEW(unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
@@ -245,8 +245,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
         const struct part *p = s->grid.part + q;
         for (int a = 0; a < s->dim; a++)
             w->size[q][a] = mean_spacing(s->m->block + p->block, s->dim, a);
-        f->leans[q] = is_slanting(s, s->m->block + p->block);
-        w->slants[q] = s->m->has_fringe || f->leans[q];
+        f->inclined[q] = is_slanting(s, s->m->block + p->block);
+        w->slants[q] = s->m->has_fringe || f->inclined[q];
         set_centres(s, p, w);
         set_metric(s, p, w);
         most = p->n[0] > most ? p->n[0] : most;

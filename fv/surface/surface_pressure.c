@@ -4,7 +4,7 @@
  * with viscosity more (surface_first_half): p_I is explicit, and 1/theta amplifies it.
  * Without gravity's part, so p_I has -(pressure at rest). In implicit steps the surface yields to
  * the velocity within the step: Newmark's scheme, for which its height counts at eta + beta dt^2
- * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off; along a line that leans by
+ * dw/dt, dw/dt = -dp/dy: the same value of p, beta g dt^2 further off; along a line inclined by
  * an angle of up to 45 degrees, where dp/dy is the slope over its cosine, over that.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"

@@ -25,7 +25,7 @@ enum {
 static double difference(const struct fv *s, int m, const double *q, int64_t i, int64_t d)
 {
     const unsigned char *layer = s->surface->layer;
-    const int last = m == 3 ? SMOOTH : surface_any_leans(s) ? LAYERS : 0;
+    const int last = m == 3 ? SMOOTH : surface_any_inclined(s) ? LAYERS : 0;
     int64_t at = i - (m - 1) * d;
     for (int k = 0; k <= m; k++, at += d)
         if (surface_holds_none(s, at) || layer[at] > last)
@@ -79,10 +79,10 @@ static double flatness(const struct fv *s, const struct part *p, int a)
 static double share_of(const struct fv *s, const struct part *p, int a, double dt)
 {
     const double calm = fmax(0.0, 1.0 - 2.0 * s->max.rate * dt);
-    if (surface_leans(s, p))
+    if (surface_inclined(s, p))
         return 1.0;
     if (grid_overlaps(&s->grid))
-        return s->surface->any_leans ? 1.0 : 0.5;
+        return s->surface->any_inclined ? 1.0 : 0.5;
     return calm * flatness(s, p, a) * fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
 }
 
@@ -90,7 +90,8 @@ void surface_smooth(struct fv *s, double dt)
 {
     for (int q = 0; q < s->grid.nparts; q++) {
         const struct part *p = s->grid.part + q;
-        const bool leans = surface_leans(s, p), overlaps = grid_overlaps(&s->grid) && !leans;
+        const bool inclined = surface_inclined(s, p),
+                   overlaps = grid_overlaps(&s->grid) && !inclined;
         double share[3], most = 0.0;
         for (int a = 0; a < s->dim; a++) {
             share[a] = share_of(s, p, a, dt);
@@ -99,7 +100,7 @@ void surface_smooth(struct fv *s, double dt)
         if (most == 0.0) /* water that is not calm */
             continue;
         for (int a = 0; a < s->dim; a++)
-            for (int k = 0; k < (leans ? PASSES : 1); k++) {
+            for (int k = 0; k < (inclined ? PASSES : 1); k++) {
                 if (k > 0 && !s->m) /* a pass sees two cells beyond a rank's own */
                     block_halo(&s->b, 1, &s->u[a]);
                 smooth_part(s, p, overlaps ? 3 : 2, share, s->u[a]);

@@ -143,7 +143,7 @@ static void set_openings(struct fv *s)
     measure_basins(s, wet);
 }
 
-void surface_outline_moved(struct fv *s, double before)
+void surface_interface_moved(struct fv *s, double before)
 {
     s->surface->ops->close_cells(s);
     s->surface->volume0 += surface_volume(s) - before;

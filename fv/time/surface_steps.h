@@ -9,7 +9,7 @@
 void surface_start(struct fv *s);
 /* After other cells have become imposed: adjusts the volume, `before', m^dim, being that in the
  * free ones before. Collective. */
-void surface_outline_moved(struct fv *s, double before);
+void surface_interface_moved(struct fv *s, double before);
 /* Extends the velocity beyond the present surface, with ghosts, and sets the fluxes there. */
 void surface_extend(struct fv *s, int layers);
 /* Moves phi by the first half of a step of dt, s. phi and u alternate: phi moves by half a step

@@ -49,7 +49,7 @@ struct watches *fv_watches_create(const struct fv *s)
                open = sides & (1u << MESH_INFLOW | 1u << MESH_OUTFLOW | 1u << MESH_CARRIED),
                slides = walls_slide(s), moves = grid_moves(&s->grid);
     struct watches *w = watches_create(s->run, &s->prm, is_periodic(s, sides), s->surface != NULL);
-    if (overlaps || (s->surface && surface_any_leans(s))) {
+    if (overlaps || (s->surface && surface_any_inclined(s))) {
         w->energy.warn *= 10.0;
         if (!s->surface)
             w->energy.stop *= 10.0;
