@@ -12,8 +12,8 @@
 #include "../base/base.h"
 #include "layer_solver.h"
 
-/* Down to 1/k, where waves have fallen to a third: below, the surface's shape is hardly felt and
- * each mode goes on by itself; but 2.5 amplitudes at least, so that troughs stay well above the
+/* Down to 1/k, where waves have fallen to a third: below, the surface's shape has hardly any effect
+ * and each mode goes on by itself; but 2.5 amplitudes at least, so that troughs stay well above the
  * lower end. */
 double layer_height(double k, double amplitude, double depth)
 {

@@ -19,7 +19,7 @@ struct stokes stokes_create(double length, double g, double rho, double amplitud
 /* m over the still level. */
 double stokes_eta(const struct stokes *w, double x);
 /* u, v (m/s), p (Pa) at (x, y), y = 0 at the still level; above the crest as at its height. p is
- * Bernoulli's for a wave that keeps its form, made 0 on the surface by an error that dies away
+ * Bernoulli's for a wave that keeps its form, made 0 on the surface by an error that decays
  * below as exp(k(y - eta)). u, p may be NULL. */
 void stokes_point(const struct stokes *w, double x, double y, double *u, double *p);
 

@@ -203,7 +203,7 @@ void wave_field_free(struct wave_field **f)
 
 /* Below the components' frequencies what is bound to them needs nothing; above, as at the highest.
  * Linear gains by direction and frequency, for modes that may be bound ones: a bound wave of long
- * length hardly feels the zone and is left as it is. */
+ * length is hardly affected by the zone and is left as it is. */
 double complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,
                                   const struct wave_component *components, int n)
 {

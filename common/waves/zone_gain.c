@@ -133,7 +133,7 @@ static void assemble(struct problem *q)
 }
 
 /* Height of the wave that leaves, of a right side. By projection on cosh k(z + h), which waves that
- * cannot travel are orthogonal to: half a length or two depths behind the zone they have died
+ * cannot travel are orthogonal to: half a length or two depths behind the zone they have decayed
  * away. */
 static double complex leaves(const struct problem *q, int way)
 {
@@ -153,7 +153,7 @@ static double complex leaves(const struct problem *q, int way)
 
 /* Three right sides at once: u_w of a wave from the side, of one to it, and a wave that comes in.
  * make asks for height 1 that leaves; pass adds just so much that what comes back is cancelled. h:
- * below 0.8 of a length waves are not felt. */
+ * below 0.8 of a length waves have no effect. */
 struct zone_response zone_response(double omega, double number, double cosine, double g,
                                    double depth, double length, double rate)
 {

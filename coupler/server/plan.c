@@ -221,8 +221,8 @@ static void check_link(const struct partner_link *l, const struct solver *g, con
         problem(text, "field %s: %s of %s has %d dimensions, %s of %s has %d", give->name,
                 from->name, g->name, from->dim, to->name, t->name, to->dim);
     if (to->is_grid)
-        problem(text, "field %s: %s takes it on grid %s; a taker needs points", give->name, t->name,
-                to->name);
+        problem(text, "field %s: %s takes it on grid %s; a target needs points", give->name,
+                t->name, to->name);
     if (!from->is_grid && !(to->support > 0.0 && isfinite(to->support)))
         problem(text, "field %s: %s of %s has no support radius in which points are gathered",
                 give->name, to->name, t->name);
@@ -271,7 +271,7 @@ static void make_link(struct coupler *c, int g, int gf, int t, int tf, char *tex
 {
     struct solver_field *give = &c->solver[g].field[gf], *take = &c->solver[t].field[tf];
     if (c->nlinks == LIMIT_LINKS || give->ntargets == LIMIT_TARGETS) {
-        problem(text, "field %s: more than %d takers of one field, or %d in the job", give->name,
+        problem(text, "field %s: more than %d targets of one field, or %d in the job", give->name,
                 LIMIT_TARGETS, LIMIT_LINKS);
         return;
     }

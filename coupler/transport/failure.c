@@ -151,7 +151,7 @@ void failure_obituary(int fd)
     }
     bool noted = failure_read(note, sizeof note);
     for (int tries = 0; !noted && !failure_witness() && tries < 20; tries++)
-        sleep_ms(10); /* who has just died may not be buried yet */
+        sleep_ms(10); /* who has just ended may still be in the table of processes */
     noted = noted || failure_read(note, sizeof note);
     append(text, self.who);
     append(text, ": the job ends: ");
@@ -191,7 +191,7 @@ void failure_watch(const char *program, int rank, long pid)
     w->pid = pid;
     snprintf(w->who, sizeof w->who, "%.63s rank %d (process %ld)", program, rank, pid);
     /* A process of another container may share our host name but not our process numbers; or it
-     * died right after its first word. */
+     * ended right after its first word. */
     if (kill((pid_t)pid, 0) == 0)
         self.nwatched++;
     else
