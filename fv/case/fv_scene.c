@@ -254,8 +254,8 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
 }
 
 /* Between columns of flat cells a sloping surface jumps by as many rows as the cells are long, and
- * the band around it no longer knows its distance. A tilted basin: energy of its swing right to 0.3
- * % at 100, off by 2 % at 200, by 4 % at 1000, said by nothing. */
+ * the band around it no longer knows its distance. A tilted basin: energy of its oscillation right
+ * to 0.3 % at 100, off by 2 % at 200, by 4 % at 1000, said by nothing. */
 #define ASPECT_MOST 200.0
 
 static void check_aspect(const struct run *r, struct faults *f)

@@ -17,7 +17,7 @@ static int stencil(const struct mesh *m, const struct mesh_exchange *x)
 }
 
 /* Requests in the order of the ranks that give. in[] stays with this rank; out, weight and part go
- * to the givers. */
+ * to the ranks that send. */
 static void sort_requests(struct mesh *m, struct mesh_exchange *x, int64_t n,
                           const struct mesh_request *request, int *count, int64_t *out,
                           double *weight, int *part)

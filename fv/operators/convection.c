@@ -4,8 +4,8 @@
  * product of two face averages is not the average of the product
  *   upwind bias q_f += sign(U) theta d/12, d = q_1 - 3 q_0 + 3 q_-1 - q_-2: theta = 1 is the
  * third-order upwind value. theta = min(1, C r^2), r = |d| over the sum of the differences it is
- * made of: 1 on a zigzag, O(h^2) where the flow is resolved, so that the bias is O(h^7) there
- * With layers of unequal height the face values along y have weights of their own (rows.h);
+ * made of: 1 on an odd-even mode, O(h^2) where the flow is resolved, so that the bias is O(h^7)
+ * there With layers of unequal height the face values along y have weights of their own (rows.h);
  * products and bias stay as they are: heights that vary smoothly change them by O(h^2) of a small
  * term. Beside a wall that slides the differences along t are one-sided: its ghosts over fluid at
  * rest are 4 V, and their product, V^2/3, is a flux of momentum that the cells cannot hold.

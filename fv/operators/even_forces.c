@@ -33,7 +33,7 @@ static double slope_at(const double *u, const struct side_face *f)
     return 15.0 * (u[0] - first) - (u[f->in] - second);
 }
 
-/* The fluxes of the momentum equation, so that walls take what the flow loses. A dry wall feels
+/* The fluxes of the momentum equation, so that walls take what the flow loses. On a dry wall acts
  * nothing; beside one that is wet the cell's own pressure counts. With p the pressure on the wall,
  * out the outward direction and d/dn inwards,
  *   F_a += out A (p + rho g.(x - level) + p_partners),   F_q += A mu du_q/dn. */

@@ -9,7 +9,7 @@
  * damps long ones; measured for waves of 4 to 24 cells and all theta. Below 0.2 the slopes answer
  * twice to what quadratic extension makes of an odd-even mode of the lines: it grows.
  * Not where lines slant, cut along two axes, each for itself, nor where blocks overlap: waves grow
- * more by it than by means, or swing otherwise than on one block.
+ * more by it than by means, or oscillate otherwise than on one block.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 

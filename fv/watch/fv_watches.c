@@ -74,7 +74,7 @@ struct watches *fv_watches_create(const struct fv *s)
         w->energy_every = 20;
         w->speed = fmax(w->speed, s->speed.reference);
     }
-    if (s->surface) /* whose steps are long beside the swing of short waves' work, and dear */
+    if (s->surface) /* whose steps are long beside the period of short waves' work, and expensive */
         w->energy_every = 1;
     return w;
 }

@@ -321,9 +321,9 @@ static double longest_period(const struct scene *s)
     return depth > 0.0 ? 2.0 * M_PI / sqrt(g * k * tanh(k * depth)) : INFINITY;
 }
 
-/* newton is stable at any step for small waves, but steps of a quarter of a basin's period make it
- * swing by more and more: 1 m x 0.4 m on 20 x 16 cells, swings of 0.035 m: after 8 s 0.028 m at 11
- * steps a period, 0.031 at 7, 0.21 at 4.4, 0.27 at 3. */
+/* newton is stable at any step for small waves, but with steps of a quarter of a basin's
+ * period their amplitude grows: 1 m x 0.4 m on 20 x 16 cells, 0.035 m at first: after 8 s 0.028 m
+ * at 11 steps a period, 0.031 at 7, 0.21 at 4.4, 0.27 at 3. */
 static void warn_long_steps(const struct run *r, const struct fv_params *p, double h)
 {
     const double T = p->water ? longest_period(&r->scene) : INFINITY;
@@ -334,7 +334,7 @@ static void warn_long_steps(const struct run *r, const struct fv_params *p, doub
                  dt = fmin(fmin(most, every), r->scene.time.end);
     if (dt > T / STEPS_OF_WAVE)
         log_warn("fv.cfl: newton's steps of %.2g s are long for the water, whose longest wave has "
-                 "a period of %.2g s: below %g steps a period it swings by more and more; fv.cfl "
+                 "a period of %.2g s: below %g steps a period its amplitude grows; fv.cfl "
                  "below %.2g",
                  dt, T, STEPS_OF_WAVE, limits_cfl(p) * T / STEPS_OF_WAVE / most);
 }

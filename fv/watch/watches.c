@@ -16,9 +16,9 @@ enum { WATCHES = 5 };
 
 /* Warning level of odd-even waves with a surface, whose jets and films are thinner than cells. */
 #define SPRAY 0.10
-/* With a surface: an impact whose jets are thinner than cells swings to 0.1 and back within some
- * steps; in a run that blows up, and in water at rest that grows, most of the energy comes from
- * nowhere. */
+/* With a surface: an impact whose jets are thinner than cells rises to 0.1 and falls back within
+ * some steps; in a run that blows up, and in water at rest that grows, most of the energy comes
+ * from nowhere. */
 #define MOST_OF_IT 0.7
 /* Of the volume: from here on the run is not accepted. */
 #define RETURNED_MOST 0.05
@@ -140,11 +140,11 @@ bool watches_want_waves(const struct watches *w, int64_t step)
     return step % w->waves_every == 0;
 }
 
-/* What a gain is measured by: the energy there is. A flow that swings between energy of motion and
- * of height has the largest that it had of either. One between walls or openings has at least what
- * its scene's velocity makes, for a sudden start, whose layers are thinner than a cell, has no
- * budget to the percent of the little energy of its first steps; and what viscosity turns over in
- * those steps, whose pressure is not known to the percent of that either. */
+/* What a gain is measured by: the energy there is. A flow that oscillates between kinetic energy
+ * and that of height has the largest that it had of either. One between walls or openings has at
+ * least what its scene's velocity makes, for a sudden start, whose layers are thinner than a cell,
+ * has no budget to the percent of the little energy of its first steps; and what viscosity turns
+ * over in those steps, whose pressure is not known to the percent of that either. */
 static double scale_of(const struct watches *w, const struct flow_energy *e, double energy,
                        double time)
 {
@@ -159,8 +159,8 @@ static double scale_of(const struct watches *w, const struct flow_energy *e, dou
 /* In a periodic domain the energy about the mean flow, which no force even in space changes; else
  * all of it less the work of sides and gravity, by the trapezoidal rule between looks. With a
  * surface no more than what the kinetic energy has risen to beyond its largest before: gravity's
- * work on waves of a few cells swings by half of their energy, grow or not. The first 100 steps of
- * a run with a surface have no scale yet and are not judged. */
+ * work on waves of a few cells oscillates by half of their energy, grow or not. The first 100 steps
+ * of a run with a surface have no scale yet and are not judged. */
 void watches_energy(struct watches *w, const struct flow_energy *e, double t, int64_t step,
                     struct diagnosis *d)
 {
@@ -187,7 +187,8 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
 
 /* Over the flow's root mean square; of pressure over its own about the mean, or a twentieth of the
  * mean of u^2 where pressure hardly varies. Of both a tenth of what they were at the look before
- * counts: a flow that swings is at rest now and then, and has no pressure when it is fastest. */
+ * counts: a flow that oscillates is at rest now and then, and has no pressure when it is fastest.
+ */
 void watches_waves(struct watches *w, const struct flow_waves *v, double volume, double t,
                    int64_t step, struct diagnosis *d)
 {
