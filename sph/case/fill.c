@@ -449,7 +449,8 @@ void fill_finer(struct sph *s, const struct fill *f)
         set_fields(s, &e, true, weighed, NULL, 1.0);
         return;
     }
-    /* Gaps are at walls, or between families of displaced parents, twice as wide for each level. */
+    /* Gaps are at walls, or between the children of displaced parents, twice as wide for each
+     * level. */
     const bool gaps = s->walls || (s->prm.noise > 0.0 && s->finer->finer);
     struct fill_columns c = columns_create(s, &e);
     const bool rows = surface_rows_wanted(s), packed = s->prm.packing > 0;

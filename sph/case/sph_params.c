@@ -189,7 +189,7 @@ static int bed_with_friction(const struct run *r)
     return -1;
 }
 
-/* No-slip walls that meet: a particle in the corner rubs at both. */
+/* No-slip walls that meet: both exert friction on a particle in the corner. */
 static bool has_no_slip_corner(const struct scene *c, const struct sph_params *prm)
 {
     bool any = false, axis[3] = {false, false, false};
@@ -248,8 +248,8 @@ static double central_share(const struct sph_params *prm)
 }
 
 /* Bounds of plane waves on a lattice, with margin; of Monaghan's term beside normal flux walls,
- * where water that runs up a corner crowds: measured. With normal flux the first row rubs at its
- * wall with 40 nu/R^2 beside what the lattice has (nu/R^2 times 2.75 over its bound, on the
+ * where water that runs up a corner crowds: measured. With normal flux the first row has friction
+ * at its wall with 40 nu/R^2 beside what the lattice has (nu/R^2 times 2.75 over its bound, on the
  * negative axis of RK4, which ends at 2.785; other schemes in time in proportion), in a corner
  * three times that: 0.055 and 0.028 hold, with noise. Edges and corners in 3D were not measured
  * anew. */

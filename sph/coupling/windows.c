@@ -109,7 +109,7 @@ static double lateral(const struct run *r, const struct sph_params *prm, const b
     return k;
 }
 
-/* Added mass that SPH feels at one side, of the partner's region between its forced cells and a
+/* Added mass that acts on SPH at one side, of the partner's region between its forced cells and a
  * wall d behind them, by potential theory: coth(k d)/k there, cosh along the overlap D. m: per area
  * and density. Along the overlap D the motion decays as cosh or exp. */
 static double mass_at(const struct run *r, const struct sph_params *prm, const bool *open, int side,
@@ -176,9 +176,9 @@ static double tiled(const struct scene *c, double T)
     return n > 0 ? c->time.end / (double)n : T;
 }
 
-/* s over a radian of the sound that swings between a partner's water and a box that is open at its
- * top alone, under the partner's surface: what stands over it moves as a whole on the box's water
- * as on a spring, and no side lets that sound go. INFINITY: another box. */
+/* s over a radian of the sound that oscillates between a partner's water and a box that is open at
+ * its top alone, under the partner's surface: what stands over it moves as a whole on the box's
+ * water as on a spring, and no side lets that sound go. INFINITY: another box. */
 static double sound_time(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;

@@ -57,7 +57,7 @@ static void remove_leavers(struct sph *s)
 
 /* rho u.n dx^(D-1) of the faces this rank owns [6.13], from the flow outside at the middle of the
  * step. drain is what leaves through every face for the voids' sake (openings.c): it is no inflow,
- * and what is owed falls by it. */
+ * and the deficit falls by it. */
 static void add_fluxes(struct sph *s, double dt)
 {
     struct openings *o = s->zones->openings;

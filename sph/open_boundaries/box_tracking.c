@@ -5,7 +5,7 @@
  * from crest to crest. The box answers as a mass on a spring with critical damping that also knows
  * its speed of before, so that behind a crest of constant speed it does not lag: e = crest -
  * middle, dv/dt = e/tau^2, dx/dt = v + 2 e/tau, both no faster than box_tracking_speed. Without a
- * crest v dies. SPDX-License-Identifier: BSD-3-Clause */
+ * crest v decays. SPDX-License-Identifier: BSD-3-Clause */
 #include "box_tracking.h"
 
 #include <math.h>

@@ -18,7 +18,8 @@
 /* The blending of velocities holds a step of pressure of 0.7 % of rho g H by a difference of 5e-5
  * c0 between what flows in the two programs: in proportion alone a gap of a tenth of dx stays. A
  * slower part, four times that, takes it away. Of Flather's sqrt(g/d): 1 would take all of a step
- * at once, and feed waves (3e-4 sqrt(g/H)); with 0.1 to 0.2 a step dies by 0.5 to 5.5 sqrt(g/H). */
+ * at once, and feed waves (3e-4 sqrt(g/H)); with 0.1 to 0.2 a step decays by 0.5 to 5.5 sqrt(g/H).
+ */
 static const double kappa = 0.1;
 /* Of a level that is kept: with 0.1 4 m of water took 16 s to come back. A box in a wave errs
  * by 4.3 instead of 4.0 % of its velocity with it. */

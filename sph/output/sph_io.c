@@ -268,7 +268,7 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 12 };
 /* The member itself. */
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
 
-/* Samples of what swings, so that a restarted run fits all of them. */
+/* Samples of an oscillation, so that a restarted run fits all of them. */
 static void save_signal(const struct sph *s, struct h5 *f)
 {
     const struct fit *g = &s->total.signal_fit;

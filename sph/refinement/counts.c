@@ -4,7 +4,7 @@
  *   gap(x) = sum over parents and their 2^D children c of W(x - x_c)/W(0)
  *            - sum over the finer level's particles j of W(x - x_j)/W(0),
  * with the support R of the finer level: 0 beside walls, surfaces and edges as well. It is averaged
- * over the parents that flow in its support, for single families are no lattice.
+ * over the parents that flow in its support, for the children of one parent are no lattice.
  *
  * Every EVERY steps, from integrate.c after the lists of guards are made: look_at_flowing adds
  * guards where parents lack children, look_at_children (rarer) marks guards that are too many. Of
@@ -36,7 +36,7 @@ static const double hole = 0.6;      /* spacings from the next one: room for one
 enum {
     EVERY = 2,           /* steps: parents are looked at */
     CHILDREN_EVERY = 16, /* and children */
-    ROUNDS = 4,          /* of wishes, of those that nobody near has outbid */
+    ROUNDS = 4,          /* of requests, of those that nobody near has outbid */
     PLACES = 5           /* along each axis: where a hole is looked for, births' among them */
 };
 static const double nothing = 1e30; /* no gap is known */
@@ -239,7 +239,7 @@ static bool is_before(const struct sph *s, int i, int j)
 
 enum { GRANTED = -1 }; /* instead of a wish */
 
-/* Whether nobody within R/2 of i wishes for more or has been granted what it wished for. Ties go by
+/* Whether nobody within R/2 of i requests more or has been granted what it requested. Ties go by
  * position, so that both particles of a pair, whichever rank looks, agree. */
 static bool leads(const struct sph *s, int i, const double *wish, const double *ghost_wish)
 {
@@ -282,8 +282,8 @@ static void grant(struct population *c, struct sph *s, double *wish,
 /* Creates the child in the hole found for parent i. */
 static void give_child(struct population *c, int i) { create_child(c->fine, c->hole[i], c->s, i); }
 
-/* Parents that flow, but those as deep as R - dx, where guards of the finer level end: each wishes
- * for a child as far as its mean gap goes beyond the bound. Collective. */
+/* Parents that flow, but those as deep as R - dx, where guards of the finer level end: each
+ * requests a child as far as its mean gap goes beyond the bound. Collective. */
 static void look_at_flowing(struct population *c)
 {
     struct sph *s = c->s;

@@ -1,7 +1,7 @@
 /* body_impedance.c - how fast sound stops a free body. A wall that moves at u against a fluid of
- * impedance rho c feels rho c u.n at once (the added mass only when the sound has run around it),
- * so the body's velocity falls at the eigenvalues of M^-1 Z, Z = int rho c [n; r x n][n; r x n]^T
- * dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
+ * impedance rho c is loaded by rho c u.n at once (the added mass only when the sound has run around
+ * it), so the body's velocity falls at the eigenvalues of M^-1 Z, Z = int rho c [n; r x n][n; r x
+ * n]^T dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
 #include "../../common/geometry/geometry.h"

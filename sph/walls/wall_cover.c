@@ -183,7 +183,7 @@ static bool is_double(const struct cover_plane *p, int piece)
     return false;
 }
 
-/* Of two walls back to back nothing is felt, of two in one place one is enough. */
+/* Of two walls back to back nothing acts, of two in one place one is enough. */
 static void drop_doubles(struct cover_plane *p)
 {
     struct piece *kept = NEW(struct piece, p->npieces);

@@ -113,8 +113,8 @@ static void lines(struct sph *s)
             no_slip(side, n, prim_line(&s->p, root) + dim, rub, dim);
             for (int a = 0; a < dim; a++)
                 rub[a] -= u[a];
-            /* Across a side of a corner the no-slip form takes back what the slip form rubs; that
-             * of Monaghan's term rubs otherwise, and the rest would drive. */
+            /* Across a side of a corner the no-slip form takes back the friction of the slip form;
+             * that of Monaghan's term is another, and the rest would accelerate the fluid. */
             for (int a = 0; a < n && n > 1 && s->prm.viscosity != VISCOSITY_MORRIS; a++)
                 rub[side[a]->axis] = 0.0;
         }

@@ -246,7 +246,7 @@ static bool is_beyond(const struct trimesh *m, int triangle, const double *lo, c
 }
 
 /* A mesh at rest ends where a side of the domain is a wall: what it has beyond, or back to back
- * with the side, is felt by none. */
+ * with the side, acts on none. */
 static void end_at_sides(const struct sph *s, struct wall_mesh *m)
 {
     const double near = 0.1 * s->dx, nearest = 1e-6 * s->dx;

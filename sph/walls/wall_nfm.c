@@ -269,7 +269,7 @@ struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped, mu;
     bool in_air;               /* a layer one particle thick, or less */
-    double pairs[3], walls[3]; /* 0: no wall here rubs; see friction_weight */
+    double pairs[3], walls[3]; /* 0: no wall here exerts friction; see friction_weight */
 };
 
 /* What the wall gives to a particle, over its volume. */

@@ -1,8 +1,8 @@
 /* wall_thin3.c - walls thinner than the support, in 3D: pairs that look through one are cut, a
- * particle feels the triangles alone that it sees, and where what it sees ends at a rim, the plane
- * through it and the rim closes its sums: the rest of the kernel lies in the wall's shadow. gamma
- * = 1 + the sum over what is seen is exact so (f (y - x) has no flux through the shadow's sides).
- * SPDX-License-Identifier: BSD-3-Clause */
+ * particle interacts with the triangles alone that it sees, and where what it sees ends at an edge,
+ * the plane through it and the edge closes its sums: the rest of the kernel lies in the wall's
+ * shadow. gamma = 1 + the sum over what is seen is exact so (f (y - x) has no flux through the
+ * shadow's sides). SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_list.h"
 
 #include <math.h>
