@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "../base/base.h"
 #include "program.h"
 #include "run_files.h"
 
@@ -32,7 +33,7 @@ static void write_folder(FILE *f, const char *dir)
 static void write_scene(FILE *f, const struct scene *s)
 {
     const double *g = s->fluid.gravity, *a = s->domain.min, *b = s->domain.max;
-    const double all = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]), G = all > 0.0 ? all : 1.0;
+    const double all = vec3_length(g), G = all > 0.0 ? all : 1.0;
     fprintf(f, "dim, up = %d, [%g, %g, %g]\n", s->domain.dim, -g[0] / G, -g[1] / G,
             all > 0.0 ? -g[2] / G : 1.0);
     fprintf(f, "low, high = [%.9g, %.9g, %.9g], [%.9g, %.9g, %.9g]\n", a[0], a[1], a[2], b[0], b[1],

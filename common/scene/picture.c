@@ -144,7 +144,7 @@ void picture_box(struct picture *p, enum picture_kind kind, const double lo[3], 
 /* Water below a level against gravity, cut to the domain: a half plane in the picture. */
 static void below(struct picture *p, enum picture_kind kind, double level)
 {
-    const double *g = p->s->fluid.gravity, G = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double *g = p->s->fluid.gravity, G = vec3_length(g);
     const double n[2] = {G > 0.0 ? -g[p->axis[0]] / G : 0.0, G > 0.0 ? -g[p->axis[1]] / G : 1.0};
     double box[4][2], kept[8][2];
     int m = 0;

@@ -89,7 +89,7 @@ static void check_lines(const struct scene *s, const struct params *p, struct fa
 static void check_pumping(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     const struct scene_wall *w = s->walls + k;
-    const double *u = w->velocity, size = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    const double *u = w->velocity, size = vec3_length(u);
     double across = 0.0;
     char key[64];
     snprintf(key, sizeof key, "walls.[%d].velocity", k);
@@ -314,7 +314,7 @@ static void check_names(const struct scene *s, const struct params *p, struct fa
 /* Water on earth in other units than SI: 981 cm/s^2, 9810 mm/s^2, 1 mm^2/s. */
 static void warn_units(const struct scene *s)
 {
-    const double *v = s->fluid.gravity, g = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const double *v = s->fluid.gravity, g = vec3_length(v);
     const double nu = s->fluid.nu;
     if (fabs(g / 981.0 - 1.0) < 0.01 || fabs(g / 9810.0 - 1.0) < 0.01)
         log_warn("fluid.gravity: %g m/s^2 looks like %s/s^2: all is SI, 9.81 on earth", g,

@@ -5,12 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/base.h"
 #include "exact.h"
 #include "scene_fluid.h"
 #include "scene_mesh.h"
 #include "scene_reference.h"
-
-static double size_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 static double extent(const struct scene *s, int a) { return s->domain.max[a] - s->domain.min[a]; }
 
@@ -57,8 +56,8 @@ static double first_speed(const struct scene *s)
                          f->field == FIELD_TWO_MODES || f->field == FIELD_BELTRAMI;
     double more = 0.0;
     for (int k = 0; k < s->nshapes; k++)
-        more = fmax(more, s->shapes[k].hole ? 0.0 : size_of(s->shapes[k].velocity));
-    return field_speed(s) + (carried ? size_of(f->velocity) : 0.0) + more;
+        more = fmax(more, s->shapes[k].hole ? 0.0 : vec3_length(s->shapes[k].velocity));
+    return field_speed(s) + (carried ? vec3_length(f->velocity) : 0.0) + more;
 }
 
 /* Area (in 2D length) of a side of the domain. */
@@ -76,7 +75,7 @@ static double inflow_speed(const struct scene *s)
     double speed = 0.0, rate = 0.0, out = 0.0;
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
-        const double u = size_of(w->velocity);
+        const double u = vec3_length(w->velocity);
         if (w->kind == WALL_INFLOW) {
             speed = fmax(speed, u);
             rate += area(s, w->side) * u * (w->profile == PROFILE_PARABOLIC ? 2.0 / 3.0 : 1.0);
@@ -92,7 +91,7 @@ static double wall_speed(const struct scene *s)
     double speed = 0.0;
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].kind < WALL_INFLOW)
-            speed = fmax(speed, size_of(s->walls[k].velocity));
+            speed = fmax(speed, vec3_length(s->walls[k].velocity));
     return speed;
 }
 
@@ -128,9 +127,9 @@ static double body_speed(const struct scene *s)
             const double d[3] = {(i & 1 ? mesh->hi : mesh->lo)[0] - centre[0],
                                  (i & 2 ? mesh->hi : mesh->lo)[1] - centre[1],
                                  (i & 4 ? mesh->hi : mesh->lo)[2] - centre[2]};
-            reach = fmax(reach, size_of(d));
+            reach = fmax(reach, vec3_length(d));
         }
-        speed = fmax(speed, size_of(b->velocity) + size_of(b->spin) * reach);
+        speed = fmax(speed, vec3_length(b->velocity) + vec3_length(b->spin) * reach);
     }
     return speed;
 }
@@ -143,14 +142,14 @@ static double weight(const struct scene *s, double g[3])
         g[a] = a < s->domain.dim && !s->domain.periodic[a] && of.slope[a] == 0.0
                    ? s->fluid.gravity[a]
                    : 0.0;
-    return size_of(g);
+    return vec3_length(g);
 }
 
 /* Range of heights against gravity of a box cut to the domain; axes without extent go through. */
 static void heights(const struct scene *s, const double *g, const double *lo, const double *hi,
                     double range[2])
 {
-    const double size = size_of(g);
+    const double size = vec3_length(g);
     range[0] = range[1] = 0.0;
     for (int a = 0; a < s->domain.dim; a++) {
         const bool whole = !(hi[a] > lo[a]);
@@ -354,7 +353,7 @@ static double shortest(const struct scene *s)
  * uniform inflow that meets one at once, a body that starts. */
 static bool has_jumps(const struct scene *s)
 {
-    const bool stream = s->initial.field == FIELD_UNIFORM && size_of(s->initial.velocity) > 0.0;
+    const bool stream = s->initial.field == FIELD_UNIFORM && vec3_length(s->initial.velocity) > 0.0;
     bool jumps = stream && has_friction(s);
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
@@ -366,8 +365,9 @@ static bool has_jumps(const struct scene *s)
     }
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;
-        jumps = jumps || (b->kind == WALL_NO_SLIP && (size_of(b->velocity) > 0.0 ||
-                                                      size_of(b->spin) > 0.0 || b->motion.n > 0));
+        jumps = jumps ||
+                (b->kind == WALL_NO_SLIP &&
+                 (vec3_length(b->velocity) > 0.0 || vec3_length(b->spin) > 0.0 || b->motion.n > 0));
     }
     return jumps;
 }

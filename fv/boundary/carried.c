@@ -91,5 +91,5 @@ double carried_flux(const struct outflow *o, int dim, int64_t i)
 double carried_area(const struct outflow *o, int64_t i)
 {
     const double S[3] = {o->S[0][i], o->S[1][i], o->S[2] ? o->S[2][i] : 0.0};
-    return sqrt(S[0] * S[0] + S[1] * S[1] + S[2] * S[2]);
+    return vec3_length(S);
 }

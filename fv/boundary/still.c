@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 
 /* level: the case's, or without one the height of the highest point of the domain, against
@@ -53,15 +54,10 @@ int still_upright(const struct scene *scene)
     return up;
 }
 
-static double size_of(const double still[3])
-{
-    return sqrt(still[0] * still[0] + still[1] * still[1] + still[2] * still[2]);
-}
-
 /* 1e-3 of |g| across is a lean; rounding is not. */
 bool still_is_inclined(const double still[3])
 {
-    const double g = size_of(still);
+    const double g = vec3_length(still);
     bool inclined = false;
     for (int a = 0; a < 3; a++)
         inclined = inclined || (fabs(still[a]) > 1e-3 * g && fabs(still[a]) < (1.0 - 1e-6) * g);
@@ -71,7 +67,7 @@ bool still_is_inclined(const double still[3])
 /* nu/(h sqrt(g h)), 0 without viscosity. */
 double still_creep(const double still[3], double nu, double h)
 {
-    const double fall = h * sqrt(h * size_of(still));
+    const double fall = h * sqrt(h * vec3_length(still));
     return nu > 0.0 ? nu / fall : 0.0;
 }
 

@@ -157,7 +157,7 @@ static double least_height(const struct mesh *m)
         PART_CELLS (p, i, c)
             for (int a = 0; a < m->dim && m->status[c] == CELL_COMPUTED; a++) {
                 const double S[3] = {m->S[a][0][c], m->S[a][1][c], m->dim == 3 ? m->S[a][2][c] : 0};
-                least = fmin(least, m->V[c] / sqrt(S[0] * S[0] + S[1] * S[1] + S[2] * S[2]));
+                least = fmin(least, m->V[c] / vec3_length(S));
             }
     }
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);

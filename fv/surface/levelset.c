@@ -230,7 +230,7 @@ struct surface *levelset_create(const struct fv *s)
     f->none = (const unsigned char *)f->closed;
     if (s->prm.integrator != INTEGRATOR_RK3)
         f->half = NEW(double, s->size);
-    f->g = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    f->g = vec3_length(g);
     f->ops->start(s, f);
     f->ops->ghosts(s, f->phi);
     return f;

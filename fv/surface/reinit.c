@@ -37,7 +37,7 @@ static double slope_of(const struct fv *s, const struct part *p, const double *p
 {
     double g[3] = {0.0, 0.0, 0.0};
     s->surface->ops->gradient(s, p, c, j, phi, g);
-    return sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    return vec3_length(g);
 }
 
 static struct spot look(const struct fv *s, const struct part *p, const double *phi, int64_t c,

@@ -108,7 +108,7 @@ static void set_metric(const struct fv *s, const struct part *p, struct surface_
  * lines that are steeper than 45 degrees. */
 static double across_gravity(const struct fv *s, const struct surface_mesh *w, int64_t c, int64_t d)
 {
-    const double *g = s->gravity.hydrostatic, size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double *g = s->gravity.hydrostatic, size = vec3_length(g);
     double e2 = 0.0, up = 0.0;
     for (int k = 0; k < s->dim; k++) {
         const double e = 0.5 * (w->x[k][c + d] - w->x[k][c - d]);

@@ -94,10 +94,10 @@ static bool is_water(const struct scene *c, const struct exact *e, const double 
 static int leaves_by(const struct scene *c, const struct fall_region *in, struct parcel *p,
                      const double *g, double stride)
 {
-    const double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double size = vec3_length(g);
     double t = 0.0, d[3] = {0.0, 0.0, 0.0};
     for (int k = 0; k < STRIDES && t < c->time.end; k++) {
-        const double speed = sqrt(p->u[0] * p->u[0] + p->u[1] * p->u[1] + p->u[2] * p->u[2]);
+        const double speed = vec3_length(p->u);
         const double dt = fmin(sqrt(2.0 * stride / size), stride / speed);
         for (int a = 0; a < c->domain.dim; a++) {
             d[a] = dt * (p->u[a] + 0.5 * dt * g[a]);

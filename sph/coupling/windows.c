@@ -31,15 +31,13 @@ static const double cells_least =
     1.5;                             /* dx: 0.106 % of error at 2.5, 0.216 % at 1 (Taylor-Green) */
 static const double most_way = 24.0; /* R/c0: longer ones were never tried */
 
-static double length_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 /* Largest speed that walls and bodies are given, m/s: translation plus spin times the farthest
  * vertex. */
 static double speed_of_bodies(const struct scene *c)
 {
     double U = 0.0;
     for (int k = 0; k < c->nwalls; k++)
-        U = fmax(U, length_of(c->walls[k].velocity));
+        U = fmax(U, vec3_length(c->walls[k].velocity));
     for (int k = 0; k < c->nbodies; k++) {
         const struct scene_body *b = c->bodies + k;
         double far = 0.0;
@@ -49,7 +47,7 @@ static double speed_of_bodies(const struct scene *c)
         const struct trimesh *m = scene_body_mesh(c, k);
         for (int i = 0; m && i < m->nvertices; i++)
             far = fmax(far, vec3_distance(m->x[i], b->centre));
-        U = fmax(U, length_of(b->velocity) + length_of(b->spin) * far);
+        U = fmax(U, vec3_length(b->velocity) + vec3_length(b->spin) * far);
     }
     return U;
 }
@@ -66,7 +64,7 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
 {
     const struct scene *c = &r->scene;
     const int field = c->initial.field, down = scene_still_axis(c);
-    const double carried = length_of(c->initial.velocity);
+    const double carried = vec3_length(c->initial.velocity);
     const bool own = field != FIELD_REST || is_given(r, "initial.U");
     const bool periodic_field = scene_has_wave(c) || field == FIELD_TAYLOR_GREEN ||
                                 field == FIELD_TWO_MODES || field == FIELD_BELTRAMI;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
@@ -107,7 +108,7 @@ double box_motion_speed(const struct run *r, const struct sph_params *prm)
         return box_tracking_speed(r);
     if (!prm->box_follows[0]) { /* the same bits whenever the run ends */
         box_motion_foretold(r, prm, 1.0, now);
-        return sqrt(now[0] * now[0] + now[1] * now[1] + now[2] * now[2]);
+        return vec3_length(now);
     }
     if (!box_motion_foretold(r, prm, 0.0, before))
         return prm->speed.speed;

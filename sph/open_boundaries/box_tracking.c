@@ -10,6 +10,7 @@
 
 #include <math.h>
 
+#include "../../common/base/base.h"
 #include "zones.h"
 
 static const double share = 0.25; /* of the time in which the fastest box goes its length: tau */
@@ -19,7 +20,7 @@ static const double least = 5.0;  /* particles that make a crest, in each column
 static double upwards(const struct run *r, double up[3])
 {
     const double *g = r->scene.fluid.gravity;
-    const double size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double size = vec3_length(g);
     for (int a = 0; a < 3; a++)
         up[a] = size > 0.0 ? -g[a] / size : 0.0;
     return size;

@@ -287,7 +287,7 @@ static bool any_side(const bool *has, int dim)
 void zones_gauge(struct sph *s)
 {
     struct zones *z = s->zones;
-    const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
+    const double *G = s->gravity, g = vec3_length(G);
     struct openings *o = z->openings;
     double inflow;
     z->gauge = 0.0;

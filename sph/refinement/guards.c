@@ -325,7 +325,7 @@ static double matched_density(const struct sph *s, double rho, double from, doub
 INLINE double take_near(struct sph *s, const struct guard_sums sum[2], const struct sph *fine,
                         double f[4], const int dim)
 {
-    const double *G = s->gravity, g = sqrt(G[0] * G[0] + G[1] * G[1] + G[2] * G[2]);
+    const double *G = s->gravity, g = vec3_length(G);
     double W = 0.0;
     for (int c = 0; c <= dim; c++)
         f[c] = 0.0;

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
@@ -100,7 +101,7 @@ static void ask_criteria(struct sph *s)
         domain_halo_start(q, true);
         domain_halo_finish(q, true);
     }
-    criteria_begin(g, s->step.max_speed, sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]));
+    criteria_begin(g, s->step.max_speed, vec3_length(f));
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             if (particles_is_guard(&q->p, i))

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "vec_math.h"
 
@@ -15,18 +16,6 @@ static const double C = 21.0 / (2.0 * M_PI); /* W = C (1-r)^4 (1+4r) */
 /* fmin and fmax are calls: they know NaN. */
 static inline double less(double a, double b) { return a < b ? a : b; }
 static inline double more(double a, double b) { return a > b ? a : b; }
-
-static double dot(const double *a, const double *b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double *a, const double *b, double *c)
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 struct facet facet_of(const double *a, const double *b, const double *c)
 {
@@ -39,8 +28,8 @@ struct facet facet_of(const double *a, const double *b, const double *c)
         e[1][k] = c[k] - a[k];
         f.centre[k] = (a[k] + b[k] + c[k]) / 3.0;
     }
-    cross(e[0], e[1], f.n);
-    const double twice = sqrt(dot(f.n, f.n));
+    vec3_cross(e[0], e[1], f.n);
+    const double twice = vec3_length(f.n);
     f.area = 0.5 * twice;
     for (int k = 0; k < 3; k++)
         f.n[k] /= twice;
@@ -50,12 +39,12 @@ struct facet facet_of(const double *a, const double *b, const double *c)
             f.t[s][k] = v[(s + 1) % 3][k] - v[s][k];
             out[k] = v[s][k] - f.centre[k];
         }
-        f.length[s] = sqrt(dot(f.t[s], f.t[s]));
+        f.length[s] = vec3_length(f.t[s]);
         f.longest = fmax(f.longest, f.length[s]);
-        f.radius = fmax(f.radius, sqrt(dot(out, out)));
+        f.radius = fmax(f.radius, vec3_length(out));
         for (int k = 0; k < 3; k++)
             f.t[s][k] /= f.length[s];
-        cross(f.t[s], f.n, f.m[s]);
+        vec3_cross(f.t[s], f.n, f.m[s]);
     }
     return f;
 }
@@ -273,7 +262,7 @@ struct facet_place facet_ask(struct facet_batch *b, const struct facet *f, const
     double y[3], p[3], x1[3], least2 = INFINITY;
     for (int a = 0; a < 3; a++)
         y[a] = f->centre[a] - x[a];
-    const double D = dot(f->n, y) / R, away2 = dot(y, y);
+    const double D = vec3_dot(f->n, y) / R, away2 = vec3_dot(y, y);
     struct facet_place place = {D * R, fabs(D) * R, false};
     if (f->longest < 0.5 * R) {
         const double away = sqrt(away2), gap = away - f->radius;
@@ -291,8 +280,8 @@ struct facet_place facet_ask(struct facet_batch *b, const struct facet *f, const
     for (int s = 0; s < 3; s++) {
         for (int a = 0; a < 3; a++)
             y[a] = f->v[s][a] - x[a];
-        p[s] = dot(f->m[s], y) / R;
-        x1[s] = dot(f->t[s], y) / R;
+        p[s] = vec3_dot(f->m[s], y) / R;
+        x1[s] = vec3_dot(f->t[s], y) / R;
         const double out = more(0.0, more(x1[s], -x1[s] - f->length[s] / R));
         least2 = less(least2, p[s] * p[s] + out * out);
         if (p[s] * p[s] + x1[s] * x1[s] < 1e-16) {
@@ -324,7 +313,7 @@ double facet_rim(const struct facet *f, int edge, const double *x, double R)
     vec S, Z, H;
     for (int a = 0; a < 3; a++)
         y[a] = (f->v[edge][a] - x[a]) / R;
-    const double x1 = dot(f->t[edge], y);
+    const double x1 = vec3_dot(f->t[edge], y);
     for (int a = 0; a < 3; a++)
         p2 += (y[a] - x1 * f->t[edge][a]) * (y[a] - x1 * f->t[edge][a]);
     const double q = p2 < 1.0 ? sqrt(1.0 - p2) : 0.0;
@@ -344,8 +333,8 @@ double facet_nearest(const struct facet *f, const double *x, double *foot)
     for (int s = 0; s < 3; s++) {
         for (int a = 0; a < 3; a++)
             y[a] = f->v[s][a] - x[a];
-        inside = inside && dot(f->m[s], y) >= 0.0;
-        const double along = more(0.0, less(-dot(f->t[s], y), f->length[s]));
+        inside = inside && vec3_dot(f->m[s], y) >= 0.0;
+        const double along = more(0.0, less(-vec3_dot(f->t[s], y), f->length[s]));
         double r2 = 0.0;
         for (int a = 0; a < 3; a++) {
             y[a] += along * f->t[s][a];
@@ -359,7 +348,7 @@ double facet_nearest(const struct facet *f, const double *x, double *foot)
     }
     if (!inside)
         return sqrt(least2);
-    const double D = dot(f->n, y); /* of any point of the plane */
+    const double D = vec3_dot(f->n, y); /* of any point of the plane */
     for (int a = 0; a < 3; a++)
         foot[a] = x[a] + D * f->n[a];
     return fabs(D);
