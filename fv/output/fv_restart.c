@@ -1,8 +1,7 @@
 /* fv_restart.c - restart files: what a step starts from, on any number of ranks. Fields with all
  * their ghosts (so that the same ranks go on bit for bit; others gather them by layout.h), numbers
- * by name (kept_numbers), then what watches, moving blocks, zones of waves and the coupling keep of
- * their own.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * by name (fv_restart_numbers), then what watches, moving blocks, zones of waves and the coupling
+ * keep of their own. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
 
@@ -19,110 +18,12 @@
 #include "../watch/fv_watch.h"
 #include "output.h"
 
-/* A number that a run goes on with; one of the three places is given. */
-struct kept_number {
-    const char *name, *of; /* of the attribute; what it belongs to */
-    double *real;
-    int64_t *count;
-    bool *flag;
-};
-enum { NUMBERS_MAX = 48 };
-struct kept_numbers {
-    int n;
-    struct kept_number is[NUMBERS_MAX];
-};
-
-static void add(struct kept_numbers *to, const char *of, const struct kept_number *list, int n)
-{
-    for (int k = 0; k < n; k++) {
-        to->is[to->n] = list[k];
-        to->is[to->n++].of = of;
-    }
-}
-
-#define ADD(to, of, list) add(to, of, list, (int)(sizeof(list) / sizeof *(list)))
-
-/* Volumes, fractions and a partner's surface as far as this run has them. */
-static void add_surface(struct kept_numbers *to, struct surface *f)
-{
-    const struct kept_number volumes[] = {
-        {"volume0", .real = &f->volume0},     {"returned", .real = &f->returned},
-        {"lost", .real = &f->lost},           {"gained", .real = &f->gained},
-        {"travelled", .real = &f->travelled}, {"passed", .real = &f->passed}};
-    ADD(to, "surface", volumes);
-    if (f->fraction) {
-        struct fraction *q = f->fraction;
-        const struct kept_number shares[] = {{"carries", .real = &q->carries},
-                                             {"calm", .real = &q->calm},
-                                             {"first_axis", .real = &q->first}};
-        ADD(to, "shares of water", shares);
-    }
-    if (f->forced) {
-        const struct kept_number forced[] = {{"phi_start_t", .real = f->forced->t},
-                                             {"phi_end_t", .real = f->forced->t + 1},
-                                             {"entered", .real = &f->entered}};
-        ADD(to, "surface of a partner", forced);
-    }
-}
-
-static void add_openings(struct kept_numbers *to, struct levels *l)
-{
-    static const char *const names[LEVEL_GROUPS] = {
-        "outflow_x_min", "outflow_x_max", "outflow_y_min", "outflow_y_max",
-        "outflow_z_min", "outflow_z_max", "outflow_others"};
-    for (int k = 0; k < LEVEL_GROUPS; k++) {
-        const struct kept_number mean[] = {{names[k], .real = l->past + k}};
-        ADD(to, "mean velocity of the openings", mean);
-    }
-}
-
-static void add_discharges(struct kept_numbers *to, struct outflows *o)
-{
-    static const char *const names[6] = {"lacks_x_min", "lacks_x_max", "lacks_y_min",
-                                         "lacks_y_max", "lacks_z_min", "lacks_z_max"};
-    for (int k = 0; k < 6; k++) {
-        const struct kept_number lacks[] = {{names[k], .real = o->lacks + k}};
-        ADD(to, "volume that given discharges lack", lacks);
-    }
-}
-
-static void add_newton(struct kept_numbers *to, struct newton *w)
-{
-    const struct kept_number newton[] = {
-        {"dtau", .real = &w->dtau},        {"longest_step", .real = &w->longest_step},
-        {"pace", .real = &w->pace},        {"residual", .real = &w->norm},
-        {"steady", .flag = &w->steady},    {"best", .real = &w->best},
-        {"best_at", .count = &w->best_at}, {"pseudo_steps", .count = &w->pseudo_steps},
-        {"newtons", .count = &w->newtons}, {"krylovs", .count = &w->krylovs}};
-    ADD(to, "state of Newton's method", newton);
-}
-
-/* One list for saving and loading: members of the state, as pointers. */
-static struct kept_numbers numbers_of(struct fv *s)
-{
-    struct kept_numbers all = {0};
-    const struct kept_number steps[] = {{"dt", .real = &s->step.dt},
-                                        {"dt_old", .real = &s->step.dt_old}};
-    ADD(&all, "time step", steps);
-    if (s->newton)
-        add_newton(&all, s->newton);
-    if (s->surface)
-        add_surface(&all, s->surface);
-    if (levels_set_any(s))
-        add_openings(&all, s->levels);
-    if (s->surface && s->outflows)
-        add_discharges(&all, s->outflows);
-    return all;
-}
-
 static void save_numbers(struct fv *s, struct h5 *f)
 {
-    const struct kept_numbers all = numbers_of(s);
-    for (const struct kept_number *x = all.is; x < all.is + all.n; x++)
-        h5_attribute_real(f, x->name,
-                          x->real    ? *x->real
-                          : x->count ? (double)*x->count
-                                     : (double)*x->flag);
+    struct kept_number all[FV_RESTART_NUMBERS];
+    const int n = fv_restart_numbers(s, all);
+    for (int k = 0; k < n; k++)
+        h5_attribute_real(f, all[k].name, kept_number_get(all + k));
 }
 
 /* Says what is not there. */
@@ -136,17 +37,13 @@ static bool there(bool good, const char *what)
 /* A number that is missing names what it belongs to. */
 static bool load_numbers(struct fv *s, struct h5 *f)
 {
-    const struct kept_numbers all = numbers_of(s);
-    for (const struct kept_number *x = all.is; x < all.is + all.n; x++) {
+    struct kept_number all[FV_RESTART_NUMBERS];
+    const int n = fv_restart_numbers(s, all);
+    for (int k = 0; k < n; k++) {
         double value = 0.0;
-        if (!there(h5_read_attribute_real(f, x->name, &value), x->of))
+        if (!there(h5_read_attribute_real(f, all[k].name, &value), all[k].of))
             return false;
-        if (x->real)
-            *x->real = value;
-        else if (x->count)
-            *x->count = llround(value);
-        else
-            *x->flag = value != 0.0;
+        kept_number_set(all + k, value);
     }
     return true;
 }

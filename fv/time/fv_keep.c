@@ -1,5 +1,6 @@
 /* fv_keep.c - a copy of all that a step starts from, so that steps can be taken back: what a
  * restart file holds, in memory. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -69,6 +70,109 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     return n;
 }
 
+/* A list of numbers under construction. */
+struct kept_numbers {
+    int n;
+    struct kept_number *is;
+};
+
+static void add(struct kept_numbers *to, const char *of, const struct kept_number *list, int n)
+{
+    for (int k = 0; k < n; k++) {
+        to->is[to->n] = list[k];
+        to->is[to->n++].of = of;
+    }
+}
+
+#define ADD(to, of, list) add(to, of, list, (int)(sizeof(list) / sizeof *(list)))
+
+/* Volumes, fractions and a partner's surface as far as this run has them. */
+static void add_surface(struct kept_numbers *to, struct surface *f)
+{
+    const struct kept_number volumes[] = {
+        {"volume0", .real = &f->volume0},     {"returned", .real = &f->returned},
+        {"lost", .real = &f->lost},           {"gained", .real = &f->gained},
+        {"travelled", .real = &f->travelled}, {"passed", .real = &f->passed}};
+    ADD(to, "surface", volumes);
+    if (f->fraction) {
+        struct fraction *q = f->fraction;
+        const struct kept_number shares[] = {{"carries", .real = &q->carries},
+                                             {"calm", .real = &q->calm},
+                                             {"first_axis", .real = &q->first}};
+        ADD(to, "shares of water", shares);
+    }
+    if (f->forced) {
+        const struct kept_number forced[] = {{"phi_start_t", .real = f->forced->t},
+                                             {"phi_end_t", .real = f->forced->t + 1},
+                                             {"entered", .real = &f->entered}};
+        ADD(to, "surface of a partner", forced);
+    }
+}
+
+static void add_openings(struct kept_numbers *to, struct levels *l)
+{
+    static const char *const names[LEVEL_GROUPS] = {
+        "outflow_x_min", "outflow_x_max", "outflow_y_min", "outflow_y_max",
+        "outflow_z_min", "outflow_z_max", "outflow_others"};
+    for (int k = 0; k < LEVEL_GROUPS; k++) {
+        const struct kept_number mean[] = {{names[k], .real = l->past + k}};
+        ADD(to, "mean velocity of the openings", mean);
+    }
+}
+
+static void add_discharges(struct kept_numbers *to, struct outflows *o)
+{
+    static const char *const names[6] = {"lacks_x_min", "lacks_x_max", "lacks_y_min",
+                                         "lacks_y_max", "lacks_z_min", "lacks_z_max"};
+    for (int k = 0; k < 6; k++) {
+        const struct kept_number lacks[] = {{names[k], .real = o->lacks + k}};
+        ADD(to, "volume that given discharges lack", lacks);
+    }
+}
+
+static void add_newton(struct kept_numbers *to, struct newton *w)
+{
+    const struct kept_number newton[] = {
+        {"dtau", .real = &w->dtau},        {"longest_step", .real = &w->longest_step},
+        {"pace", .real = &w->pace},        {"residual", .real = &w->norm},
+        {"steady", .flag = &w->steady},    {"best", .real = &w->best},
+        {"best_at", .count = &w->best_at}, {"pseudo_steps", .count = &w->pseudo_steps},
+        {"newtons", .count = &w->newtons}, {"krylovs", .count = &w->krylovs}};
+    ADD(to, "state of Newton's method", newton);
+}
+
+int fv_restart_numbers(struct fv *s, struct kept_number *of)
+{
+    struct kept_numbers all = {.is = of};
+    const struct kept_number steps[] = {{"dt", .real = &s->step.dt},
+                                        {"dt_old", .real = &s->step.dt_old}};
+    ADD(&all, "time step", steps);
+    if (s->newton)
+        add_newton(&all, s->newton);
+    if (s->surface)
+        add_surface(&all, s->surface);
+    if (levels_set_any(s))
+        add_openings(&all, s->levels);
+    if (s->surface && s->outflows)
+        add_discharges(&all, s->outflows);
+    return all.n;
+}
+
+double kept_number_get(const struct kept_number *x)
+{
+    return x->real ? *x->real : x->count ? (double)*x->count : (double)*x->flag;
+}
+
+void kept_number_set(const struct kept_number *x, double value)
+{
+    if (x->real)
+        *x->real = value;
+    else if (x->count)
+        *x->count = llround(value);
+    else
+        *x->flag = value != 0.0;
+}
+
 struct kept {
     double *fields[FV_RESTART_FIELDS];
     double t;
@@ -76,11 +180,9 @@ struct kept {
     struct flow_maxima max;
     struct fv_speeds speed;
     struct fv_totals totals;
-    double volume0, returned, lost, gained, passed, entered, travelled; /* of a free surface */
-    double carries, calm, first;                                        /* of its shares */
-    double dtau, norm;                                                  /* of newton */
-    double lacks[6];                                                    /* of given discharges */
-    int64_t newtons, krylovs, cycles, halvings;
+    double numbers[FV_RESTART_NUMBERS];
+    double entered;           /* of a free surface */
+    int64_t cycles, halvings; /* of newton: what restart files leave out */
 };
 
 struct kept *kept_create(const struct fv *s)
@@ -120,32 +222,21 @@ static void carry(struct fv *s, struct kept *k, bool back)
 #define CARRY(kept, now) copy(&(kept), &(now), sizeof(now), back)
     for (int i = 0; i < n; i++)
         copy(k->fields[i], fields[i], (size_t)s->size * sizeof(double), back);
+    struct kept_number numbers[FV_RESTART_NUMBERS];
+    const int nnumbers = fv_restart_numbers(s, numbers);
+    for (int i = 0; i < nnumbers; i++)
+        if (back)
+            kept_number_set(numbers + i, k->numbers[i]);
+        else
+            k->numbers[i] = kept_number_get(numbers + i);
     CARRY(k->t, s->t);
     CARRY(k->step, s->step);
     CARRY(k->max, s->max);
     CARRY(k->speed, s->speed);
     CARRY(k->totals, s->totals);
-    if (s->surface) {
-        CARRY(k->volume0, s->surface->volume0);
-        CARRY(k->returned, s->surface->returned);
-        CARRY(k->lost, s->surface->lost);
-        CARRY(k->gained, s->surface->gained);
-        CARRY(k->passed, s->surface->passed);
+    if (s->surface)
         CARRY(k->entered, s->surface->entered);
-        CARRY(k->travelled, s->surface->travelled);
-    }
-    if (s->surface && s->surface->fraction) {
-        CARRY(k->carries, s->surface->fraction->carries);
-        CARRY(k->calm, s->surface->fraction->calm);
-        CARRY(k->first, s->surface->fraction->first);
-    }
-    if (s->outflows)
-        CARRY(k->lacks, s->outflows->lacks);
     if (s->newton) {
-        CARRY(k->dtau, s->newton->dtau);
-        CARRY(k->norm, s->newton->norm);
-        CARRY(k->newtons, s->newton->newtons);
-        CARRY(k->krylovs, s->newton->krylovs);
         CARRY(k->cycles, s->newton->cycles);
         CARRY(k->halvings, s->newton->halvings);
     }
