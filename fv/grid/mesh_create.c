@@ -42,7 +42,7 @@ static double least_corner(const struct mesh_block *b, int dim, const int *i)
 static bool set_cells(const struct run *r, struct faults *f, struct mesh *m, int k)
 {
     struct mesh_block *b = m->block + k;
-    const int64_t n = (int64_t)b->n[0] * b->n[1] * b->n[2];
+    const int64_t n = mesh_count(b);
     int64_t bad = 0;
     int i[3], first[3] = {0, 0, 0};
     double worst = 0.0;
@@ -84,7 +84,7 @@ static void deal_out(struct mesh *m)
         for (int a = 1; a < m->dim; a++)
             if (b->n[a] > b->n[b->cut])
                 b->cut = a;
-        const int64_t row = (int64_t)b->n[0] * b->n[1] * b->n[2] / b->n[b->cut];
+        const int64_t row = mesh_count(b) / b->n[b->cut];
         b->first = NEW(int, m->size + 1);
         int last = 0;
         for (int i = 0; i < b->n[b->cut]; i++, before += row) {
@@ -134,8 +134,7 @@ void mesh_owner(const struct mesh *m, int block, const int *cell, int *rank, int
 static int64_t cells_of(const struct mesh *m, int k, int rank)
 {
     const struct mesh_block *b = m->block + k;
-    return (int64_t)b->n[0] * b->n[1] * b->n[2] / b->n[b->cut] *
-           (b->first[rank + 1] - b->first[rank]);
+    return mesh_count(b) / b->n[b->cut] * (b->first[rank + 1] - b->first[rank]);
 }
 
 /* Rows are numbered rank by rank, part by part, x fastest. */

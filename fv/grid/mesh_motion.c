@@ -62,14 +62,12 @@ static int64_t vertices(const struct mesh_block *b)
     return (int64_t)b->nv[0] * b->nv[1] * b->nv[2];
 }
 
-static int64_t cells(const struct mesh_block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
-
 /* Vertices and centres; every rank does all blocks. */
 static void place_block(struct mesh_block *b)
 {
     for (int64_t k = 0; k < vertices(b); k++)
         mesh_motion_now(b, b->made->x[k], b->x[k]);
-    for (int64_t k = 0; k < cells(b); k++)
+    for (int64_t k = 0; k < mesh_count(b); k++)
         mesh_motion_now(b, b->made->centre[k], b->centre[k]);
 }
 
@@ -117,10 +115,11 @@ void mesh_motion_place(struct mesh *m, double t)
 static void keep_made(struct mesh_block *b)
 {
     struct mesh_block *made = NEW(struct mesh_block, 1);
-    const size_t nv = (size_t)vertices(b) * sizeof *b->x, n = (size_t)cells(b) * sizeof *b->centre;
+    const size_t nv = (size_t)vertices(b) * sizeof *b->x,
+                 n = (size_t)mesh_count(b) * sizeof *b->centre;
     *made = *b;
     b->x = (double(*)[3])NEW(double, 3 * vertices(b));
-    b->centre = (double(*)[3])NEW(double, 3 * cells(b));
+    b->centre = (double(*)[3])NEW(double, 3 * mesh_count(b));
     memcpy(b->x, made->x, nv);
     memcpy(b->centre, made->centre, n);
     made->motion = NULL;

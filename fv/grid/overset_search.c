@@ -98,7 +98,7 @@ static void enter_cells(const struct mesh_block *b, int dim, struct bins *s, int
 /* About as many bins as cells; a counting sort in two passes. */
 static void make_bins(const struct mesh_block *b, int dim, struct bins *s)
 {
-    const int64_t n = (int64_t)b->n[0] * b->n[1] * b->n[2];
+    const int64_t n = mesh_count(b);
     double lo[3], hi[3];
     for (int c = 0; c < 3; c++) {
         s->lo[c] = INFINITY;

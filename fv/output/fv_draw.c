@@ -70,7 +70,7 @@ static void tell_around(const struct mesh_block *b, int up, const int lo[2], con
 /* Polygons of the cells that are no holes: the whole block, or the runs of its rows of cells. */
 static void tell_cells(const struct mesh_block *b, int up, struct picture *p)
 {
-    const int64_t cells = (int64_t)b->n[0] * b->n[1] * b->n[2],
+    const int64_t cells = mesh_count(b),
                   row = mesh_cell(b, up == 1 ? (const int[]){0, 1, 0} : (const int[]){0, 0, 1});
     bool whole = true;
     for (int64_t c = 0; c < cells && whole; c++)

@@ -234,7 +234,7 @@ void mesh_describe(const struct run *r, const struct fv_params *prm)
     for (int k = 0; m && k < m->nblocks; k++) {
         const struct mesh_block *b = m->block + k;
         int64_t count[4] = {0, 0, 0, 0};
-        for (int64_t c = 0; c < (int64_t)b->n[0] * b->n[1] * b->n[2]; c++)
+        for (int64_t c = 0; c < mesh_count(b); c++)
             count[b->status[c]]++;
         log_say("block %d \"%s\": %s, %d x %d x %d cells: %lld computed, %lld interpolated, %lld "
                 "imposed, %lld cut out",

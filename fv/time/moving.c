@@ -46,8 +46,6 @@ struct moving {
     double least;                           /* m: least height of a cell of the fringe */
 };
 
-static int64_t count_of(const struct mesh_block *b) { return (int64_t)b->n[0] * b->n[1] * b->n[2]; }
-
 /* Height of the flattest cell where blocks meet, all ranks; it hardly changes. */
 static double least_height(const struct mesh *m)
 {
@@ -80,8 +78,8 @@ struct moving *moving_create(struct fv *s)
     }
     v->local = NEW(unsigned char, m->size_local);
     for (int k = 0; k < m->nblocks; k++) {
-        v->status[k] = NEW(unsigned char, count_of(m->block + k));
-        v->born[k] = NEW(unsigned char, count_of(m->block + k));
+        v->status[k] = NEW(unsigned char, mesh_count(m->block + k));
+        v->born[k] = NEW(unsigned char, mesh_count(m->block + k));
     }
     v->t_cut = v->t_rows = s->t;
     v->least = least_height(m);
@@ -152,7 +150,7 @@ static bool find_born(struct fv *s)
     const int last = s->prm.integrator == INTEGRATOR_NEWTON ? CELL_FRINGE : CELL_COMPUTED;
     bool any = false;
     for (int k = 0; k < s->m->nblocks; k++)
-        for (int64_t c = 0; c < count_of(s->m->block + k); c++) {
+        for (int64_t c = 0; c < mesh_count(s->m->block + k); c++) {
             v->born[k][c] = s->m->block[k].status[c] <= last && v->status[k][c] == CELL_HOLE;
             any = any || v->born[k][c];
         }
@@ -232,7 +230,7 @@ static bool is_as_before(const struct mesh *m, const struct moving *v)
 {
     bool same = true;
     for (int k = 0; k < m->nblocks && same; k++)
-        same = memcmp(v->status[k], m->block[k].status, (size_t)count_of(m->block + k)) == 0;
+        same = memcmp(v->status[k], m->block[k].status, (size_t)mesh_count(m->block + k)) == 0;
     return same;
 }
 
@@ -257,7 +255,7 @@ static void cut_step(struct fv *s)
         return;
     timer_start(&s->run->timers, "overlap");
     for (int k = 0; k < m->nblocks; k++)
-        memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
+        memcpy(v->status[k], m->block[k].status, (size_t)mesh_count(m->block + k));
     memcpy(v->local, m->status, (size_t)m->size_local);
     cut(s, s->t + 0.5 * s->step.dt_now);
     timer_stop(&s->run->timers, "overlap");
@@ -330,7 +328,7 @@ void moving_begin_implicit(struct fv *s, double dt)
     mesh_fill(m, m->dim, s->u);
     mesh_fill(m, m->dim, s->stages.u_old);
     for (int k = 0; k < m->nblocks; k++)
-        memcpy(v->status[k], m->block[k].status, (size_t)count_of(m->block + k));
+        memcpy(v->status[k], m->block[k].status, (size_t)mesh_count(m->block + k));
     cut(s, s->t + dt);
     v->fresh = 0.0;
     timer_stop(&s->run->timers, "overlap");
@@ -351,7 +349,7 @@ void moving_back(struct fv *s)
     if (!m->has_fringe)
         return;
     for (int k = 0; k < m->nblocks; k++)
-        memcpy(m->block[k].status, v->status[k], (size_t)count_of(m->block + k));
+        memcpy(m->block[k].status, v->status[k], (size_t)mesh_count(m->block + k));
     moving_set_free(s);
     overset_find(m, m->search);
 }

@@ -218,18 +218,13 @@ static bool step_bdf2(struct fv *s, double dt)
     return good;
 }
 
-/* Integrators by the parameter's index; each advances u, U, p by dt. */
-struct integrator {
-    const char *name;
-    bool (*step)(struct fv *s, double dt);
-};
-static const struct integrator integrators[] = {{"rk3", step_rk3},
-                                                {"bdf2", step_bdf2}}; /* and newton */
+/* By the parameter's index; newton, the third, has newton_try. */
+static bool (*const integrators[])(struct fv *s, double dt) = {step_rk3, step_bdf2};
 
 bool projection_step(struct fv *s, double dt)
 {
     s->step.dt_now = dt;
-    const bool good = integrators[s->prm.integrator].step(s, dt);
+    const bool good = integrators[s->prm.integrator](s, dt);
     if (s->moving)
         moving_end(s);
     return good;
