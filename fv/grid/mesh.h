@@ -222,6 +222,9 @@ bool mesh_resolve(const struct mesh *m, int *block, int *cell, double *move);
 
 /* mesh_metrics.c: computes S, G and V of the local parts, of the blocks as they are made. */
 void mesh_metrics(struct mesh *m);
+/* Least height of a cell of this status over one of its lower faces, m, of all ranks; INFINITY:
+ * there is none. Collective. */
+double mesh_least_height(const struct mesh *m, enum mesh_status status);
 /* Integral of (x - o) cross dS over the lower face along a of cell i: as for the area vectors, the
  * sum over a cell's six faces is zero. */
 void mesh_face_moment(const struct mesh_block *b, int dim, const int *i, int a, const double *o,

@@ -56,6 +56,9 @@ static inline void part_index(const struct part *p, int64_t c, int *at)
     at[0] = (int)(c % p->stride[1]) - p->g[0];
 }
 
+/* No layers more, for the macros below. */
+static const int no_layers[3] = {0, 0, 0};
+
 /* Rows of a part's cells; `down' and `up' layers (int[3]) more: c is the place of the row's first
  * cell, len its length. */
 #define PART_ROWS(p, down, up, c, len)                                                             \

@@ -13,8 +13,6 @@
 #include "mesh_ops.h"
 #include "operators.h"
 
-static const int none[3] = {0, 0, 0};
-
 /* Needed with the upwind bias or with overlaps alone: elsewhere nothing excites the odd-even
  * mode. */
 static bool smooth_pressure(struct fv *s)
@@ -158,7 +156,7 @@ static bool measure_alike(const struct fv *s, const struct part *p, double push,
     const double third = m->dim == 3 ? 1.0 : 0.0;
     const double *restrict u = s->u[0], *restrict v = s->u[1],
                            *restrict z = s->u[m->dim == 3 ? 2 : 1], *restrict f = s->free;
-    PART_ROWS (p, none, none, c, n)
+    PART_ROWS (p, no_layers, no_layers, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double sum = f[i] * (fabs(u[i]) * w[0] + fabs(v[i]) * w[1] + fabs(z[i]) * w[2]),
                          square = f[i] * (u[i] * u[i] + v[i] * v[i] + third * z[i] * z[i]);
@@ -186,7 +184,7 @@ static void measure_blocks(struct fv *s, double push, double motion)
             poison = measure_alike(s, p, push, most) ? poison : NAN;
             continue;
         }
-        PART_ROWS (p, none, none, c, n)
+        PART_ROWS (p, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 double u2 = 0.0, rate = 0.0, rise = 0.0, least = INFINITY;
                 if (s->free[i] == 0.0)

@@ -126,7 +126,6 @@ static void add_divergence(const double *restrict F, int64_t along, double per_h
  * from water. */
 void convection(struct fv *s, double *const N[3])
 {
-    static const int none[3] = {0, 0, 0};
     const struct block *b = &s->b;
     for (int a = 0; a < b->dim; a++)
         convection_beside_walls(s, a, s->U[a]);
@@ -147,7 +146,7 @@ void convection(struct fv *s, double *const N[3])
             convection_beside_walls(s, a, s->faces[0]);
             /* faces of the cells and the upper one */
             const int up[3] = {a == 0, a == 1, a == 2};
-            PART_NEAR (&s->whole, none, up, c, n)
+            PART_NEAR (&s->whole, no_layers, up, c, n)
                 flux_row(s->U[a] + c, s->faces[0] + c, tangent, nt, n, s->flux + c);
             if (s->blocked)
                 blocked_fluxes(s, q, a, s->U[a], s->faces[0], s->flux);

@@ -13,8 +13,6 @@
 #include "blocked_cells.h"
 #include "mesh_ops.h"
 
-static const int none[3] = {0, 0, 0};
-
 /* d_a u_q in the cell c of row j, average over it; boxes that are cut out have ghosts of their own.
  */
 static double derivative(const struct fv *s, int q, int a, int64_t c, int j)
@@ -37,11 +35,11 @@ static void vorticity_of_blocks(struct fv *s, double *w)
     const struct mesh *m = s->m;
     mesh_gradient(s, s->u[0], s->rhs);
     for (int r = 0; r < m->nparts; r++)
-        PART_ROWS (m->part + r, none, none, c, n)
+        PART_ROWS (m->part + r, no_layers, no_layers, c, n)
             memcpy(w + c, s->rhs[1] + c, (size_t)n * sizeof(double));
     mesh_gradient(s, s->u[1], s->rhs);
     for (int r = 0; r < m->nparts; r++)
-        PART_ROWS (m->part + r, none, none, c, n)
+        PART_ROWS (m->part + r, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 w[i] = s->rhs[0][i] - w[i];
     mesh_fill(s->m, 1, &w);
@@ -124,7 +122,7 @@ static double divergence_of_blocks(struct fv *s)
     double most = 0.0;
     mesh_divergence(s, s->U, s->flux);
     for (int q = 0; q < s->m->nparts; q++)
-        PART_ROWS (s->m->part + q, none, none, c, n)
+        PART_ROWS (s->m->part + q, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 most = fmax(most, fabs(s->flux[i]) / s->m->V[i]);
     return most;

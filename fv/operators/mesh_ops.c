@@ -106,9 +106,8 @@ static void product_row(const double *restrict a, const double *restrict b, cons
 static void add_difference(const struct part *p, int a, const double *restrict F, bool first,
                            double *restrict out)
 {
-    static const int none[3] = {0, 0, 0};
     const int64_t s = p->stride[a];
-    PART_ROWS (p, none, none, c, n)
+    PART_ROWS (p, no_layers, no_layers, c, n)
         if (first)
             for (int64_t i = c; i < c + n; i++)
                 out[i] = F[i + s] - F[i];
@@ -120,9 +119,8 @@ static void add_difference(const struct part *p, int a, const double *restrict F
 /* out *= free/V: 0 in cells that are not computed. */
 static void per_volume(const struct fv *s, const struct part *p, double *restrict out)
 {
-    static const int none[3] = {0, 0, 0};
     const double *restrict V = s->m->V, *restrict f = s->free;
-    PART_ROWS (p, none, none, c, n)
+    PART_ROWS (p, no_layers, no_layers, c, n)
         for (int64_t i = c; i < c + n; i++)
             out[i] *= f[i] / V[i];
 }
@@ -147,14 +145,13 @@ static void even_fluxes(const struct mesh *m, const struct part *p, int a, const
 static void even_gradient(const struct fv *s, const struct part *p, const double *q,
                           double *const g[3])
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
     const int64_t first = part_at(p, 0, 0, 0);
     for (int a = 0; a < m->dim; a++) {
         const int64_t d = p->stride[a];
         const double w = m->S[a][a][first] / (12.0 * m->V[first]);
         double *restrict out = g[a];
-        PART_ROWS (p, none, none, c, n)
+        PART_ROWS (p, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 out[i] =
                     s->free[i] * w * (8.0 * (q[i + d] - q[i - d]) - (q[i + 2 * d] - q[i - 2 * d]));
@@ -165,14 +162,13 @@ static void even_gradient(const struct fv *s, const struct part *p, const double
 static void even_viscous(const struct fv *s, const struct part *p, const double *q,
                          double *restrict out)
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
     const int64_t first = part_at(p, 0, 0, 0);
     const double *restrict is_free = s->free;
     double w[3];
     for (int a = 0; a < m->dim; a++)
         w[a] = s->nu * m->G[a][a][first] / (12.0 * m->V[first]);
-    PART_ROWS (p, none, none, c, n) {
+    PART_ROWS (p, no_layers, no_layers, c, n) {
         viscous_row(q + c, p->stride, w, m->dim, n, out + c);
         if (m->computed < m->cells)
             for (int64_t i = c; i < c + n; i++)
@@ -371,8 +367,7 @@ void mesh_viscous(struct fv *s, const double *q, double *out)
             }
             add_difference(p, a, s->flux, a == 0, out);
         }
-        static const int none[3] = {0, 0, 0};
-        PART_ROWS (p, none, none, c, n)
+        PART_ROWS (p, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 out[i] *= s->nu * s->free[i] / m->V[i];
     }
@@ -382,12 +377,11 @@ void mesh_viscous(struct fv *s, const double *q, double *out)
 void mesh_divergence(const struct fv *s, double *const U[3], double *div)
 {
     const struct mesh *m = s->m;
-    static const int none[3] = {0, 0, 0};
     for (int r = 0; r < m->nparts; r++) {
         const struct part *p = m->part + r;
         for (int a = 0; a < m->dim; a++)
             add_difference(p, a, U[a], a == 0, div);
-        PART_ROWS (p, none, none, c, n)
+        PART_ROWS (p, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 div[i] *= s->free[i];
     }
@@ -429,7 +423,6 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
  * neighbours read it. Nothing to do where all volumes are equal. */
 static void shift_average(const struct fv *s, double sign, double *q, double *work)
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
     if (!s->m->uneven)
         return;
@@ -438,7 +431,7 @@ static void shift_average(const struct fv *s, double sign, double *q, double *wo
         if (p->kind == PART_EVEN)
             continue;
         for (int pass = 0; pass < 2; pass++)
-            PART_ROWS (p, none, none, c, n)
+            PART_ROWS (p, no_layers, no_layers, c, n)
                 for (int64_t i = c; i < c + n; i++) {
                     double sum = 0.0;
                     if (pass == 1) {
@@ -478,7 +471,6 @@ static double third(const double *q, const unsigned char *status, int64_t i, int
 /* p -= 0.1 C^T C p/64 along each axis, C the third difference along an index: see smooth.c. */
 void mesh_smooth_pressure(struct fv *s)
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
     double *const sum = s->flux, *const p = s->p;
     for (int r = 0; r < m->nparts; r++) {
@@ -491,14 +483,14 @@ void mesh_smooth_pressure(struct fv *s)
             PART_ROWS (part, down, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     s->faces[0][i] = third(p, m->status, i, d);
-            PART_ROWS (part, none, none, c, n)
+            PART_ROWS (part, no_layers, no_layers, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     sum[i] = (a ? sum[i] : 0.0) + s->faces[0][i - d] - s->faces[0][i + 2 * d] -
                              3.0 * (s->faces[0][i] - s->faces[0][i + d]);
         }
     }
     for (int r = 0; r < m->nparts; r++)
-        PART_ROWS (m->part + r, none, none, c, n)
+        PART_ROWS (m->part + r, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 p[i] -= s->free[i] * (0.1 / 64.0) * sum[i];
 }

@@ -16,8 +16,6 @@
 #include <math.h>
 #include <string.h>
 
-static const int none[3] = {0, 0, 0};
-
 /* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. Scaling by
  * the diagonal makes cells of very different size alike for BiCGStab. */
 static void apply(struct fv *s, double c, double *const x[3], double *const out[3])
@@ -30,7 +28,7 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
     for (int a = 0; a < s->m->dim; a++) {
         mesh_viscous(s, x[a], out[a]);
         for (int q = 0; q < s->m->nparts; q++)
-            PART_ROWS (s->m->part + q, none, none, at, n)
+            PART_ROWS (s->m->part + q, no_layers, no_layers, at, n)
                 for (int64_t i = at; i < at + n; i++)
                     out[a][i] = s->free[i] * (x[a][i] - c * out[a][i]) / (1.0 + c * scale[i]);
     }

@@ -146,24 +146,6 @@ void mesh_summarise(struct fv *s)
     summary_real(to, "poisson_retries", (double)s->totals.retries);
 }
 
-/* Least distance of opposite faces of a computed cell, m, about: volume over the largest face.
- * Collective. */
-static double least_height(const struct mesh *m)
-{
-    double least = INFINITY;
-    for (int q = 0; q < m->nparts; q++) {
-        const struct part *p = m->part + q;
-        int i[3];
-        PART_CELLS (p, i, c)
-            for (int a = 0; a < m->dim && m->status[c] == CELL_COMPUTED; a++) {
-                const double S[3] = {m->S[a][0][c], m->S[a][1][c], m->dim == 3 ? m->S[a][2][c] : 0};
-                least = fmin(least, m->V[c] / vec3_length(S));
-            }
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
-    return least;
-}
-
 /* What the sides are, and what the run uses and leaves out. */
 static void describe_scene(const struct run *r, const struct fv_params *prm, const struct mesh *m)
 {
@@ -213,7 +195,7 @@ static void describe_step(const struct run *r, const struct fv_params *prm, cons
         for (int side = 0; side < 2 && b->mapping == MAPPING_ANNULUS; side++)
             speed = fmax(speed, fabs(b->spin[side]) * b->radius[side]);
     }
-    const double cfl = limits_cfl(prm), h = least_height(m);
+    const double cfl = limits_cfl(prm), h = mesh_least_height(m, CELL_COMPUTED);
     limits_warn(r, prm, h);
     log_say("%lld cells computed, the flattest %.3g m high; about %.0f MB", (long long)m->computed,
             h, 8e-6 * (double)m->cells * 80.0 + 1.0);
@@ -245,7 +227,7 @@ void mesh_describe(const struct run *r, const struct fv_params *prm)
     if (m) {
         describe_scene(r, prm, m);
         if (prm->water) {
-            fraction_describe(r, prm, m, least_height(m));
+            fraction_describe(r, prm, m, mesh_least_height(m, CELL_COMPUTED));
             mesh_outside_describe(r, m);
         }
         describe_step(r, prm, m);

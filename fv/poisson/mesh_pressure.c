@@ -124,11 +124,10 @@ static void computed_row(const struct mesh *m, const struct part *p, const int *
 /* The mean diagonal of computed cells is that of the fringe. */
 static void set_scale(const struct fv *s, struct mesh_pressure *p)
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = s->m;
     double sum[2] = {0.0, 0.0};
     for (int q = 0; q < m->nparts; q++)
-        PART_ROWS (m->part + q, none, none, c, n)
+        PART_ROWS (m->part + q, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 sum[0] += s->free[i] * 2.0 * m->dim * m->G[0][0][i];
                 sum[1] += s->free[i];

@@ -333,13 +333,12 @@ static void add_upright_row(const double *restrict q, const double *restrict G, 
 /* Ghosts that mirror psi make no flux through closed sides; only slopes along them would. */
 static void apply_part(const struct tiles *t, const struct part *p, double *out)
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = t->s->m;
     const double *psi = t->psi;
     double w[3];
     for (int a = 0; a < m->dim; a++)
         w[a] = m->G[a][a][part_at(p, 0, 0, 0)];
-    PART_ROWS (p, none, none, c, n) {
+    PART_ROWS (p, no_layers, no_layers, c, n) {
         if (m->has_given)
             for (int a = 0; a < m->dim; a++)
                 add_open_row(psi + c, m->G[a][a] + c, m->open[a] + c, p->stride[a], a == 0, n, out);
@@ -354,7 +353,6 @@ static void apply_part(const struct tiles *t, const struct part *p, double *out)
 
 static void add_skewed(const struct tiles *t, const struct part *p, double *out)
 {
-    static const int none[3] = {0, 0, 0};
     const struct mesh *m = t->s->m;
     const double *psi = t->psi;
     double *F = t->flux;
@@ -363,18 +361,18 @@ static void add_skewed(const struct tiles *t, const struct part *p, double *out)
         int up[3] = {0, 0, 0};
         double *row = out;
         up[a] = 1;
-        PART_ROWS (p, none, up, c, n)
+        PART_ROWS (p, no_layers, up, c, n)
             for (int64_t i = c; i < c + n; i++)
                 F[i] = 0.0;
         for (int b = 0; b < m->dim; b++)
             if (b != a)
-                PART_ROWS (p, none, up, c, n)
+                PART_ROWS (p, no_layers, up, c, n)
                     for (int64_t i = c; i < c + n; i++) {
                         const int64_t e = p->stride[b];
                         F[i] += 0.25 * m->open[a][i] * m->G[a][b][i] *
                                 (psi[i + e] - psi[i - e] + psi[i - d + e] - psi[i - d - e]);
                     }
-        PART_ROWS (p, none, none, c, n) {
+        PART_ROWS (p, no_layers, no_layers, c, n) {
             for (int64_t i = 0; i < n; i++)
                 row[i] += F[c + i] - F[c + i + d];
             row += n;
@@ -384,13 +382,12 @@ static void add_skewed(const struct tiles *t, const struct part *p, double *out)
 
 static void apply_rows(void *of, double *x, double *Ax)
 {
-    static const int none[3] = {0, 0, 0};
     struct tiles *t = of;
     struct fv *s = t->s;
     const double *from = x;
     double *to = Ax;
     for (int q = 0; q < s->grid.nparts; q++)
-        PART_ROWS (s->grid.part + q, none, none, c, n) {
+        PART_ROWS (s->grid.part + q, no_layers, no_layers, c, n) {
             memcpy(t->psi + c, from, (size_t)n * sizeof(double));
             from += n;
         }

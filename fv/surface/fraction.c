@@ -14,8 +14,6 @@
 #include "mesh_view.h"
 #include "plane.h"
 
-static const int none[3] = {0, 0, 0};
-
 /* 1: some part of this rank has cells that are not upright. */
 static bool any_curved(const struct mesh *m)
 {
@@ -316,7 +314,7 @@ static void find_fluxes(const struct fv *s, int a, double dt)
     int up[3] = {0, 0, 0};
     up[a] = 1;
     for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
-        PART_NEAR (p, none, up, c, len)
+        PART_NEAR (p, no_layers, up, c, len)
             for (int64_t i = 0; i < len; i += PIECE)
                 fluxes_of_piece(s, c + i, p->stride[a], a, dt, piece(i, len));
 }

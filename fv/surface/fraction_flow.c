@@ -16,8 +16,6 @@ enum { AIR = 3, SWEEPS = 14 };
  * under air at 0 on an even surface have 0.89. */
 #define SPECTRAL 0.89
 
-static const int none[3] = {0, 0, 0};
-
 static bool is_air(const struct fv *s, int64_t c)
 {
     const double layer = s->surface->fraction->layer[c];
@@ -132,7 +130,7 @@ static void take_divergence_away(struct fv *s)
         up[a] = 1;
         for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++) {
             const int64_t d = p->stride[a];
-            PART_NEAR (p, none, up, c, n)
+            PART_NEAR (p, no_layers, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     if (f->work[i] != f->work[i - d] && is_free(s, i, d))
                         f->flow[a][i] -= conductance(s, i, d, a) * (f->work[i] - f->work[i - d]);
@@ -149,7 +147,7 @@ void fraction_set_flows(struct fv *s)
         int up[3] = {0, 0, 0};
         up[a] = 1;
         for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
-            PART_NEAR (p, none, up, c, n)
+            PART_NEAR (p, no_layers, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     flow[i] = area ? U[i] * area[i] : U[i];
     }

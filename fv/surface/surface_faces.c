@@ -240,9 +240,9 @@ static void face_fluxes(const struct fv *s, const struct part *p, int a, const d
 {
     const struct mesh *m = s->m;
     const int64_t d = p->stride[a];
-    int none[3] = {0, 0, 0}, up[3] = {0, 0, 0};
+    int up[3] = {0, 0, 0};
     up[a] = 1;
-    PART_ROWS (p, none, up, c, n)
+    PART_ROWS (p, no_layers, up, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double F = m->G[a][a][i] * (psi[i] - psi[i - d]);
             for (int t = 0; t < m->dim; t++) {
@@ -314,7 +314,6 @@ static void gradient_beside_partner(const struct fv *s, double *const F[3], doub
 void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi, bool change,
                                double *const out[3])
 {
-    static const int none[3] = {0, 0, 0};
     const struct surface_mesh *w = s->surface->mesh;
     double *const F[3] = {s->surface->rate, s->surface->kept, s->surface->phi_new};
     for (int a = 0; a < s->dim; a++) {
@@ -329,7 +328,7 @@ void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi
         gradient_beside_partner(s, F, out);
     for (int q = 0; q < s->grid.nparts; q++) {
         const struct part *p = s->grid.part + q;
-        PART_ROWS (p, none, none, c, n)
+        PART_ROWS (p, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 if (s->free[i] > 0.0 && leaves_water(s, p, i))
                     mean_of_faces(s, p, i, F, out);

@@ -9,8 +9,6 @@
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 
-static const int none[3] = {0, 0, 0};
-
 /* Mean distance of neighbouring vertices along axis a of the whole block: the same on all ranks. */
 static double mean_spacing(const struct mesh_block *b, int dim, int a)
 {
@@ -90,7 +88,7 @@ static void set_metric(const struct fv *s, const struct part *p, struct surface_
 {
     const struct mesh *m = s->m;
     const double *size = w->size[p - s->grid.part];
-    PART_ROWS (p, none, none, c, n)
+    PART_ROWS (p, no_layers, no_layers, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double g[3][3];
             index_gradients(m, p, i, g);
@@ -122,7 +120,7 @@ static void set_sizes(const struct fv *s, const struct surface_mesh *w, struct s
 {
     double ends[3] = {-INFINITY, 0.0, -INFINITY};
     for (int q = 0; q < s->grid.nparts; q++)
-        PART_ROWS (s->grid.part + q, none, none, c, n)
+        PART_ROWS (s->grid.part + q, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 for (int a = 0; a < s->dim && s->m->status[i] == CELL_COMPUTED; a++) {
                     const double h = w->size[q][a] / sqrt(w->K[a][a][i]);
@@ -295,7 +293,7 @@ double surface_mesh_speeds(const struct fv *s, double band)
         const struct part *p = s->grid.part + q;
         const double near = band * surface_mesh_spacing(s, p);
         const bool moves = m->block[p->block].motion != NULL;
-        PART_ROWS (p, none, none, c, n)
+        PART_ROWS (p, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++) {
                 double g[3][3], u[3], sum = 0.0;
                 index_gradients(m, p, i, g);

@@ -54,16 +54,15 @@ static bool is_smoothed(const struct fv *s, int64_t c)
 static void smooth_part(const struct fv *s, const struct part *p, int m, const double share[3],
                         double *q)
 {
-    static const int none[3] = {0, 0, 0};
     double *const sum = s->surface->rate;
     const double part = 1.0 / (m == 3 ? 64.0 : 16.0) / s->dim;
-    PART_NEAR (p, none, none, c, n)
+    PART_NEAR (p, no_layers, no_layers, c, n)
         for (int64_t i = c; i < c + n; i++) {
             sum[i] = 0.0;
             for (int a = 0; a < s->dim && is_smoothed(s, i); a++)
                 sum[i] += share[a] * bent(s, m, q, i, p->stride[a]);
         }
-    PART_NEAR (p, none, none, c, n)
+    PART_NEAR (p, no_layers, no_layers, c, n)
         for (int64_t i = c; i < c + n; i++)
             q[i] -= part * sum[i];
 }

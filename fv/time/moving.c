@@ -29,8 +29,6 @@
 #include "../surface/fv_surface.h"
 #include "rk3.h"
 
-static const int none[3] = {0, 0, 0};
-
 struct moving {
     double t_cut, t_rows; /* s: middle of the last step; of that whose matrix has the hierarchy */
     double fresh;       /* iterations of the step that made the hierarchy; 0: the next makes one */
@@ -45,23 +43,6 @@ struct moving {
     unsigned char *local;                   /* m->status before the step */
     double least;                           /* m: least height of a cell of the fringe */
 };
-
-/* Height of the flattest cell where blocks meet, all ranks; it hardly changes. */
-static double least_height(const struct mesh *m)
-{
-    double least = INFINITY;
-    for (int q = 0; q < m->nparts; q++)
-        PART_ROWS (m->part + q, none, none, c, n)
-            for (int64_t i = c; i < c + n; i++)
-                for (int a = 0; a < m->dim && m->status[i] == CELL_FRINGE; a++) {
-                    double S2 = 0.0;
-                    for (int k = 0; k < m->dim; k++)
-                        S2 += m->S[a][k][i] * m->S[a][k][i];
-                    least = fmin(least, m->V[i] / sqrt(S2));
-                }
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
-    return least;
-}
 
 struct moving *moving_create(struct fv *s)
 {
@@ -82,7 +63,7 @@ struct moving *moving_create(struct fv *s)
         v->born[k] = NEW(unsigned char, mesh_count(m->block + k));
     }
     v->t_cut = v->t_rows = s->t;
-    v->least = least_height(m);
+    v->least = mesh_least_height(m, CELL_FRINGE); /* it hardly changes */
     s->fringe.psi = mesh_field(m);
     for (int a = 0; a < m->dim; a++)
         s->fringe.delta[a] = mesh_field(m);
@@ -124,7 +105,7 @@ void moving_set_free(struct fv *s)
     const struct mesh *m = s->m;
     mesh_set_status(s->m);
     for (int q = 0; q < m->nparts; q++)
-        PART_ROWS (m->part + q, none, none, c, n)
+        PART_ROWS (m->part + q, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 s->free[i] = m->status[i] == CELL_COMPUTED;
 }
@@ -218,7 +199,7 @@ static void fill_fluxes(struct fv *s)
             const int64_t d = p->stride[a];
             int up[3] = {0, 0, 0};
             up[a] = 1;
-            PART_ROWS (p, none, up, c, n)
+            PART_ROWS (p, no_layers, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
                     if (was[i] != CELL_COMPUTED && was[i - d] != CELL_COMPUTED)
                         s->U[a][i] = s->rhs[a][i];
@@ -420,7 +401,7 @@ void moving_convection(struct fv *s, double *const N[3])
     const struct mesh *m = s->m;
     const unsigned char *was = s->moving->local;
     for (int q = 0; q < m->nparts && s->prm.integrator == INTEGRATOR_BDF2 && m->has_fringe; q++)
-        PART_ROWS (m->part + q, none, none, c, n)
+        PART_ROWS (m->part + q, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
                 for (int a = 0; a < m->dim && was[i] != CELL_COMPUTED; a++)
                     s->stages.N_old[a][i] = N[a][i];
