@@ -14,6 +14,7 @@
 #include "../../../sph/time/integrate.h"
 #include "../../../sph/time/runge_kutta.h"
 #include "sph_case.h"
+#include "sph_restart.h"
 
 /* dq/dt = k x q at fixed places: momentum turns with the angular velocity k. */
 static const double turn = 3.0;
@@ -209,11 +210,8 @@ static void a_broken_state_is_found_and_placed(void **state)
 /* Runs 8 steps, with rows in between if asked; saves after 4 and goes on from there if asked. */
 static double *run_with(bool zones, bool rows, bool restart, int *n)
 {
-    char path[512];
-    const char *dir = getenv("TEST_SCRATCH");
     double values[SPH_COLUMNS];
     struct sph_case c;
-    snprintf(path, sizeof path, "%s/test_integrate.h5", dir ? dir : "/tmp");
     sph_case_set(&c, 2, 40);
     c.prm.noise = 0.1;
     if (zones) {
@@ -223,26 +221,13 @@ static double *run_with(bool zones, bool rows, bool restart, int *n)
     }
     sph_case_start(&c, NULL);
     for (int k = 0; k < 8; k++) {
-        if (k == 4 && restart) {
-            struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
-            sph_checkpoint(c.s, f);
-            h5_close(&f);
-            sph_free(&c.s);
-            f = h5_open(MPI_COMM_WORLD, path);
-            assert_non_null(f);
-            sph_case_start(&c, f);
-            h5_close(&f);
-            assert_non_null(c.s);
-        }
+        if (k == 4 && restart)
+            sph_case_restart(&c);
         if (rows)
             sph_row(c.s, values);
         assert_true(sph_case_run(&c, 1, 100.0));
     }
-    *n = c.s->p.n * c.s->p.nstate;
-    double *y = NEW(double, *n);
-    memcpy(y, c.s->p.y, (size_t)*n * sizeof(double));
-    sph_free(&c.s);
-    return y;
+    return sph_case_end_state(&c, n);
 }
 
 /* A level that takes several steps within one of the coarser level says after each what it shows:

@@ -14,6 +14,7 @@
 #include "../../../sph/walls/forces.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
+#include "sph_restart.h"
 
 /* Box [0,1]^3 of still fluid under gravity; closed walls on all sides, or open above. */
 static void tank(struct sph_case *c, int cells, bool surface)
@@ -380,29 +381,10 @@ static void ranks_agree(void **state)
 
 static double *run_scene(bool restart, int *n)
 {
-    char path[512];
-    const char *dir = getenv("TEST_SCRATCH");
     struct sph_case c;
-    snprintf(path, sizeof path, "%s/test_wall_nfm3.h5", dir ? dir : "/tmp");
     busy(&c, SCHEME_RIEMANN, true);
     assert_non_null(sph_case_start(&c, NULL));
-    assert_true(sph_case_run(&c, 6, 100.0));
-    if (restart) {
-        struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
-        sph_checkpoint(c.s, f);
-        h5_close(&f);
-        sph_free(&c.s);
-        f = h5_open(MPI_COMM_WORLD, path);
-        sph_case_start(&c, f);
-        h5_close(&f);
-        assert_non_null(c.s);
-    }
-    assert_true(sph_case_run(&c, 6, 100.0));
-    *n = c.s->p.n * c.s->p.nstate;
-    double *y = NEW(double, *n);
-    memcpy(y, c.s->p.y, (size_t)*n * sizeof(double));
-    sph_free(&c.s);
-    return y;
+    return sph_case_twelve(&c, restart, n);
 }
 
 static void restart_is_exact(void **state)

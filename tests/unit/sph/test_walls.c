@@ -16,6 +16,7 @@
 #include "../../../sph/walls/wall_points.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
+#include "sph_restart.h"
 
 /* Corners of the table's walls, R = 1; returns their number. */
 static int table_walls(const char *what, double p[20][2])
@@ -521,29 +522,10 @@ static void restart_scene(struct sph_case *c, int kind)
 
 static double *run_scene(int kind, bool restart, int *n)
 {
-    char path[512];
-    const char *dir = getenv("TEST_SCRATCH");
     struct sph_case c;
-    snprintf(path, sizeof path, "%s/test_walls.h5", dir ? dir : "/tmp");
     restart_scene(&c, kind);
     assert_non_null(sph_case_start(&c, NULL));
-    assert_true(sph_case_run(&c, 6, 100.0));
-    if (restart) {
-        struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
-        sph_checkpoint(c.s, f);
-        h5_close(&f);
-        sph_free(&c.s);
-        f = h5_open(MPI_COMM_WORLD, path);
-        sph_case_start(&c, f);
-        h5_close(&f);
-        assert_non_null(c.s);
-    }
-    assert_true(sph_case_run(&c, 6, 100.0));
-    *n = c.s->p.n * c.s->p.nstate;
-    double *y = NEW(double, *n);
-    memcpy(y, c.s->p.y, (size_t)*n * sizeof(double));
-    sph_free(&c.s);
-    return y;
+    return sph_case_twelve(&c, restart, n);
 }
 
 static void restart_is_exact(void **state)
