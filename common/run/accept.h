@@ -16,11 +16,11 @@ struct accept_series {
     int n;
     const double *t, *v; /* [n], t rising */
 };
-/* rms: of the difference at the reference's times, over the range of the reference; peak: of the
- * largest values; impulse: of the integrals; arrival: of the times at which half of the reference's
- * peak is first passed. NaN if they share no time, or the reference is 0 throughout. */
 /* How far a series lies from its reference between the times from and to, s, as a fraction. measure
- * is an enum accept_measure. */
+ * is an enum accept_measure: rms of the difference at the reference's times, over the range of the
+ * reference; peak: of the largest values; impulse: of the integrals; arrival: of the times at which
+ * half of the reference's peak is first passed. NaN if they share no time, or the reference is 0
+ * throughout. */
 double accept_distance(int measure, struct accept_series run, struct accept_series reference,
                        double from, double to);
 /* Adds a fault with file and line for each reference that cannot be read, whose first column is not

@@ -192,8 +192,6 @@ int run_command_line(struct command_line *c, int argc, char **argv, const char *
  * is set, restart is set and there is no folder, it cannot be made, or another process works in it.
  * With force and without restart the program's old files are removed. Collective over comm. */
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart);
-/* Removes the restart files of a program in its folder that come before the newest, but for the one
- * before it. What is newer (of a coupling step under way) stays. */
 /* Adds a fault at `key' if n units (particles, cells) that need `bytes' bytes in all are more than
  * the program's ranks can count (1e9 each) or their hosts can hold; hosts are assumed to be alike.
  * Collective over r->comm. */
@@ -224,13 +222,11 @@ void signals_handled(void);
 void signals_started(void);
 /* Path of the failure report that the programs of a job share; the first to fail writes it.
  * Copied. */
-void signals_note_path(
-    const char *path); /* file of the death note (shared by the job's programs) */
+void signals_note_path(const char *path);
 /* What the handler prints when there is no failure report; copied. */
 void signals_heard(const char *text);
 /* What the handler adds at a SIGTERM of the launcher, once; "": nothing. Copied. */
-void signals_hint(
-    const char *text); /* what it adds at a SIGTERM of the launcher: "" nothing; copied */
+void signals_hint(const char *text);
 
 /* Copies the diagnosis of the lowest rank with d->bad to all ranks; false if there is none.
  * Collective over comm. */

@@ -22,10 +22,10 @@ int still_upright(const struct scene *scene);
 /* Whether it is not along an axis. */
 bool still_is_inclined(const double still[3]);
 /* nu/(h sqrt(g h)): how fast viscosity nu, m^2/s, moves water over h, m, over how fast gravity
- * does; 0 without viscosity, else infinite without gravity. */
+ * does; 0 without viscosity, else infinite without gravity. Above STILL_CREEPS water creeps. */
 double still_creep(const double still[3], double nu, double h);
-#define STILL_CREEPS 10.0 /* above: it creeps */
-/* That hydrostatic pressure at x, Pa. */
+#define STILL_CREEPS 10.0
+/* The hydrostatic pressure of that gravity at x, Pa. */
 double still_pressure(const struct scene *scene, const struct gravity *g, const double *x);
 
 #endif

@@ -141,8 +141,7 @@ static inline int64_t mesh_count(const struct mesh_block *b)
     return (int64_t)b->n[0] * b->n[1] * b->n[2];
 }
 
-/* mesh_walls.c */
-/* Velocity that a wall or an inflow of a block has at x, m/s. */
+/* mesh_walls.c: velocity w[3] that a wall or an inflow of a block has at x, m/s. */
 void mesh_side_velocity(const struct run *r, const struct mesh_block *b, int side, const double *x,
                         double *w);
 /* mesh_given.c: sets the status of the cells in the boxes m->given to CELL_GIVEN; does nothing

@@ -12,19 +12,24 @@ struct fv_output {
     double (*history)[3]; /* blocks: s, N: t, force x, force y of each row of the series */
 };
 
-/* output_state.c: the grid must be there. Collective. */
+/* output_state.c: what outputs of this grid need; owned by the caller (output_free). Collective. */
 struct fv_output *output_create(const struct fv *s);
+/* Frees it and sets *o to NULL; *o may be NULL. */
 void output_free(struct fv_output **o);
 
-/* fv_io.c, fv_errors.c */
-/* Averages over the volumes of cells as snapshots have them, m/s, Pa, 1/s. */
+/* The fields of a snapshot, m/s, Pa, 1/s. */
 enum output_field { OUTPUT_VELOCITY, OUTPUT_PRESSURE, OUTPUT_VORTICITY };
+/* fv_io.c: sets the components q to averages over the volumes of cells, as snapshots have them. */
 void output_fill(struct fv *s, enum output_field what, double *const q[3]);
+/* Snapshot, restart file and its reading (fv_restart.c); s is a struct fv *. false: the file does
+ * not fit, and the reason has been logged. */
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
-/* fv_report.c: columns of the series, all but those of watches, and their (static) names. */
+/* fv_report.c: sets the names, which are static, of all columns of the series but those of watches,
+ * and returns their number. */
 int fv_columns(const struct run *r, const struct fv_params *prm, const char **columns);
+/* row and finish of struct program. */
 void fv_row(void *s, double *values);
 void fv_finish(void *s);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
@@ -34,15 +39,18 @@ void fv_tell(void *s, struct summary *report);
 struct picture;
 void fv_draw(const struct run *r, const struct fv_params *prm, struct picture *p);
 
-/* fv_probes.c: the case's gauges; number of columns and their names (static), values on all ranks.
- * Of a coupled job those that no partner reads. */
+/* fv_probes.c: sets the names, which are static, of the columns of the case's gauges, and returns
+ * their number. Of a coupled job those that no partner reads. */
 int fv_probe_columns(const struct run *r, const char **columns);
+/* Sets their values now, on all ranks. Collective. */
 void fv_probe(struct fv *s, double *values);
 
-/* fv_forces.c: forces on all walls and bodies, then on each body: number of columns and their
- * (static) names; values, as many. */
+/* fv_forces.c: sets the names, which are static, of the columns of forces on all walls and bodies,
+ * then on each body, and returns their number. */
 int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns);
+/* Sets their values now, on all ranks, and returns their number. Collective. */
 int fv_forces(struct fv *s, double *values);
+/* Writes the forces now to the summary, and what follows from their history. Collective. */
 void fv_summarise_forces(struct fv *s);
 
 /* steady_errors.c: of a regular or solitary wave into the summary. */

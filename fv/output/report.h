@@ -5,10 +5,12 @@
 
 #include "../fv.h"
 
-enum { NORMS = 3 }; /* velocity, pressure, vorticity */
+/* Error norms: of velocity, pressure and vorticity. */
+enum { NORMS = 3 };
 
 /* fv_errors.c: kinetic energy over the computed cells, and the exact field's, J/kg m^dim. */
 void fv_energies(struct fv *s, double sum[2]);
+/* Errors against the exact field now, of all ranks, in the fields' own units. Collective. */
 void fv_errors(struct fv *s, struct norm n[NORMS]);
 /* How the run steps: "rk3, three projections a step". */
 const char *report_method(const struct fv_params *prm);

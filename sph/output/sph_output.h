@@ -6,13 +6,12 @@
 
 #include "../sph.h"
 
-/* Names of the columns that sph_row fills for this scene; returns their number, at most
- * SPH_COLUMNS. */
+/* Most columns of a run of sph. */
 enum { SPH_COLUMNS = 56 + 3 * PROBES_MAX + 32 * BODIES_MAX };
-/* Headings of the columns that sph_row fills for this scene; returns their number, at most
- * SPH_COLUMNS. */
+/* Sets the headings of the columns that sph_row fills for this scene, which are static; returns
+ * their number, at most SPH_COLUMNS. */
 int sph_columns(const struct run *r, const struct sph_params *prm, const char **names);
-/* row, snapshot, checkpoint of struct program; s is a struct sph *. */
+/* row, snapshot and checkpoint of struct program; s is a struct sph *, of the coarsest level. */
 void sph_row(void *s, double *values);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);

@@ -30,8 +30,6 @@ double regions_dt(const struct regions *g);
 /* The same for the steps of one level, where regions of the next finer one are moved after each: by
  * half of its spacing. */
 double regions_dt_outside(const struct regions *g, int level);
-/* Where a body of the scene is; at the start all are where the case has them. The same on all
- * ranks, as what follows. */
 struct body_motion;
 /* Sets where a body of the scene is, the same on all ranks; at the start all are where the case has
  * them. */
