@@ -47,8 +47,9 @@ enum bc_value {
     BC_AHEAD   /* of one that is still to be projected: what that takes off is added */
 };
 
-/* The sides of the case; NULL if no side has a kind. Freed by bc_free. */
+/* The sides of the case; NULL if no side has a kind. Owned by the caller (bc_free). */
 struct bc *bc_create(struct fv *s);
+/* Frees them and sets *b to NULL; *b may be NULL. */
 void bc_free(struct bc **b);
 /* Kind of side k: where it has none MESH_PERIODIC or MESH_EXACT. */
 enum mesh_side bc_kind(const struct fv *s, int k);
@@ -59,13 +60,13 @@ enum mesh_side bc_behind(const struct fv *s, const int *at, int a);
  * must be there. */
 void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3]);
 /* The same for a difference (BC_ZERO) u of component q, in slab j normal to the last axis, without
- * corners: ghosts along the other axes, which must be whole on this rank. bc_end_ghosts: those at
- * the ends of the last axis. */
+ * corners: ghosts along the other axes, which must be whole on this rank. */
 void bc_slab_ghosts(const struct fv *s, int q, int j, double *u);
+/* The ghosts of such a field at the lower or upper end of the last axis. */
 void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 /* Sets U on walls and inflows; outflows are left as they are. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
-/* sides_visit for these sides. */
+/* Calls visit for each face of these sides, as sides_visit does. */
 void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with);
 /* Keeps tau grad psi along the walls, for BC_AHEAD. */
 void bc_set_slip(const struct fv *s, double tau, const double *psi);

@@ -32,8 +32,9 @@ enum { FV_RESTART_NUMBERS = 48 };
 /* Lists all of them as far as this run has them, and returns their number. Restart files and copies
  * of the state hold the same list, so that neither forgets one. */
 int fv_restart_numbers(struct fv *s, struct kept_number *of);
-/* Its value, and setting it. */
+/* The value of one of them, whatever its type. */
 double kept_number_get(const struct kept_number *x);
+/* Sets it in the state. */
 void kept_number_set(const struct kept_number *x, double value);
 
 /* fv_keep.c: room for a copy of the state in memory, to take steps back; owned by the caller

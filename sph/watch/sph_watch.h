@@ -112,7 +112,9 @@ int sph_watch_columns(const struct run *r, const struct sph_params *prm, const c
 double *sph_watch_row(const struct sph *s, double *values);
 /* Writes the figures to the summary. */
 void sph_watch_summarise(const struct sph *s);
+/* Writes budget, work and the worst values to a restart file. */
 void sph_watch_save(const struct sph *s, struct h5 *f);
+/* Reads them back; false: the file does not have them. */
 bool sph_watch_load(struct sph *s, struct h5 *f);
 
 /* sph_fault.c: how far a record y of the state is beyond its limits, as a multiple of them (1e300:
