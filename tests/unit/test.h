@@ -34,6 +34,24 @@ static inline bool is_alone(void)
     return size == 1;
 }
 
+/* main of a unit: runs a list of cmocka_unit_test(..), the second under MPI. A unit that has more
+ * to do before or after its tests writes its own. */
+#define TESTS(...)                                                                                 \
+    int main(void)                                                                                 \
+    {                                                                                              \
+        const struct CMUnitTest tests[] = {__VA_ARGS__};                                           \
+        return cmocka_run_group_tests(tests, NULL, NULL);                                          \
+    }
+#define TESTS_WITH_MPI(...)                                                                        \
+    int main(int argc, char **argv)                                                                \
+    {                                                                                              \
+        const struct CMUnitTest tests[] = {__VA_ARGS__};                                           \
+        MPI_Init(&argc, &argv);                                                                    \
+        const int failed = cmocka_run_group_tests(tests, NULL, NULL);                              \
+        MPI_Finalize();                                                                            \
+        return failed;                                                                             \
+    }
+
 /* |a - b| <= tolerance, absolute; NaN fails. */
 #define assert_close(a, b, tolerance)                                                              \
     do {                                                                                           \

@@ -103,16 +103,9 @@ static void a_row_may_be_long(void **state)
     unlink(path);
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_series_equals_itself),
-                                       cmocka_unit_test(a_higher_series_is_off_by_its_factor),
-                                       cmocka_unit_test(a_late_series_arrives_late),
-                                       cmocka_unit_test(what_cannot_be_compared_is_no_number),
-                                       cmocka_unit_test(a_table_has_names_without_units),
-                                       cmocka_unit_test(a_row_may_be_long)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_series_equals_itself),
+               cmocka_unit_test(a_higher_series_is_off_by_its_factor),
+               cmocka_unit_test(a_late_series_arrives_late),
+               cmocka_unit_test(what_cannot_be_compared_is_no_number),
+               cmocka_unit_test(a_table_has_names_without_units),
+               cmocka_unit_test(a_row_may_be_long))

@@ -41,9 +41,4 @@ static void short_numbers_stay(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(printed_limits_hold),
-                                       cmocka_unit_test(short_numbers_stay)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(printed_limits_hold), cmocka_unit_test(short_numbers_stay))

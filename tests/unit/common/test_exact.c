@@ -251,16 +251,10 @@ static void enstrophy_of_crossed_waves_is_that_of_their_vorticity(void **state)
         1.0, 1e-3);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(velocity_is_free_of_divergence),
-        cmocka_unit_test(gradient_and_vorticity_are_slopes_of_velocity),
-        cmocka_unit_test(fields_solve_navier_stokes),
-        cmocka_unit_test(averages_are_those_of_fine_quadrature),
-        cmocka_unit_test(averages_of_faces_balance),
-        cmocka_unit_test(crossed_waves_solve_the_linearised_equations),
-        cmocka_unit_test(enstrophy_of_crossed_waves_is_that_of_their_vorticity),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(velocity_is_free_of_divergence),
+      cmocka_unit_test(gradient_and_vorticity_are_slopes_of_velocity),
+      cmocka_unit_test(fields_solve_navier_stokes),
+      cmocka_unit_test(averages_are_those_of_fine_quadrature),
+      cmocka_unit_test(averages_of_faces_balance),
+      cmocka_unit_test(crossed_waves_solve_the_linearised_equations),
+      cmocka_unit_test(enstrophy_of_crossed_waves_is_that_of_their_vorticity))

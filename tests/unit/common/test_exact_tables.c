@@ -136,16 +136,7 @@ static void norms_are_those_of_all_ranks(void **state)
     assert_close(norm_rms(n + 1) + norm_mean(n + 1) + norm_relative_l2(n + 1), 0.0, 0.0);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(decay_is_that_of_the_table),
-        cmocka_unit_test(profiles_are_those_of_the_table),
-        cmocka_unit_test(fields_keep_their_scale_and_are_carried),
-        cmocka_unit_test(norms_are_those_of_all_ranks),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(decay_is_that_of_the_table),
+               cmocka_unit_test(profiles_are_those_of_the_table),
+               cmocka_unit_test(fields_keep_their_scale_and_are_carried),
+               cmocka_unit_test(norms_are_those_of_all_ranks))

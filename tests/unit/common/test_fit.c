@@ -61,10 +61,5 @@ static void a_spike_is_no_trend(void **state)
     assert_close(level, 100.0, 1.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(decaying_sine), cmocka_unit_test(too_short),
-                                       cmocka_unit_test(smoothing_has_no_lag),
-                                       cmocka_unit_test(a_spike_is_no_trend)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(decaying_sine), cmocka_unit_test(too_short),
+      cmocka_unit_test(smoothing_has_no_lag), cmocka_unit_test(a_spike_is_no_trend))

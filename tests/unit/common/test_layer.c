@@ -311,13 +311,7 @@ static void orders_in_steepness_keep_them_too(void **state)
         check_kept(of + k);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(transforms_are_sums),
-                                       cmocka_unit_test(steep_waves_have_their_velocities),
-                                       cmocka_unit_test(uneven_beds_are_met),
-                                       cmocka_unit_test(planes_turn_lines),
-                                       cmocka_unit_test(steady_waves_stay_what_they_are),
-                                       cmocka_unit_test(orders_in_steepness_keep_them_too)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(transforms_are_sums), cmocka_unit_test(steep_waves_have_their_velocities),
+      cmocka_unit_test(uneven_beds_are_met), cmocka_unit_test(planes_turn_lines),
+      cmocka_unit_test(steady_waves_stay_what_they_are),
+      cmocka_unit_test(orders_in_steepness_keep_them_too))

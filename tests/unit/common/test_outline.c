@@ -151,11 +151,6 @@ static void one_path_of_several(void **state)
     assert_non_null(strstr(why, "transform"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_are_corners), cmocka_unit_test(drawings_stand_upright),
-        cmocka_unit_test(curves_are_followed), cmocka_unit_test(many_corners_become_few),
-        cmocka_unit_test(one_path_of_several)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(rows_are_corners), cmocka_unit_test(drawings_stand_upright),
+      cmocka_unit_test(curves_are_followed), cmocka_unit_test(many_corners_become_few),
+      cmocka_unit_test(one_path_of_several))

@@ -109,10 +109,5 @@ static void heights_and_spectra(void **state)
     near(f[peak], 1.0, 0.06);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(waves_are_told_apart), cmocka_unit_test(two_gauges_are_goda_and_suzukis),
-        cmocka_unit_test(wave_numbers_are_found), cmocka_unit_test(heights_and_spectra)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(waves_are_told_apart), cmocka_unit_test(two_gauges_are_goda_and_suzukis),
+      cmocka_unit_test(wave_numbers_are_found), cmocka_unit_test(heights_and_spectra))

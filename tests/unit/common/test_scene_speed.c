@@ -222,19 +222,14 @@ static void slow_flows_have_the_pressure_of_friction(void **state)
     assert_true(scene_speed_of(&s, 0.0, 0.1).viscous == 0.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_channel_holds_its_stream_back),
-        cmocka_unit_test(water_falls_from_its_top_to_the_bottom),
-        cmocka_unit_test(a_column_scales_with_its_units),
-        cmocka_unit_test(water_below_one_level_does_not_fall),
-        cmocka_unit_test(a_closed_full_tank_has_its_static_pressure),
-        cmocka_unit_test(what_carries_a_field_counts),
-        cmocka_unit_test(walls_bodies_and_inlets_count),
-        cmocka_unit_test(a_force_along_a_periodic_axis_meets_friction_or_the_end),
-        cmocka_unit_test(outlets_of_unequal_pressure_make_a_jet),
-        cmocka_unit_test(waves_fall_from_crest_to_trough),
-        cmocka_unit_test(slow_flows_have_the_pressure_of_friction)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(a_channel_holds_its_stream_back),
+      cmocka_unit_test(water_falls_from_its_top_to_the_bottom),
+      cmocka_unit_test(a_column_scales_with_its_units),
+      cmocka_unit_test(water_below_one_level_does_not_fall),
+      cmocka_unit_test(a_closed_full_tank_has_its_static_pressure),
+      cmocka_unit_test(what_carries_a_field_counts),
+      cmocka_unit_test(walls_bodies_and_inlets_count),
+      cmocka_unit_test(a_force_along_a_periodic_axis_meets_friction_or_the_end),
+      cmocka_unit_test(outlets_of_unequal_pressure_make_a_jet),
+      cmocka_unit_test(waves_fall_from_crest_to_trough),
+      cmocka_unit_test(slow_flows_have_the_pressure_of_friction))

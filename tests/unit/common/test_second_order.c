@@ -307,15 +307,8 @@ static void groups_stand_in_still_water(void **state)
     waves_free(&w);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_wave_with_itself_is_stokes),
-                                       cmocka_unit_test(deep_water_has_its_limits),
-                                       cmocka_unit_test(the_surface_is_met_to_third_order),
-                                       cmocka_unit_test(second_order_adds_to_a_focused_crest),
-                                       cmocka_unit_test(interpolated_pairs_are_pairs),
-                                       cmocka_unit_test(tables_meet_the_surface),
-                                       cmocka_unit_test(seas_transport_nothing),
-                                       cmocka_unit_test(groups_stand_in_still_water)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(a_wave_with_itself_is_stokes), cmocka_unit_test(deep_water_has_its_limits),
+      cmocka_unit_test(the_surface_is_met_to_third_order),
+      cmocka_unit_test(second_order_adds_to_a_focused_crest),
+      cmocka_unit_test(interpolated_pairs_are_pairs), cmocka_unit_test(tables_meet_the_surface),
+      cmocka_unit_test(seas_transport_nothing), cmocka_unit_test(groups_stand_in_still_water))

@@ -104,11 +104,6 @@ static void there_is_a_highest_wave(void **state)
     assert_false(steady_create(&w, true, 1.0, 0.0, 0.9, 0.0, 9.81, 1.0));   /* 0.833 */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(deep_waves_have_stokes_speed),
-                                       cmocka_unit_test(solitary_waves_have_their_speed),
-                                       cmocka_unit_test(fields_obey_euler),
-                                       cmocka_unit_test(there_is_a_highest_wave)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(deep_waves_have_stokes_speed),
+      cmocka_unit_test(solitary_waves_have_their_speed), cmocka_unit_test(fields_obey_euler),
+      cmocka_unit_test(there_is_a_highest_wave))

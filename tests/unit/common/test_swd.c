@@ -155,9 +155,4 @@ static void bad_files_are_told(void **state)
     remove(path);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(files_give_their_waves),
-                                       cmocka_unit_test(bad_files_are_told)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(files_give_their_waves), cmocka_unit_test(bad_files_are_told))

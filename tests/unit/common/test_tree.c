@@ -342,18 +342,11 @@ static void parts_rims_and_junctions_are_counted(void **state)
     trimesh_free(&m);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(boxes_find_what_all_triangles_find),
-        cmocka_unit_test(nearest_is_the_nearest),
-        cmocka_unit_test(pseudonormal_knows_the_side_of_a_spike),
-        cmocka_unit_test(winding_is_one_inside_and_nought_outside),
-        cmocka_unit_test(open_tank_has_one_half_on_its_lid),
-        cmocka_unit_test(segments_do_not_slip_through),
-        cmocka_unit_test(solids_are_those_of_a_box),
-        cmocka_unit_test(builders_close_their_solids),
-        cmocka_unit_test(parts_rims_and_junctions_are_counted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(boxes_find_what_all_triangles_find),
+      cmocka_unit_test(nearest_is_the_nearest),
+      cmocka_unit_test(pseudonormal_knows_the_side_of_a_spike),
+      cmocka_unit_test(winding_is_one_inside_and_nought_outside),
+      cmocka_unit_test(open_tank_has_one_half_on_its_lid),
+      cmocka_unit_test(segments_do_not_slip_through), cmocka_unit_test(solids_are_those_of_a_box),
+      cmocka_unit_test(builders_close_their_solids),
+      cmocka_unit_test(parts_rims_and_junctions_are_counted))

@@ -71,16 +71,8 @@ static void a_run_that_ends_beyond_the_warning_is_not_sound(void **state)
         }
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_falling_energy_gains_nothing),
-        cmocka_unit_test(a_gain_is_that_of_the_last_hundred_steps),
-        cmocka_unit_test(every_tenth_step_is_enough),
-        cmocka_unit_test(a_level_warns_and_another_stops),
-        cmocka_unit_test(a_run_that_ends_beyond_the_warning_is_not_sound)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_falling_energy_gains_nothing),
+               cmocka_unit_test(a_gain_is_that_of_the_last_hundred_steps),
+               cmocka_unit_test(every_tenth_step_is_enough),
+               cmocka_unit_test(a_level_warns_and_another_stops),
+               cmocka_unit_test(a_run_that_ends_beyond_the_warning_is_not_sound))

@@ -183,15 +183,8 @@ static void waves_are_the_same_in_other_units(void **state)
         assert_close(v[k] / U, u[k], 1e-12 * 0.0067 * cabs(a.s));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(waves_are_the_same_in_other_units),
-                                       cmocka_unit_test(eigenvalues),
-                                       cmocka_unit_test(wave_solves_its_equations),
-                                       cmocka_unit_test(stokes_wave_travels),
-                                       cmocka_unit_test(enstrophy_of_the_layer),
-                                       cmocka_unit_test(thin_layers_do_not_grow_beyond_the_water),
-                                       cmocka_unit_test(channels),
-                                       cmocka_unit_test(patch_and_drop)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(waves_are_the_same_in_other_units), cmocka_unit_test(eigenvalues),
+      cmocka_unit_test(wave_solves_its_equations), cmocka_unit_test(stokes_wave_travels),
+      cmocka_unit_test(enstrophy_of_the_layer),
+      cmocka_unit_test(thin_layers_do_not_grow_beyond_the_water), cmocka_unit_test(channels),
+      cmocka_unit_test(patch_and_drop))

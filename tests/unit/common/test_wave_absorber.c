@@ -99,12 +99,6 @@ static void steps_go_where_the_theory_has_it(void **state)
     wave_absorber_free(&a);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_of_its_own_waves_comes_back),
-        cmocka_unit_test(a_slow_piston_has_no_modes_beside_it),
-        cmocka_unit_test(steps_go_where_the_theory_has_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(nothing_of_its_own_waves_comes_back),
+      cmocka_unit_test(a_slow_piston_has_no_modes_beside_it),
+      cmocka_unit_test(steps_go_where_the_theory_has_it))

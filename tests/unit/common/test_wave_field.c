@@ -178,10 +178,5 @@ static void bits_do_not_depend_on_who_asks(void **state)
     waves_free(&other);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(groups_are_of_second_order),
-                                       cmocka_unit_test(water_stays_water),
-                                       cmocka_unit_test(bits_do_not_depend_on_who_asks)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(groups_are_of_second_order), cmocka_unit_test(water_stays_water),
+      cmocka_unit_test(bits_do_not_depend_on_who_asks))

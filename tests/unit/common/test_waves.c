@@ -400,22 +400,11 @@ static void paddles_have_biesels_ratios(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(tables_give_the_wave),
-                                       cmocka_unit_test(currents_change_lengths),
-                                       cmocka_unit_test(currents_carry_the_wave),
-                                       cmocka_unit_test(groups_focus_on_currents),
-                                       cmocka_unit_test(currents_that_hold_waves_are_refused),
-                                       cmocka_unit_test(closed_tanks_transport_nothing),
-                                       cmocka_unit_test(periods_are_met),
-                                       cmocka_unit_test(waves_that_break_are_refused),
-                                       cmocka_unit_test(seas_have_their_height),
-                                       cmocka_unit_test(directions_have_their_spread),
-                                       cmocka_unit_test(short_crests_are_their_sum),
-                                       cmocka_unit_test(groups_focus),
-                                       cmocka_unit_test(bits_do_not_depend_on_who_asks),
-                                       cmocka_unit_test(zones_answer_as_they_should),
-                                       cmocka_unit_test(paddles_have_biesels_ratios)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(tables_give_the_wave), cmocka_unit_test(currents_change_lengths),
+      cmocka_unit_test(currents_carry_the_wave), cmocka_unit_test(groups_focus_on_currents),
+      cmocka_unit_test(currents_that_hold_waves_are_refused),
+      cmocka_unit_test(closed_tanks_transport_nothing), cmocka_unit_test(periods_are_met),
+      cmocka_unit_test(waves_that_break_are_refused), cmocka_unit_test(seas_have_their_height),
+      cmocka_unit_test(directions_have_their_spread), cmocka_unit_test(short_crests_are_their_sum),
+      cmocka_unit_test(groups_focus), cmocka_unit_test(bits_do_not_depend_on_who_asks),
+      cmocka_unit_test(zones_answer_as_they_should), cmocka_unit_test(paddles_have_biesels_ratios))

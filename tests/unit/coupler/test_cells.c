@@ -106,13 +106,6 @@ static void what_is_no_cell_has_no_volume(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polyhedra_have_their_volumes),
-        cmocka_unit_test(polygons_have_theirs),
-        cmocka_unit_test(cells_that_share_a_bent_face_add_up),
-        cmocka_unit_test(what_is_no_cell_has_no_volume),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(polyhedra_have_their_volumes), cmocka_unit_test(polygons_have_theirs),
+      cmocka_unit_test(cells_that_share_a_bent_face_add_up),
+      cmocka_unit_test(what_is_no_cell_has_no_volume))

@@ -390,22 +390,14 @@ static void dealing_loses_nothing_and_knows_no_ranks(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shepard_keeps_constants_also_at_edges),
-        cmocka_unit_test(mls_keeps_linear_functions),
-        cmocka_unit_test(orders_are_one_and_two),
-        cmocka_unit_test(kernel_integrates_to_one_and_has_its_moments),
-        cmocka_unit_test(moment_rule_gives_cell_averages),
-        cmocka_unit_test(order_of_sources_leaves_no_trace),
-        cmocka_unit_test(empty_places_are_masked),
-        cmocka_unit_test(mls_falls_back_where_points_lie_on_a_line),
-        cmocka_unit_test(nearest_takes_the_nearest_and_of_equals_the_lowest_id),
-        cmocka_unit_test(dealing_is_the_transpose_of_a_consistent_mapping),
-        cmocka_unit_test(dealing_loses_nothing_and_knows_no_ranks),
-        cmocka_unit_test(regions_hold_what_is_within_reach),
-        cmocka_unit_test(cells_of_a_box_have_their_margin),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(shepard_keeps_constants_also_at_edges),
+      cmocka_unit_test(mls_keeps_linear_functions), cmocka_unit_test(orders_are_one_and_two),
+      cmocka_unit_test(kernel_integrates_to_one_and_has_its_moments),
+      cmocka_unit_test(moment_rule_gives_cell_averages),
+      cmocka_unit_test(order_of_sources_leaves_no_trace), cmocka_unit_test(empty_places_are_masked),
+      cmocka_unit_test(mls_falls_back_where_points_lie_on_a_line),
+      cmocka_unit_test(nearest_takes_the_nearest_and_of_equals_the_lowest_id),
+      cmocka_unit_test(dealing_is_the_transpose_of_a_consistent_mapping),
+      cmocka_unit_test(dealing_loses_nothing_and_knows_no_ranks),
+      cmocka_unit_test(regions_hold_what_is_within_reach),
+      cmocka_unit_test(cells_of_a_box_have_their_margin))

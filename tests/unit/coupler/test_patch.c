@@ -320,19 +320,12 @@ static void report_speed(void **state)
             }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linear_is_exact_on_products_of_linear),
-        cmocka_unit_test(cubic_is_exact_on_cubics_given_their_averages),
-        cmocka_unit_test(orders_are_two_and_four_and_one_less_for_slopes),
-        cmocka_unit_test(linear_is_the_printed_formula),
-        cmocka_unit_test(outside_is_as_at_the_nearest_place),
-        cmocka_unit_test(periodic_patches_find_every_image),
-        cmocka_unit_test(bits_do_not_depend_on_the_patch),
-        cmocka_unit_test(thin_patches_and_many_components_work),
-        cmocka_unit_test(values_follow_a_cubic_in_time),
-        cmocka_unit_test(report_speed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(linear_is_exact_on_products_of_linear),
+      cmocka_unit_test(cubic_is_exact_on_cubics_given_their_averages),
+      cmocka_unit_test(orders_are_two_and_four_and_one_less_for_slopes),
+      cmocka_unit_test(linear_is_the_printed_formula),
+      cmocka_unit_test(outside_is_as_at_the_nearest_place),
+      cmocka_unit_test(periodic_patches_find_every_image),
+      cmocka_unit_test(bits_do_not_depend_on_the_patch),
+      cmocka_unit_test(thin_patches_and_many_components_work),
+      cmocka_unit_test(values_follow_a_cubic_in_time), cmocka_unit_test(report_speed))

@@ -199,18 +199,9 @@ static void programs_find_each_other_by_name(void **state)
     MPI_Barrier(MPI_COMM_WORLD);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_packed_is_taken),
-        cmocka_unit_test(long_messages_arrive_in_pieces),
-        cmocka_unit_test(a_message_shorter_than_it_says_is_found),
-        cmocka_unit_test(a_foreign_message_is_found),
-        cmocka_unit_test(waiting_leaves_the_processor_alone),
-        cmocka_unit_test(programs_find_each_other_by_name),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(what_is_packed_is_taken),
+               cmocka_unit_test(long_messages_arrive_in_pieces),
+               cmocka_unit_test(a_message_shorter_than_it_says_is_found),
+               cmocka_unit_test(a_foreign_message_is_found),
+               cmocka_unit_test(waiting_leaves_the_processor_alone),
+               cmocka_unit_test(programs_find_each_other_by_name))

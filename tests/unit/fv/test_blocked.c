@@ -415,16 +415,10 @@ static void ranks_agree(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_stays),      cmocka_unit_test(boxes_are_walls),
-        cmocka_unit_test(thin_wall_parts_basins), cmocka_unit_test(shafts_have_their_own_levels),
-        cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
-        cmocka_unit_test(stream_loses_energy),    cmocka_unit_test(bar_and_walls_take_the_weight),
-        cmocka_unit_test(orifice_starts),         cmocka_unit_test(ranks_agree)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(still_water_stays), cmocka_unit_test(boxes_are_walls),
+               cmocka_unit_test(thin_wall_parts_basins),
+               cmocka_unit_test(shafts_have_their_own_levels),
+               cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
+               cmocka_unit_test(stream_loses_energy),
+               cmocka_unit_test(bar_and_walls_take_the_weight), cmocka_unit_test(orifice_starts),
+               cmocka_unit_test(ranks_agree))

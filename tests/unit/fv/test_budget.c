@@ -177,13 +177,6 @@ static void so_do_curved_walls(void **state)
     mesh_case_end(&c, &s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(walls_take_what_the_flow_loses), cmocka_unit_test(so_do_walls_of_a_cavity),
-        cmocka_unit_test(so_do_walls_of_blocks), cmocka_unit_test(so_do_curved_walls)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(walls_take_what_the_flow_loses),
+               cmocka_unit_test(so_do_walls_of_a_cavity), cmocka_unit_test(so_do_walls_of_blocks),
+               cmocka_unit_test(so_do_curved_walls))

@@ -187,14 +187,7 @@ static void a_trial_leaves_no_trace(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(velocity_follows_cubics_and_pressure_lines),
-                                       cmocka_unit_test(lines_have_the_slope_of_parabolas),
-                                       cmocka_unit_test(forced_values_follow_parabolas),
-                                       cmocka_unit_test(a_trial_leaves_no_trace)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(velocity_follows_cubics_and_pressure_lines),
+               cmocka_unit_test(lines_have_the_slope_of_parabolas),
+               cmocka_unit_test(forced_values_follow_parabolas),
+               cmocka_unit_test(a_trial_leaves_no_trace))

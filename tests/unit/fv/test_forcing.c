@@ -116,13 +116,5 @@ static void an_outlet_feels_no_source(void **state)
     fv_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(fluxes_are_the_partners),
-                                       cmocka_unit_test(and_in_3d),
-                                       cmocka_unit_test(an_outlet_feels_no_source)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(fluxes_are_the_partners), cmocka_unit_test(and_in_3d),
+               cmocka_unit_test(an_outlet_feels_no_source))

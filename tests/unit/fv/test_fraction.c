@@ -214,14 +214,6 @@ static void odd_water_runs_or_says_why_not(void **state)
     assert_non_null(odd(&none, 1));
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disc_in_a_vortex), cmocka_unit_test(sphere_in_a_vortex),
-        cmocka_unit_test(air_beyond_the_band_is_dry), cmocka_unit_test(column_stays_even),
-        cmocka_unit_test(odd_water_runs_or_says_why_not)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(disc_in_a_vortex), cmocka_unit_test(sphere_in_a_vortex),
+               cmocka_unit_test(air_beyond_the_band_is_dry), cmocka_unit_test(column_stays_even),
+               cmocka_unit_test(odd_water_runs_or_says_why_not))

@@ -311,21 +311,12 @@ static void viscous_solve_keeps_its_word(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_slip_walls_keep_the_order),
-                                       cmocka_unit_test(slip_walls_keep_the_order),
-                                       cmocka_unit_test(steady_channels_are_exact),
-                                       cmocka_unit_test(channels_start_as_they_should),
-                                       cmocka_unit_test(ducts_are_exact),
-                                       cmocka_unit_test(lids_drag_alike_on_all_sides),
-                                       cmocka_unit_test(rest_stays_under_gravity),
-                                       cmocka_unit_test(rest_stays_between_equal_pressures),
-                                       cmocka_unit_test(the_level_of_pressure_moves_nothing),
-                                       cmocka_unit_test(vortices_leave),
-                                       cmocka_unit_test(viscous_solve_keeps_its_word)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(no_slip_walls_keep_the_order),
+               cmocka_unit_test(slip_walls_keep_the_order),
+               cmocka_unit_test(steady_channels_are_exact),
+               cmocka_unit_test(channels_start_as_they_should), cmocka_unit_test(ducts_are_exact),
+               cmocka_unit_test(lids_drag_alike_on_all_sides),
+               cmocka_unit_test(rest_stays_under_gravity),
+               cmocka_unit_test(rest_stays_between_equal_pressures),
+               cmocka_unit_test(the_level_of_pressure_moves_nothing),
+               cmocka_unit_test(vortices_leave), cmocka_unit_test(viscous_solve_keeps_its_word))

@@ -83,12 +83,4 @@ static void restart_is_exact(void **state)
         assert_int_equal(fv_case_restart(start_again, flow, 3), 0);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_agree),
-                                       cmocka_unit_test(restart_is_exact)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact))

@@ -280,22 +280,12 @@ static void thin_channels_take_few_steps(void **state)
     fv_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rk3_holds_where_nothing_is_resolved),
-                                       cmocka_unit_test(rk3_holds_in_every_direction),
-                                       cmocka_unit_test(bdf2_holds_at_any_viscosity),
-                                       cmocka_unit_test(newton_holds_without_viscosity),
-                                       cmocka_unit_test(blocks_hold),
-                                       cmocka_unit_test(starts_from_rest_hold),
-                                       cmocka_unit_test(convective_outflow_holds),
-                                       cmocka_unit_test(streams_without_residual_hold),
-                                       cmocka_unit_test(viscous_surfaces_hold),
-                                       cmocka_unit_test(viscous_starts_hold),
-                                       cmocka_unit_test(thin_channels_take_few_steps),
-                                       cmocka_unit_test(unit_of_errors_sets_no_step)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(rk3_holds_where_nothing_is_resolved),
+               cmocka_unit_test(rk3_holds_in_every_direction),
+               cmocka_unit_test(bdf2_holds_at_any_viscosity),
+               cmocka_unit_test(newton_holds_without_viscosity), cmocka_unit_test(blocks_hold),
+               cmocka_unit_test(starts_from_rest_hold), cmocka_unit_test(convective_outflow_holds),
+               cmocka_unit_test(streams_without_residual_hold),
+               cmocka_unit_test(viscous_surfaces_hold), cmocka_unit_test(viscous_starts_hold),
+               cmocka_unit_test(thin_channels_take_few_steps),
+               cmocka_unit_test(unit_of_errors_sets_no_step))

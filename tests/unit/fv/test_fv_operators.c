@@ -126,13 +126,6 @@ static void viscous_operator_has_order_four(void **state)
     has_order_four(3, LAPLACE);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(face_values_have_order_four),
-                                       cmocka_unit_test(gradient_has_order_four),
-                                       cmocka_unit_test(viscous_operator_has_order_four)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(face_values_have_order_four),
+               cmocka_unit_test(gradient_has_order_four),
+               cmocka_unit_test(viscous_operator_has_order_four))

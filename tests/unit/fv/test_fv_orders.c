@@ -167,16 +167,10 @@ static void rk3_is_as_good_in_3d(void **state)
     assert_true(fabs(solid - flat) < 0.1 * flat);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(taylor_green_converges), cmocka_unit_test(carried_waves_converge),
-        cmocka_unit_test(hole_keeps_the_order),   cmocka_unit_test(closed_sides_keep_the_order),
-        cmocka_unit_test(narrow_gaps_are_stable), cmocka_unit_test(hole_does_not_limit_the_step),
-        cmocka_unit_test(bdf2_has_order_two),     cmocka_unit_test(plane_flow_is_the_same_in_3d),
-        cmocka_unit_test(rk3_is_as_good_in_3d)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(taylor_green_converges), cmocka_unit_test(carried_waves_converge),
+               cmocka_unit_test(hole_keeps_the_order),
+               cmocka_unit_test(closed_sides_keep_the_order),
+               cmocka_unit_test(narrow_gaps_are_stable),
+               cmocka_unit_test(hole_does_not_limit_the_step), cmocka_unit_test(bdf2_has_order_two),
+               cmocka_unit_test(plane_flow_is_the_same_in_3d),
+               cmocka_unit_test(rk3_is_as_good_in_3d))

@@ -227,17 +227,7 @@ static void another_grid_is_refused(void **state)
     remove(path);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(ranks_agree_in_2d),
-                                       cmocka_unit_test(ranks_agree_with_a_hole),
-                                       cmocka_unit_test(ranks_agree_with_closed_sides),
-                                       cmocka_unit_test(ranks_agree_in_3d),
-                                       cmocka_unit_test(restart_is_exact),
-                                       cmocka_unit_test(other_ranks_go_on),
-                                       cmocka_unit_test(another_grid_is_refused)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_with_a_hole),
+               cmocka_unit_test(ranks_agree_with_closed_sides), cmocka_unit_test(ranks_agree_in_3d),
+               cmocka_unit_test(restart_is_exact), cmocka_unit_test(other_ranks_go_on),
+               cmocka_unit_test(another_grid_is_refused))

@@ -133,13 +133,6 @@ static void steps_may_change_tenfold(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(viscous_operator_is_symmetric), cmocka_unit_test(uniform_flow_stays),
-        cmocka_unit_test(step_leaves_no_divergence), cmocka_unit_test(steps_may_change_tenfold)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(viscous_operator_is_symmetric),
+               cmocka_unit_test(uniform_flow_stays), cmocka_unit_test(step_leaves_no_divergence),
+               cmocka_unit_test(steps_may_change_tenfold))

@@ -318,21 +318,11 @@ static void a_full_domain_is_told(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gained_energy_ends_a_run),
-                                       cmocka_unit_test(growing_rest_ends_a_run),
-                                       cmocka_unit_test(edges_make_no_energy),
-                                       cmocka_unit_test(blocks_are_watched),
-                                       cmocka_unit_test(waves_of_two_cells_are_seen),
-                                       cmocka_unit_test(a_swing_that_turns_is_sound),
-                                       cmocka_unit_test(sudden_growth_is_seen),
-                                       cmocka_unit_test(walls_and_openings_are_in_the_budget),
-                                       cmocka_unit_test(lost_water_is_not_accepted),
-                                       cmocka_unit_test(splashes_gain_no_energy),
-                                       cmocka_unit_test(a_full_domain_is_told)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(gained_energy_ends_a_run),
+               cmocka_unit_test(growing_rest_ends_a_run), cmocka_unit_test(edges_make_no_energy),
+               cmocka_unit_test(blocks_are_watched), cmocka_unit_test(waves_of_two_cells_are_seen),
+               cmocka_unit_test(a_swing_that_turns_is_sound),
+               cmocka_unit_test(sudden_growth_is_seen),
+               cmocka_unit_test(walls_and_openings_are_in_the_budget),
+               cmocka_unit_test(lost_water_is_not_accepted),
+               cmocka_unit_test(splashes_gain_no_energy), cmocka_unit_test(a_full_domain_is_told))

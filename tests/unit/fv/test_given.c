@@ -203,18 +203,8 @@ static void a_box_without_cells_is_a_fault(void **state)
     params_free(&c.params);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_hole_keeps_the_order),
-                                       cmocka_unit_test(across_an_overlap_too),
-                                       cmocka_unit_test(a_uniform_flow_passes),
-                                       cmocka_unit_test(an_outline_may_end_at_sides),
-                                       cmocka_unit_test(newton_goes_round_it),
-                                       cmocka_unit_test(so_does_a_steady_march),
-                                       cmocka_unit_test(ranks_agree),
-                                       cmocka_unit_test(a_box_without_cells_is_a_fault)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_hole_keeps_the_order), cmocka_unit_test(across_an_overlap_too),
+               cmocka_unit_test(a_uniform_flow_passes),
+               cmocka_unit_test(an_outline_may_end_at_sides),
+               cmocka_unit_test(newton_goes_round_it), cmocka_unit_test(so_does_a_steady_march),
+               cmocka_unit_test(ranks_agree), cmocka_unit_test(a_box_without_cells_is_a_fault))

@@ -201,13 +201,6 @@ static void ranks_make_no_difference(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_cycle_is_symmetric),
-                                       cmocka_unit_test(fine_grids_take_no_more_cycles),
-                                       cmocka_unit_test(ranks_make_no_difference)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(the_cycle_is_symmetric),
+               cmocka_unit_test(fine_grids_take_no_more_cycles),
+               cmocka_unit_test(ranks_make_no_difference))

@@ -734,30 +734,16 @@ static void axes_are_alike(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(disc_turns_once),
-                                       cmocka_unit_test(reinit_does_not_move_the_surface),
-                                       cmocka_unit_test(closest_points_are_of_fourth_order),
-                                       cmocka_unit_test(films_on_sides_have_their_volume),
-                                       cmocka_unit_test(pressure_is_second_order),
-                                       cmocka_unit_test(walls_are_no_surface),
-                                       cmocka_unit_test(still_water_stays),
-                                       cmocka_unit_test(axes_are_alike),
-                                       cmocka_unit_test(reach_is_that_on_the_wall),
-                                       cmocka_unit_test(films_run_as_theory_says),
-                                       cmocka_unit_test(thin_films_rub_at_any_level),
-                                       cmocka_unit_test(still_water_stays_on_graded_rows),
-                                       cmocka_unit_test(disc_sinks_through_graded_rows),
-                                       cmocka_unit_test(currents_pass_openings),
-                                       cmocka_unit_test(wave_swings_as_theory_says),
-                                       cmocka_unit_test(ranks_agree),
-                                       cmocka_unit_test(restart_is_exact),
-                                       cmocka_unit_test(crossed_waves_swing_as_theory_says),
-                                       cmocka_unit_test(rough_water_is_carried_on_within_bounds),
-                                       cmocka_unit_test(water_survives_impacts)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(
+    cmocka_unit_test(disc_turns_once), cmocka_unit_test(reinit_does_not_move_the_surface),
+    cmocka_unit_test(closest_points_are_of_fourth_order),
+    cmocka_unit_test(films_on_sides_have_their_volume), cmocka_unit_test(pressure_is_second_order),
+    cmocka_unit_test(walls_are_no_surface), cmocka_unit_test(still_water_stays),
+    cmocka_unit_test(axes_are_alike), cmocka_unit_test(reach_is_that_on_the_wall),
+    cmocka_unit_test(films_run_as_theory_says), cmocka_unit_test(thin_films_rub_at_any_level),
+    cmocka_unit_test(still_water_stays_on_graded_rows),
+    cmocka_unit_test(disc_sinks_through_graded_rows), cmocka_unit_test(currents_pass_openings),
+    cmocka_unit_test(wave_swings_as_theory_says), cmocka_unit_test(ranks_agree),
+    cmocka_unit_test(restart_is_exact), cmocka_unit_test(crossed_waves_swing_as_theory_says),
+    cmocka_unit_test(rough_water_is_carried_on_within_bounds),
+    cmocka_unit_test(water_survives_impacts))

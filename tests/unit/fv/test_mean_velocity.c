@@ -98,13 +98,6 @@ static void walls_take_momentum(void **state)
     fv_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_too_much_goes), cmocka_unit_test(and_stays_where_no_plane_tells),
-        cmocka_unit_test(a_body_force_drives_it), cmocka_unit_test(walls_take_momentum)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(what_is_too_much_goes),
+               cmocka_unit_test(and_stays_where_no_plane_tells),
+               cmocka_unit_test(a_body_force_drives_it), cmocka_unit_test(walls_take_momentum))

@@ -661,28 +661,17 @@ static void blocks_come_from_files(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(faces_of_a_cell_close),
-        cmocka_unit_test(a_uniform_flow_stays),
-        cmocka_unit_test(ring_flow_has_order_three_and_a_half),
-        cmocka_unit_test(output_is_averaged_over_volumes),
-        cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
-        cmocka_unit_test(a_lid_is_one_wall_alone),
-        cmocka_unit_test(a_lid_drags_what_its_layer_holds),
-        cmocka_unit_test(the_worst_cell_is_named),
-        cmocka_unit_test(walls_of_blocks_move_on_their_own),
-        cmocka_unit_test(a_start_is_linear_in_the_cells),
-        cmocka_unit_test(one_uniform_block_is_the_plain_solver),
-        cmocka_unit_test(ranks_agree),
-        cmocka_unit_test(restart_is_exact),
-        cmocka_unit_test(bdf2_agrees_with_rk3_in_short_steps),
-        cmocka_unit_test(even_parts_are_computed_alike),
-        cmocka_unit_test(faults_are_told),
-        cmocka_unit_test(blocks_come_from_files)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(faces_of_a_cell_close), cmocka_unit_test(a_uniform_flow_stays),
+               cmocka_unit_test(ring_flow_has_order_three_and_a_half),
+               cmocka_unit_test(output_is_averaged_over_volumes),
+               cmocka_unit_test(waves_and_joints_keep_order_three_and_a_half),
+               cmocka_unit_test(a_lid_is_one_wall_alone),
+               cmocka_unit_test(a_lid_drags_what_its_layer_holds),
+               cmocka_unit_test(the_worst_cell_is_named),
+               cmocka_unit_test(walls_of_blocks_move_on_their_own),
+               cmocka_unit_test(a_start_is_linear_in_the_cells),
+               cmocka_unit_test(one_uniform_block_is_the_plain_solver),
+               cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact),
+               cmocka_unit_test(bdf2_agrees_with_rk3_in_short_steps),
+               cmocka_unit_test(even_parts_are_computed_alike), cmocka_unit_test(faults_are_told),
+               cmocka_unit_test(blocks_come_from_files))

@@ -100,12 +100,5 @@ static void tall_cells_are_asked_at_several_places(void **state)
     fv_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(even_rows_go_on_below),
-                                       cmocka_unit_test(tall_cells_are_asked_at_several_places)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(even_rows_go_on_below),
+               cmocka_unit_test(tall_cells_are_asked_at_several_places))

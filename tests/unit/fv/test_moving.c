@@ -237,17 +237,8 @@ static void faults_are_told(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(uniform_flow_stays),
-                                       cmocka_unit_test(cells_keep_their_volume),
-                                       cmocka_unit_test(a_known_flow_is_kept),
-                                       cmocka_unit_test(a_turning_block_is_a_spinning_wall),
-                                       cmocka_unit_test(friction_bounds_the_step),
-                                       cmocka_unit_test(steps_see_the_motion),
-                                       cmocka_unit_test(faults_are_told)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(uniform_flow_stays), cmocka_unit_test(cells_keep_their_volume),
+               cmocka_unit_test(a_known_flow_is_kept),
+               cmocka_unit_test(a_turning_block_is_a_spinning_wall),
+               cmocka_unit_test(friction_bounds_the_step), cmocka_unit_test(steps_see_the_motion),
+               cmocka_unit_test(faults_are_told))

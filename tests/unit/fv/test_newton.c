@@ -421,24 +421,16 @@ static void steady_channels_are_exact(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(jacobian_is_the_derivative),
-                                       cmocka_unit_test(preconditioner_is_linear),
-                                       cmocka_unit_test(residual_decays_quadratically),
-                                       cmocka_unit_test(vectors_do_not_grow_with_the_grid),
-                                       cmocka_unit_test(time_is_second_order),
-                                       cmocka_unit_test(large_steps_are_stable),
-                                       cmocka_unit_test(sound_is_swallowed),
-                                       cmocka_unit_test(steady_cavity_takes_few_iterations),
-                                       cmocka_unit_test(steady_residual_follows_the_cells),
-                                       cmocka_unit_test(pseudo_steps_stay_within_what_gmres_solves),
-                                       cmocka_unit_test(upwind_states_survive_coarse_cells),
-                                       cmocka_unit_test(hopeless_flow_stops_with_a_reason),
-                                       cmocka_unit_test(steady_channels_are_exact),
-                                       cmocka_unit_test(steady_channel_on_graded_rows)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(jacobian_is_the_derivative),
+               cmocka_unit_test(preconditioner_is_linear),
+               cmocka_unit_test(residual_decays_quadratically),
+               cmocka_unit_test(vectors_do_not_grow_with_the_grid),
+               cmocka_unit_test(time_is_second_order), cmocka_unit_test(large_steps_are_stable),
+               cmocka_unit_test(sound_is_swallowed),
+               cmocka_unit_test(steady_cavity_takes_few_iterations),
+               cmocka_unit_test(steady_residual_follows_the_cells),
+               cmocka_unit_test(pseudo_steps_stay_within_what_gmres_solves),
+               cmocka_unit_test(upwind_states_survive_coarse_cells),
+               cmocka_unit_test(hopeless_flow_stops_with_a_reason),
+               cmocka_unit_test(steady_channels_are_exact),
+               cmocka_unit_test(steady_channel_on_graded_rows))

@@ -208,17 +208,9 @@ static void a_wall_without_a_block_is_refused(void **state)
     params_free(&c.params);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(steady_ring_has_order_three_and_a_half),
-                                       cmocka_unit_test(joints_do_not_matter),
-                                       cmocka_unit_test(sound_changes_little),
-                                       cmocka_unit_test(preconditioner_is_linear),
-                                       cmocka_unit_test(a_stream_becomes_uniform),
-                                       cmocka_unit_test(walls_of_the_scene_make_a_duct),
-                                       cmocka_unit_test(a_wall_without_a_block_is_refused)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(steady_ring_has_order_three_and_a_half),
+               cmocka_unit_test(joints_do_not_matter), cmocka_unit_test(sound_changes_little),
+               cmocka_unit_test(preconditioner_is_linear),
+               cmocka_unit_test(a_stream_becomes_uniform),
+               cmocka_unit_test(walls_of_the_scene_make_a_duct),
+               cmocka_unit_test(a_wall_without_a_block_is_refused))

@@ -238,15 +238,7 @@ static void ranks_agree_and_a_restart_is_exact(void **state)
     remove(path);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(vortices_leave),
-                                       cmocka_unit_test(what_comes_in_goes_out),
-                                       cmocka_unit_test(each_opening_has_its_parabola),
-                                       cmocka_unit_test(the_level_of_pressure_moves_nothing),
-                                       cmocka_unit_test(ranks_agree_and_a_restart_is_exact)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(vortices_leave), cmocka_unit_test(what_comes_in_goes_out),
+               cmocka_unit_test(each_opening_has_its_parabola),
+               cmocka_unit_test(the_level_of_pressure_moves_nothing),
+               cmocka_unit_test(ranks_agree_and_a_restart_is_exact))

@@ -207,15 +207,7 @@ static void orphans_are_named(void **state)
     params_free(&c.params);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(search_finds_places), cmocka_unit_test(linear_fields_are_exact),
-        cmocka_unit_test(holes_are_cut),       cmocka_unit_test(a_uniform_flow_crosses),
-        cmocka_unit_test(vortices_cross),      cmocka_unit_test(ranks_agree),
-        cmocka_unit_test(orphans_are_named)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(search_finds_places), cmocka_unit_test(linear_fields_are_exact),
+               cmocka_unit_test(holes_are_cut), cmocka_unit_test(a_uniform_flow_crosses),
+               cmocka_unit_test(vortices_cross), cmocka_unit_test(ranks_agree),
+               cmocka_unit_test(orphans_are_named))

@@ -101,10 +101,5 @@ static void known_shares(void **state)
     assert_true(plane_share(3, n, -1.5) == 0.0 && plane_share(3, n, 1.5) == 1.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inverse_of_share), cmocka_unit_test(slabs_add_up),
-        cmocka_unit_test(counted_points), cmocka_unit_test(known_shares)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(inverse_of_share), cmocka_unit_test(slabs_add_up),
+      cmocka_unit_test(counted_points), cmocka_unit_test(known_shares))

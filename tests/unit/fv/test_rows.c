@@ -260,20 +260,10 @@ static void extrema_are_of_the_order_of_the_scheme(void **state)
     assert_true(fv_case_order(coarse, fine) > 3.5 && fine < 1e-4);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(heights_fill_the_domain),
-                                       cmocka_unit_test(weights_are_exact_for_cubics),
-                                       cmocka_unit_test(what_goes_on_is_exact_too),
-                                       cmocka_unit_test(a_hole_keeps_the_order),
-                                       cmocka_unit_test(order_is_kept),
-                                       cmocka_unit_test(slip_walls_keep_the_order),
-                                       cmocka_unit_test(channel_is_exact),
-                                       cmocka_unit_test(duct_is_exact),
-                                       cmocka_unit_test(cavity_is_the_same),
-                                       cmocka_unit_test(extrema_are_of_the_order_of_the_scheme)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(heights_fill_the_domain),
+               cmocka_unit_test(weights_are_exact_for_cubics),
+               cmocka_unit_test(what_goes_on_is_exact_too),
+               cmocka_unit_test(a_hole_keeps_the_order), cmocka_unit_test(order_is_kept),
+               cmocka_unit_test(slip_walls_keep_the_order), cmocka_unit_test(channel_is_exact),
+               cmocka_unit_test(duct_is_exact), cmocka_unit_test(cavity_is_the_same),
+               cmocka_unit_test(extrema_are_of_the_order_of_the_scheme))

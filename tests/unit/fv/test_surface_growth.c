@@ -105,12 +105,5 @@ static void water_rests_in_tanks_that_lean(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(waves_of_a_few_cells_do_not_grow),
-                                       cmocka_unit_test(water_rests_in_tanks_that_lean)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(waves_of_a_few_cells_do_not_grow),
+               cmocka_unit_test(water_rests_in_tanks_that_lean))

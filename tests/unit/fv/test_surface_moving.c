@@ -220,16 +220,8 @@ static void restart_is_exact(void **state)
     assert_int_equal(mesh_case_restart(&one, s, &two, 6), 0);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_body_at_rest_has_its_buoyancy),
-                                       cmocka_unit_test(still_water_stays_where_a_block_moves),
-                                       cmocka_unit_test(a_body_that_speeds_up_has_its_added_mass),
-                                       cmocka_unit_test(a_cup_that_tilts_carries_its_water),
-                                       cmocka_unit_test(ranks_agree),
-                                       cmocka_unit_test(restart_is_exact)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_body_at_rest_has_its_buoyancy),
+               cmocka_unit_test(still_water_stays_where_a_block_moves),
+               cmocka_unit_test(a_body_that_speeds_up_has_its_added_mass),
+               cmocka_unit_test(a_cup_that_tilts_carries_its_water), cmocka_unit_test(ranks_agree),
+               cmocka_unit_test(restart_is_exact))

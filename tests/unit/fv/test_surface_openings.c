@@ -381,19 +381,11 @@ static void an_outlet_that_runs_short_drains_its_tank(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(levels_after_ten_transits_are_those_of_theory),
-        cmocka_unit_test(current_over_a_sill_has_bernoullis_levels),
-        cmocka_unit_test(nothing_pulls_where_the_level_outside_is_low),
-        cmocka_unit_test(what_passes_is_the_given_discharge),
-        cmocka_unit_test(an_outlet_that_runs_short_drains_its_tank),
-        cmocka_unit_test(wakes_leave_without_gain),
-        cmocka_unit_test(steps_taken_back_leave_no_trace),
-        cmocka_unit_test(restart_is_exact)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(levels_after_ten_transits_are_those_of_theory),
+               cmocka_unit_test(current_over_a_sill_has_bernoullis_levels),
+               cmocka_unit_test(nothing_pulls_where_the_level_outside_is_low),
+               cmocka_unit_test(what_passes_is_the_given_discharge),
+               cmocka_unit_test(an_outlet_that_runs_short_drains_its_tank),
+               cmocka_unit_test(wakes_leave_without_gain),
+               cmocka_unit_test(steps_taken_back_leave_no_trace),
+               cmocka_unit_test(restart_is_exact))

@@ -332,23 +332,12 @@ static void pockets_are_dropped(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_dam_and_its_wet_bed_have_their_own_heads),
-        cmocka_unit_test(basins_do_not_know_of_each_other),
-        cmocka_unit_test(a_duct_leads_from_one_level_to_the_other),
-        cmocka_unit_test(water_under_a_body_stands_under_the_same_level),
-        cmocka_unit_test(a_full_closed_tank_stands_under_its_lid),
-        cmocka_unit_test(what_falls_has_no_weight),
-        cmocka_unit_test(a_tilted_tank_has_one_level),
-        cmocka_unit_test(heads_know_no_axes),
-        cmocka_unit_test(gravity_along_a_period_lets_no_pressure_rise),
-        cmocka_unit_test(seams_stay_dry),
-        cmocka_unit_test(pockets_are_dropped),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_dam_and_its_wet_bed_have_their_own_heads),
+               cmocka_unit_test(basins_do_not_know_of_each_other),
+               cmocka_unit_test(a_duct_leads_from_one_level_to_the_other),
+               cmocka_unit_test(water_under_a_body_stands_under_the_same_level),
+               cmocka_unit_test(a_full_closed_tank_stands_under_its_lid),
+               cmocka_unit_test(what_falls_has_no_weight),
+               cmocka_unit_test(a_tilted_tank_has_one_level), cmocka_unit_test(heads_know_no_axes),
+               cmocka_unit_test(gravity_along_a_period_lets_no_pressure_rise),
+               cmocka_unit_test(seams_stay_dry), cmocka_unit_test(pockets_are_dropped))

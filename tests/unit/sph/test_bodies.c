@@ -417,20 +417,8 @@ static void motion_files_are_read_once(void **state)
     motion_files_free(files);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(motion_files_are_read_once),
-                                       cmocka_unit_test(torque_free_top),
-                                       cmocka_unit_test(acceleration_of_a_top),
-                                       cmocka_unit_test(pendulum),
-                                       cmocka_unit_test(spring_keeps_energy),
-                                       cmocka_unit_test(mooring_is_slack),
-                                       cmocka_unit_test(inertia_of_an_outline),
-                                       cmocka_unit_test(motion_is_differentiable),
-                                       cmocka_unit_test(locks_hold),
-                                       cmocka_unit_test(impedance_of_a_plate)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(motion_files_are_read_once), cmocka_unit_test(torque_free_top),
+               cmocka_unit_test(acceleration_of_a_top), cmocka_unit_test(pendulum),
+               cmocka_unit_test(spring_keeps_energy), cmocka_unit_test(mooring_is_slack),
+               cmocka_unit_test(inertia_of_an_outline), cmocka_unit_test(motion_is_differentiable),
+               cmocka_unit_test(locks_hold), cmocka_unit_test(impedance_of_a_plate))

@@ -112,13 +112,7 @@ static void shares_of_faces_are_areas(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(planes_are_found_to_a_thirtieth_of_dx),
-        cmocka_unit_test(discs_look_lower_by_their_curvature),
-        cmocka_unit_test(beyond_the_kernel_only_the_side_is_known),
-        cmocka_unit_test(shares_of_faces_are_areas),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(planes_are_found_to_a_thirtieth_of_dx),
+      cmocka_unit_test(discs_look_lower_by_their_curvature),
+      cmocka_unit_test(beyond_the_kernel_only_the_side_is_known),
+      cmocka_unit_test(shares_of_faces_are_areas))

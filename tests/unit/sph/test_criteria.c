@@ -311,19 +311,8 @@ static void ranks_do_not_matter(void **state)
     regions_free(&h);
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distance_to_marked_cells_is_exact_near_their_edge),
-        cmocka_unit_test(vorticity_is_refined_with_all_levels_around),
-        cmocka_unit_test(cells_stay_for_a_while),
-        cmocka_unit_test(the_budget_is_kept),
-        cmocka_unit_test(open_sides_are_left_alone),
-        cmocka_unit_test(a_restart_goes_on_the_same),
-        cmocka_unit_test(ranks_do_not_matter),
-    };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(distance_to_marked_cells_is_exact_near_their_edge),
+               cmocka_unit_test(vorticity_is_refined_with_all_levels_around),
+               cmocka_unit_test(cells_stay_for_a_while), cmocka_unit_test(the_budget_is_kept),
+               cmocka_unit_test(open_sides_are_left_alone),
+               cmocka_unit_test(a_restart_goes_on_the_same), cmocka_unit_test(ranks_do_not_matter))

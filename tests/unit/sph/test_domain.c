@@ -266,16 +266,9 @@ static void what_is_not_finite_keeps_its_mark(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(particles_reach_their_owners),
-                                       cmocka_unit_test(ghosts_are_all_images_within_reach),
-                                       cmocka_unit_test(halo_brings_the_owners_values),
-                                       cmocka_unit_test(what_is_not_finite_keeps_its_mark),
-                                       cmocka_unit_test(balance_evens_out_a_crowd),
-                                       cmocka_unit_test(balance_evens_out_the_pairs)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(particles_reach_their_owners),
+               cmocka_unit_test(ghosts_are_all_images_within_reach),
+               cmocka_unit_test(halo_brings_the_owners_values),
+               cmocka_unit_test(what_is_not_finite_keeps_its_mark),
+               cmocka_unit_test(balance_evens_out_a_crowd),
+               cmocka_unit_test(balance_evens_out_the_pairs))

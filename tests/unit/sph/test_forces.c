@@ -326,14 +326,6 @@ static void tilted_tank(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(momentum_is_balanced), cmocka_unit_test(ranks_agree),
-        cmocka_unit_test(with_the_stream),      cmocka_unit_test(free_bodies_conserve),
-        cmocka_unit_test(added_mass),           cmocka_unit_test(tilted_tank)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(momentum_is_balanced), cmocka_unit_test(ranks_agree),
+               cmocka_unit_test(with_the_stream), cmocka_unit_test(free_bodies_conserve),
+               cmocka_unit_test(added_mass), cmocka_unit_test(tilted_tank))

@@ -153,16 +153,7 @@ static void waves_keep_their_energy(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(levels_are_read_along_gravity),
-        cmocka_unit_test(depths_are_measured_from_where_gravity_points),
-        cmocka_unit_test(waves_start_at_their_height),
-        cmocka_unit_test(waves_keep_their_energy),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(levels_are_read_along_gravity),
+               cmocka_unit_test(depths_are_measured_from_where_gravity_points),
+               cmocka_unit_test(waves_start_at_their_height),
+               cmocka_unit_test(waves_keep_their_energy))

@@ -266,19 +266,11 @@ static void restart_and_rows_leave_no_trace(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(order_is_four_or_two),
-                                       cmocka_unit_test(stages_agree_with_their_polynomial),
-                                       cmocka_unit_test(resting_lattice_stays_at_rest),
-                                       cmocka_unit_test(mass_and_momentum_are_kept),
-                                       cmocka_unit_test(particles_collide),
-                                       cmocka_unit_test(steps_are_shared_out_evenly),
-                                       cmocka_unit_test(a_broken_state_is_found_and_placed),
-                                       cmocka_unit_test(extremes_of_several_steps_are_speeds),
-                                       cmocka_unit_test(restart_and_rows_leave_no_trace)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(order_is_four_or_two),
+               cmocka_unit_test(stages_agree_with_their_polynomial),
+               cmocka_unit_test(resting_lattice_stays_at_rest),
+               cmocka_unit_test(mass_and_momentum_are_kept), cmocka_unit_test(particles_collide),
+               cmocka_unit_test(steps_are_shared_out_evenly),
+               cmocka_unit_test(a_broken_state_is_found_and_placed),
+               cmocka_unit_test(extremes_of_several_steps_are_speeds),
+               cmocka_unit_test(restart_and_rows_leave_no_trace))

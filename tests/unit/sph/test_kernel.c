@@ -76,12 +76,6 @@ static void pressure_without_density_is_held(void **state)
     assert_true(rho > 0.0 && rho < 500.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(integrates_to_one),
-                                       cmocka_unit_test(slope_is_the_derivative),
-                                       cmocka_unit_test(ends_at_its_support),
-                                       cmocka_unit_test(sound_speed_is_the_slope_of_pressure),
-                                       cmocka_unit_test(pressure_without_density_is_held)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(integrates_to_one), cmocka_unit_test(slope_is_the_derivative),
+      cmocka_unit_test(ends_at_its_support), cmocka_unit_test(sound_speed_is_the_slope_of_pressure),
+      cmocka_unit_test(pressure_without_density_is_held))

@@ -47,11 +47,4 @@ static void lids_are_alike_on_all_sides(void **state)
         }
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lids_are_alike_on_all_sides)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(lids_are_alike_on_all_sides))

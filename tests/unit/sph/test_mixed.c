@@ -202,14 +202,7 @@ static void children_coalesce(void **state)
     refine_nothing();
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(translation_is_exact), cmocka_unit_test(pairs_conserve_mass_and_momentum),
-        cmocka_unit_test(vortices_decay_as_they_should),
-        cmocka_unit_test(graded_sizes_change_slowly), cmocka_unit_test(children_coalesce)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(translation_is_exact),
+               cmocka_unit_test(pairs_conserve_mass_and_momentum),
+               cmocka_unit_test(vortices_decay_as_they_should),
+               cmocka_unit_test(graded_sizes_change_slowly), cmocka_unit_test(children_coalesce))

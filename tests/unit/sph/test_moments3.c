@@ -424,19 +424,10 @@ static void a_lone_triangle_casts_a_shadow(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arc_tangents_and_logarithms_are_those_of_the_library),
-        cmocka_unit_test(gamma_agrees_with_the_table),
-        cmocka_unit_test(a_plane_has_half_the_kernel),
-        cmocka_unit_test(moments_are_integrals),
-        cmocka_unit_test(parts_make_the_whole),
-        cmocka_unit_test(feet_on_edges_and_corners_are_no_exception),
-        cmocka_unit_test(small_triangles_go_by_points),
-        cmocka_unit_test(clipped_squares_agree),
-        cmocka_unit_test(the_nearest_point_is_nearest),
-        cmocka_unit_test(a_lone_triangle_casts_a_shadow),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(arc_tangents_and_logarithms_are_those_of_the_library),
+      cmocka_unit_test(gamma_agrees_with_the_table), cmocka_unit_test(a_plane_has_half_the_kernel),
+      cmocka_unit_test(moments_are_integrals), cmocka_unit_test(parts_make_the_whole),
+      cmocka_unit_test(feet_on_edges_and_corners_are_no_exception),
+      cmocka_unit_test(small_triangles_go_by_points), cmocka_unit_test(clipped_squares_agree),
+      cmocka_unit_test(the_nearest_point_is_nearest),
+      cmocka_unit_test(a_lone_triangle_casts_a_shadow))

@@ -144,14 +144,6 @@ static void few_or_far_particles_are_no_trouble(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_hold_all_pairs), cmocka_unit_test(ghosts_are_in_the_tail),
-        cmocka_unit_test(sorting_keeps_every_particle), cmocka_unit_test(sorting_is_stable),
-        cmocka_unit_test(few_or_far_particles_are_no_trouble)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(rows_hold_all_pairs), cmocka_unit_test(ghosts_are_in_the_tail),
+               cmocka_unit_test(sorting_keeps_every_particle), cmocka_unit_test(sorting_is_stable),
+               cmocka_unit_test(few_or_far_particles_are_no_trouble))

@@ -353,18 +353,10 @@ static void missing_children_are_born_again(void **state)
     refine_nothing();
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(translation_is_exact),
-                                       cmocka_unit_test(nested_boxes_and_space_are_exact),
-                                       cmocka_unit_test(empty_levels_run),
-                                       cmocka_unit_test(guards_take_linear_fields),
-                                       cmocka_unit_test(guards_beside_walls_take_linear_fields),
-                                       cmocka_unit_test(nobody_is_born_behind_walls),
-                                       cmocka_unit_test(missing_children_are_born_again),
-                                       cmocka_unit_test(local_steps_are_as_good)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(translation_is_exact),
+               cmocka_unit_test(nested_boxes_and_space_are_exact),
+               cmocka_unit_test(empty_levels_run), cmocka_unit_test(guards_take_linear_fields),
+               cmocka_unit_test(guards_beside_walls_take_linear_fields),
+               cmocka_unit_test(nobody_is_born_behind_walls),
+               cmocka_unit_test(missing_children_are_born_again),
+               cmocka_unit_test(local_steps_are_as_good))

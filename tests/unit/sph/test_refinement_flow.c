@@ -293,16 +293,8 @@ static void a_body_moves_as_in_the_fine_fluid(void **state)
     assert_close(near, fine, 0.02);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_scheme_keeps_its_order),
-                                       cmocka_unit_test(means_of_guards_damp_as_kernels_do),
-                                       cmocka_unit_test(a_mirror_and_ranks_change_nothing),
-                                       cmocka_unit_test(an_output_leaves_no_trace),
-                                       cmocka_unit_test(water_at_rest_stays),
-                                       cmocka_unit_test(a_body_moves_as_in_the_fine_fluid)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(every_scheme_keeps_its_order),
+               cmocka_unit_test(means_of_guards_damp_as_kernels_do),
+               cmocka_unit_test(a_mirror_and_ranks_change_nothing),
+               cmocka_unit_test(an_output_leaves_no_trace), cmocka_unit_test(water_at_rest_stays),
+               cmocka_unit_test(a_body_moves_as_in_the_fine_fluid))

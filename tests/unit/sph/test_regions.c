@@ -361,22 +361,10 @@ static void few_boxes_leave_few(void **state)
     regions_free(&g);
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distance_to_boxes_is_exact),
-        cmocka_unit_test(distance_to_balls_knows_walls),
-        cmocka_unit_test(levels_lie_within_each_other),
-        cmocka_unit_test(periods_are_no_edges),
-        cmocka_unit_test(walls_are_no_edges),
-        cmocka_unit_test(a_given_outer_region_is_taken),
-        cmocka_unit_test(bodies_have_layers_that_move),
-        cmocka_unit_test(sets_move_together),
-        cmocka_unit_test(the_peak_is_followed),
-        cmocka_unit_test(few_boxes_leave_few),
-    };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(distance_to_boxes_is_exact),
+               cmocka_unit_test(distance_to_balls_knows_walls),
+               cmocka_unit_test(levels_lie_within_each_other),
+               cmocka_unit_test(periods_are_no_edges), cmocka_unit_test(walls_are_no_edges),
+               cmocka_unit_test(a_given_outer_region_is_taken),
+               cmocka_unit_test(bodies_have_layers_that_move), cmocka_unit_test(sets_move_together),
+               cmocka_unit_test(the_peak_is_followed), cmocka_unit_test(few_boxes_leave_few))

@@ -268,18 +268,9 @@ static void the_peak_takes_its_region_along(void **state)
     ask_nothing();
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_surface_is_refined),
-        cmocka_unit_test(vortices_are_refined_within_the_budget),
-        cmocka_unit_test(ranks_have_the_same_regions),
-        cmocka_unit_test(still_water_is_refined_by_its_weight_alone),
-        cmocka_unit_test(steep_pressures_are_refined),
-        cmocka_unit_test(the_peak_takes_its_region_along),
-    };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(the_surface_is_refined),
+               cmocka_unit_test(vortices_are_refined_within_the_budget),
+               cmocka_unit_test(ranks_have_the_same_regions),
+               cmocka_unit_test(still_water_is_refined_by_its_weight_alone),
+               cmocka_unit_test(steep_pressures_are_refined),
+               cmocka_unit_test(the_peak_takes_its_region_along))

@@ -287,21 +287,12 @@ static void exact_star_state_has_a_mirror_and_a_vacuum(void **state)
     assert_close(E[1], -1000.0 * 100.0 / 7.0, 1e-6);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_states_stay),
-        cmocka_unit_test(symmetric_collision_is_rho_c_u),
-        cmocka_unit_test(star_state_lies_on_both_waves),
-        cmocka_unit_test(low_dissipation_is_bounded),
-        cmocka_unit_test(linear_fields_meet_in_the_middle),
-        cmocka_unit_test(limiters_are_the_printed_ones),
-        cmocka_unit_test(koren_is_third_order),
-        cmocka_unit_test(slack_keeps_extrema_smooth),
-        cmocka_unit_test(no_bounded_state_overshoots),
-        cmocka_unit_test(pressure_is_the_scalar_one),
-        cmocka_unit_test(exact_star_state_keeps_what_waves_keep),
-        cmocka_unit_test(linear_star_state_errs_to_second_order),
-        cmocka_unit_test(exact_star_state_has_a_mirror_and_a_vacuum)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(equal_states_stay), cmocka_unit_test(symmetric_collision_is_rho_c_u),
+      cmocka_unit_test(star_state_lies_on_both_waves), cmocka_unit_test(low_dissipation_is_bounded),
+      cmocka_unit_test(linear_fields_meet_in_the_middle),
+      cmocka_unit_test(limiters_are_the_printed_ones), cmocka_unit_test(koren_is_third_order),
+      cmocka_unit_test(slack_keeps_extrema_smooth), cmocka_unit_test(no_bounded_state_overshoots),
+      cmocka_unit_test(pressure_is_the_scalar_one),
+      cmocka_unit_test(exact_star_state_keeps_what_waves_keep),
+      cmocka_unit_test(linear_star_state_errs_to_second_order),
+      cmocka_unit_test(exact_star_state_has_a_mirror_and_a_vacuum))

@@ -298,18 +298,9 @@ static void packing_fills_the_room(void **state)
     finish(&c);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_tank_without_lid_holds_its_water),
-        cmocka_unit_test(an_obstacle_stays_dry),
-        cmocka_unit_test(a_sheet_has_water_on_one_side),
-        cmocka_unit_test(each_tank_has_its_level_and_seeds_choose),
-        cmocka_unit_test(a_thin_plate_has_water_on_both_sides),
-        cmocka_unit_test(packing_fills_the_room),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_tank_without_lid_holds_its_water),
+               cmocka_unit_test(an_obstacle_stays_dry),
+               cmocka_unit_test(a_sheet_has_water_on_one_side),
+               cmocka_unit_test(each_tank_has_its_level_and_seeds_choose),
+               cmocka_unit_test(a_thin_plate_has_water_on_both_sides),
+               cmocka_unit_test(packing_fills_the_room))

@@ -481,19 +481,9 @@ static void ghosts_act_like_locals(void **state)
         }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gradients_are_exact_on_linear_fields),
-                                       cmocka_unit_test(few_neighbours_give_no_slope),
-                                       cmocka_unit_test(rates_are_the_double_loop),
-                                       cmocka_unit_test(positions_move_with_u0),
-                                       cmocka_unit_test(mass_and_momentum_are_kept),
-                                       cmocka_unit_test(gravity_acts_on_the_mass),
-                                       cmocka_unit_test(transport_restores_and_rests),
-                                       cmocka_unit_test(transport_is_the_plain_sum),
-                                       cmocka_unit_test(ghosts_act_like_locals)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(
+    cmocka_unit_test(gradients_are_exact_on_linear_fields),
+    cmocka_unit_test(few_neighbours_give_no_slope), cmocka_unit_test(rates_are_the_double_loop),
+    cmocka_unit_test(positions_move_with_u0), cmocka_unit_test(mass_and_momentum_are_kept),
+    cmocka_unit_test(gravity_acts_on_the_mass), cmocka_unit_test(transport_restores_and_rests),
+    cmocka_unit_test(transport_is_the_plain_sum), cmocka_unit_test(ghosts_act_like_locals))

@@ -389,19 +389,11 @@ static void background_lifts_all_pressures(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rates_are_the_double_loop),
-                                       cmocka_unit_test(lean_gradients_are_those_of_the_full_pass),
-                                       cmocka_unit_test(positions_move_with_u),
-                                       cmocka_unit_test(xsph_is_the_plain_sum),
-                                       cmocka_unit_test(momentum_is_kept),
-                                       cmocka_unit_test(gradient_and_divergence_are_adjoint),
-                                       cmocka_unit_test(both_terms_dissipate),
-                                       cmocka_unit_test(diffusion_moves_density_only),
-                                       cmocka_unit_test(background_lifts_all_pressures)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(rates_are_the_double_loop),
+               cmocka_unit_test(lean_gradients_are_those_of_the_full_pass),
+               cmocka_unit_test(positions_move_with_u), cmocka_unit_test(xsph_is_the_plain_sum),
+               cmocka_unit_test(momentum_is_kept),
+               cmocka_unit_test(gradient_and_divergence_are_adjoint),
+               cmocka_unit_test(both_terms_dissipate),
+               cmocka_unit_test(diffusion_moves_density_only),
+               cmocka_unit_test(background_lifts_all_pressures))

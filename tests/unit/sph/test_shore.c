@@ -59,14 +59,5 @@ static void a_tank_without_a_beach_has_no_edge(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_edge_is_where_half_a_row_is_left),
-        cmocka_unit_test(a_tank_without_a_beach_has_no_edge),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(the_edge_is_where_half_a_row_is_left),
+               cmocka_unit_test(a_tank_without_a_beach_has_no_edge))

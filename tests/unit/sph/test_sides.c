@@ -187,14 +187,6 @@ static void eddies_bring_no_head_through_outlets(void **state)
     assert_close(p[1], -0.5 * 0.25 / 1.5, 1e-3); /* two thirds of the flow leave */
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sound_leaves),
-                                       cmocka_unit_test(streams_keep_their_mass),
-                                       cmocka_unit_test(outlets_keep_the_profile),
-                                       cmocka_unit_test(eddies_bring_no_head_through_outlets)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(sound_leaves), cmocka_unit_test(streams_keep_their_mass),
+               cmocka_unit_test(outlets_keep_the_profile),
+               cmocka_unit_test(eddies_bring_no_head_through_outlets))

@@ -247,15 +247,8 @@ static void a_closed_tank_keeps_its_level(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    MPI_Init(&argc, &argv);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(friction_of_a_wave_is_of_fourth_order),
-                                       cmocka_unit_test(friction_of_a_parabola_is_exact),
-                                       cmocka_unit_test(a_particle_that_shifts_keeps_the_field),
-                                       cmocka_unit_test(noise_starts_packed),
-                                       cmocka_unit_test(a_closed_tank_keeps_its_level)};
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(friction_of_a_wave_is_of_fourth_order),
+               cmocka_unit_test(friction_of_a_parabola_is_exact),
+               cmocka_unit_test(a_particle_that_shifts_keeps_the_field),
+               cmocka_unit_test(noise_starts_packed),
+               cmocka_unit_test(a_closed_tank_keeps_its_level))

@@ -199,14 +199,6 @@ static void other_ranks_go_on_with_open_sides(void **state)
     goes_on_on_others(0, SANITIZED ? 8 : 20);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_in_3d),
-        cmocka_unit_test(ranks_agree_with_open_sides), cmocka_unit_test(other_ranks_go_on),
-        cmocka_unit_test(other_ranks_go_on_with_open_sides)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_in_3d),
+               cmocka_unit_test(ranks_agree_with_open_sides), cmocka_unit_test(other_ranks_go_on),
+               cmocka_unit_test(other_ranks_go_on_with_open_sides))

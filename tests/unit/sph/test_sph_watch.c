@@ -237,18 +237,11 @@ static void forces_are_compared_at_rest(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(forces_are_compared_at_rest),
-                                       cmocka_unit_test(a_sound_flow_gains_nothing),
-                                       cmocka_unit_test(an_unstable_step_is_ended_by_its_energy),
-                                       cmocka_unit_test(work_from_outside_is_no_gain),
-                                       cmocka_unit_test(the_worst_particle_is_named),
-                                       cmocka_unit_test(an_impact_is_no_fault),
-                                       cmocka_unit_test(shifting_has_the_scale_of_the_flow),
-                                       cmocka_unit_test(a_restart_judges_as_one_run)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(forces_are_compared_at_rest),
+               cmocka_unit_test(a_sound_flow_gains_nothing),
+               cmocka_unit_test(an_unstable_step_is_ended_by_its_energy),
+               cmocka_unit_test(work_from_outside_is_no_gain),
+               cmocka_unit_test(the_worst_particle_is_named),
+               cmocka_unit_test(an_impact_is_no_fault),
+               cmocka_unit_test(shifting_has_the_scale_of_the_flow),
+               cmocka_unit_test(a_restart_judges_as_one_run))

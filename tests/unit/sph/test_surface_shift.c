@@ -98,12 +98,5 @@ static void shifts_fade_with_the_support(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_law_is_the_printed_one),
-                                       cmocka_unit_test(shifts_fade_with_the_support)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(the_law_is_the_printed_one),
+               cmocka_unit_test(shifts_fade_with_the_support))

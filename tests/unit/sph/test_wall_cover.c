@@ -175,14 +175,8 @@ static void rooms_behind_beaches_are_shut(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(beaches_hide_the_floor),
-                                       cmocka_unit_test(bumps_hide_the_floor),
-                                       cmocka_unit_test(blocks_on_the_floor_have_no_bottom),
-                                       cmocka_unit_test(beds_through_open_sides_hide_the_floor),
-                                       cmocka_unit_test(what_hides_nothing_stays),
-                                       cmocka_unit_test(corners_cut_nothing),
-                                       cmocka_unit_test(rooms_behind_beaches_are_shut)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(beaches_hide_the_floor), cmocka_unit_test(bumps_hide_the_floor),
+      cmocka_unit_test(blocks_on_the_floor_have_no_bottom),
+      cmocka_unit_test(beds_through_open_sides_hide_the_floor),
+      cmocka_unit_test(what_hides_nothing_stays), cmocka_unit_test(corners_cut_nothing),
+      cmocka_unit_test(rooms_behind_beaches_are_shut))

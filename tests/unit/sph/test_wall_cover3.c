@@ -106,11 +106,5 @@ static void slopes_end_at_the_sides(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(slopes_hide_the_floor),
-                                       cmocka_unit_test(columns_hide_the_floor),
-                                       cmocka_unit_test(what_hides_nothing_cuts_nothing),
-                                       cmocka_unit_test(slopes_end_at_the_sides)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(slopes_hide_the_floor), cmocka_unit_test(columns_hide_the_floor),
+      cmocka_unit_test(what_hides_nothing_cuts_nothing), cmocka_unit_test(slopes_end_at_the_sides))

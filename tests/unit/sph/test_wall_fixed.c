@@ -124,13 +124,5 @@ static void rests_round_bodies(void **state)
     rests_round(4, (double[2]){0.2, 0.2}, 0.3);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(layers_are_curved),
-                                       cmocka_unit_test(layers_fill_corners),
-                                       cmocka_unit_test(rests_round_bodies)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(layers_are_curved), cmocka_unit_test(layers_fill_corners),
+               cmocka_unit_test(rests_round_bodies))

@@ -150,14 +150,6 @@ static void joints_come_and_go(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(walls_that_part_are_found), cmocka_unit_test(nobody_sees_through),
-        cmocka_unit_test(fluids_meet_over_a_small_body),
-        cmocka_unit_test(sides_of_a_tip_are_mirrors), cmocka_unit_test(joints_come_and_go)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(walls_that_part_are_found), cmocka_unit_test(nobody_sees_through),
+               cmocka_unit_test(fluids_meet_over_a_small_body),
+               cmocka_unit_test(sides_of_a_tip_are_mirrors), cmocka_unit_test(joints_come_and_go))

@@ -64,8 +64,4 @@ static void layers_that_end_before_a_wall_rest(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(layers_that_end_before_a_wall_rest)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(layers_that_end_before_a_wall_rest))

@@ -149,17 +149,8 @@ static void poses_carry_there_and_back(void **state)
         assert_close(own[a], x[a], 1e-14);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_of_walls_is_one_closed_mesh),
-        cmocka_unit_test(open_sides_prolong_the_others),
-        cmocka_unit_test(walls_unlike_each_other_are_meshes_of_their_own),
-        cmocka_unit_test(meshes_repeat_with_the_domain),
-        cmocka_unit_test(poses_carry_there_and_back),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(a_box_of_walls_is_one_closed_mesh),
+               cmocka_unit_test(open_sides_prolong_the_others),
+               cmocka_unit_test(walls_unlike_each_other_are_meshes_of_their_own),
+               cmocka_unit_test(meshes_repeat_with_the_domain),
+               cmocka_unit_test(poses_carry_there_and_back))

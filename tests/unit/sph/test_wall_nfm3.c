@@ -398,23 +398,11 @@ static void restart_is_exact(void **state)
     mem_free(again);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_particle_finds_its_walls),
-        cmocka_unit_test(walls_go_on_beyond_periodic_sides),
-        cmocka_unit_test(laplacian_at_a_wall),
-        cmocka_unit_test(a_stream_along_walls_stays),
-        cmocka_unit_test(surface_is_found),
-        cmocka_unit_test(momentum_is_balanced),
-        cmocka_unit_test(walls_carry_the_weight),
-        cmocka_unit_test(a_square_tank_has_no_sense),
-        cmocka_unit_test(a_particle_behind_is_put_back),
-        cmocka_unit_test(ranks_agree),
-        cmocka_unit_test(restart_is_exact),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(every_particle_finds_its_walls),
+               cmocka_unit_test(walls_go_on_beyond_periodic_sides),
+               cmocka_unit_test(laplacian_at_a_wall), cmocka_unit_test(a_stream_along_walls_stays),
+               cmocka_unit_test(surface_is_found), cmocka_unit_test(momentum_is_balanced),
+               cmocka_unit_test(walls_carry_the_weight),
+               cmocka_unit_test(a_square_tank_has_no_sense),
+               cmocka_unit_test(a_particle_behind_is_put_back), cmocka_unit_test(ranks_agree),
+               cmocka_unit_test(restart_is_exact))

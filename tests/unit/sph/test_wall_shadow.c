@@ -140,13 +140,5 @@ static void the_plane_beyond_an_edge_is_hidden_with_it(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_hides_all_beyond_it),
-        cmocka_unit_test(what_is_before_is_not_hidden),
-        cmocka_unit_test(parts_add_up),
-        cmocka_unit_test(the_plane_beyond_an_edge_is_hidden_with_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(cmocka_unit_test(a_box_hides_all_beyond_it), cmocka_unit_test(what_is_before_is_not_hidden),
+      cmocka_unit_test(parts_add_up), cmocka_unit_test(the_plane_beyond_an_edge_is_hidden_with_it))

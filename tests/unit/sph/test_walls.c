@@ -599,28 +599,14 @@ static void packing_moves_the_lattice(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gamma_agrees_with_the_table),
-                                       cmocka_unit_test(moments_are_integrals),
-                                       cmocka_unit_test(points_miss_gamma_before_them),
-                                       cmocka_unit_test(points_are_of_second_order),
-                                       cmocka_unit_test(gamma_rises_with_the_wall),
-                                       cmocka_unit_test(eigenvalues),
-                                       cmocka_unit_test(surface_is_found),
-                                       cmocka_unit_test(the_shift_is_workless),
-                                       cmocka_unit_test(body_in_still_water),
-                                       cmocka_unit_test(sharp_tips_leave_room),
-                                       cmocka_unit_test(gauge_reads_mean),
-                                       cmocka_unit_test(motion),
-                                       cmocka_unit_test(laplacian_at_a_wall),
-                                       cmocka_unit_test(mass_is_kept),
-                                       cmocka_unit_test(packing_moves_the_lattice),
-                                       cmocka_unit_test(water_at_rest_stays),
-                                       cmocka_unit_test(ranks_agree),
-                                       cmocka_unit_test(restart_is_exact)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(gamma_agrees_with_the_table),
+               cmocka_unit_test(moments_are_integrals),
+               cmocka_unit_test(points_miss_gamma_before_them),
+               cmocka_unit_test(points_are_of_second_order),
+               cmocka_unit_test(gamma_rises_with_the_wall), cmocka_unit_test(eigenvalues),
+               cmocka_unit_test(surface_is_found), cmocka_unit_test(the_shift_is_workless),
+               cmocka_unit_test(body_in_still_water), cmocka_unit_test(sharp_tips_leave_room),
+               cmocka_unit_test(gauge_reads_mean), cmocka_unit_test(motion),
+               cmocka_unit_test(laplacian_at_a_wall), cmocka_unit_test(mass_is_kept),
+               cmocka_unit_test(packing_moves_the_lattice), cmocka_unit_test(water_at_rest_stays),
+               cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact))

@@ -152,12 +152,5 @@ static void the_mean_discharge_is_the_current_s(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(under_any_gravity),
-                                       cmocka_unit_test(the_mean_discharge_is_the_current_s)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(under_any_gravity),
+               cmocka_unit_test(the_mean_discharge_is_the_current_s))
