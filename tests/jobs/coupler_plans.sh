@@ -1,5 +1,5 @@
 #!/bin/sh
-# Every promise of cpl.h beside those of coupler.sh: three programs and more, takers of one field, times of reads, mappings,
+# Every promise of cpl.h beside those of coupler.sh: three programs and more, targets of one field, times of reads, mappings,
 # general cells, periods, names, extremes. Partners: mock_any.c. SPDX-License-Identifier: BSD-3-Clause
 . "$(dirname "$0")/lib.sh"
 export ASAN_OPTIONS=detect_leaks=0:handle_segv=0
