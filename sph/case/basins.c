@@ -673,7 +673,7 @@ double basins_suction(const struct basins *b, double *where)
             const struct basin_run *run = b->runs + r;
             int ic[3];
             double x[3];
-            if (!run->roofed || run->dropped || isnan(run->level))
+            if (!run->covered || run->dropped || isnan(run->level))
                 continue;
             cell_in(b, c, top_cell(b, run), ic);
             lattice_centre(b->l, ic, b->s->dim, x);

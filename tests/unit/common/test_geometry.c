@@ -311,21 +311,12 @@ static void bodies_have_their_fluid_outside(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sense_is_that_of_the_points),
-        cmocka_unit_test(a_line_that_crosses_itself_is_found_with_its_place),
-        cmocka_unit_test(what_is_no_line_is_refused),
-        cmocka_unit_test(gaps_and_overlaps_are_told_apart),
-        cmocka_unit_test(walls_that_run_the_wrong_way_are_turned),
-        cmocka_unit_test(walls_with_water_on_both_sides_stay),
-        cmocka_unit_test(baffles_have_their_fluid_outside),
-        cmocka_unit_test(dykes_have_their_fluid_outside),
-        cmocka_unit_test(bodies_have_their_fluid_outside),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(sense_is_that_of_the_points),
+               cmocka_unit_test(a_line_that_crosses_itself_is_found_with_its_place),
+               cmocka_unit_test(what_is_no_line_is_refused),
+               cmocka_unit_test(gaps_and_overlaps_are_told_apart),
+               cmocka_unit_test(walls_that_run_the_wrong_way_are_turned),
+               cmocka_unit_test(walls_with_water_on_both_sides_stay),
+               cmocka_unit_test(baffles_have_their_fluid_outside),
+               cmocka_unit_test(dykes_have_their_fluid_outside),
+               cmocka_unit_test(bodies_have_their_fluid_outside))

@@ -209,15 +209,7 @@ static void rings_tell_the_level(void **state)
     mesh_case_end(&c, &s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_and_layers),    cmocka_unit_test(beside_a_box),
-        cmocka_unit_test(under_a_surface),     cmocka_unit_test(between_water_and_air),
-        cmocka_unit_test(stretched_blocks),    cmocka_unit_test(levels_on_blocks),
-        cmocka_unit_test(rings_tell_the_level)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(cells_and_layers), cmocka_unit_test(beside_a_box),
+               cmocka_unit_test(under_a_surface), cmocka_unit_test(between_water_and_air),
+               cmocka_unit_test(stretched_blocks), cmocka_unit_test(levels_on_blocks),
+               cmocka_unit_test(rings_tell_the_level))

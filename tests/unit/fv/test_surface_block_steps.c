@@ -350,20 +350,9 @@ static void restart_is_exact(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_stays),
-        cmocka_unit_test(waves_swing_as_on_one_block),
-        cmocka_unit_test(sound_slows_waves_down),
-        cmocka_unit_test(viscosity_and_flat_cells_bound_no_step),
-        cmocka_unit_test(currents_pass_openings),
-        cmocka_unit_test(currents_are_carried_out),
-        cmocka_unit_test(waves_between_openings_are_those_of_the_uniform_grid),
-        cmocka_unit_test(ranks_agree),
-        cmocka_unit_test(restart_is_exact)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(still_water_stays), cmocka_unit_test(waves_swing_as_on_one_block),
+               cmocka_unit_test(sound_slows_waves_down),
+               cmocka_unit_test(viscosity_and_flat_cells_bound_no_step),
+               cmocka_unit_test(currents_pass_openings), cmocka_unit_test(currents_are_carried_out),
+               cmocka_unit_test(waves_between_openings_are_those_of_the_uniform_grid),
+               cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact))

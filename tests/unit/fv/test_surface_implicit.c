@@ -232,19 +232,7 @@ static void leaning_water_starts_with_its_pressure(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_stays),
-        cmocka_unit_test(waves_swing_as_theory_says),
-        cmocka_unit_test(sound_slows_waves_down),
-        cmocka_unit_test(columns_fall),
-        cmocka_unit_test(honey_creeps),
-        cmocka_unit_test(currents_pass_openings),
-        cmocka_unit_test(leaning_water_starts_with_its_pressure),
-    };
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(still_water_stays), cmocka_unit_test(waves_swing_as_theory_says),
+               cmocka_unit_test(sound_slows_waves_down), cmocka_unit_test(columns_fall),
+               cmocka_unit_test(honey_creeps), cmocka_unit_test(currents_pass_openings),
+               cmocka_unit_test(leaning_water_starts_with_its_pressure))

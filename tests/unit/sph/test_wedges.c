@@ -110,13 +110,5 @@ static void weight_in_a_slit(void **state)
     sph_free(&c.s);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(disc_on_the_floor_is_borne), cmocka_unit_test(others_have_none),
-        cmocka_unit_test(shares_of_planes), cmocka_unit_test(weight_in_a_slit)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
-}
+TESTS_WITH_MPI(cmocka_unit_test(disc_on_the_floor_is_borne), cmocka_unit_test(others_have_none),
+               cmocka_unit_test(shares_of_planes), cmocka_unit_test(weight_in_a_slit))
