@@ -8,7 +8,10 @@
 #include "../geometry/geometry.h"
 #include "scene_outlines.h"
 
-enum { CORNERS = 96, SPHERE_LEVEL = 3 };
+/* Corners of a disc in the plane, most of a cylinder; levels of a sphere, 20 times 4^level facets.
+ */
+enum { CORNERS = 96, SIDES_LEAST = 16, LEVEL_LEAST = 1, LEVEL = 3, LEVEL_MOST = 5 };
+static const double edge_of_level = 1.15; /* of a sphere of radius 1 and level 0, a mean */
 
 static bool has_box(const struct scene_body *b)
 {
@@ -67,13 +70,17 @@ static void rectangle(const struct scene_body *b, double (*x)[2])
     }
 }
 
+/* A coordinate of a round form, which goes no further than its radius along the axes, so that it
+ * stands on a floor. */
+static double within(double x, double radius) { return fmax(-radius, fmin(x, radius)); }
+
 /* A polygon of the circle's area. */
-static void circle(double radius, double (*x)[2])
+static void circle(double radius, int n, double (*x)[2])
 {
-    const double step = 2.0 * M_PI / CORNERS, r = radius * sqrt(step / sin(step));
-    for (int i = 0; i < CORNERS; i++) {
-        x[i][0] = r * cos(step * i);
-        x[i][1] = -r * sin(step * i);
+    const double step = 2.0 * M_PI / n, r = radius * sqrt(step / sin(step));
+    for (int i = 0; i < n; i++) {
+        x[i][0] = within(r * cos(step * i), radius);
+        x[i][1] = within(-r * sin(step * i), radius);
     }
 }
 
@@ -84,7 +91,7 @@ static void make_points(struct scene_body *b, enum body_form form)
     if (form == FORM_BOX)
         rectangle(b, x);
     else
-        circle(b->radius, x);
+        circle(b->radius, n, x);
     scene_outline_place(&b->surface, n, (const double(*)[2])x, &b->points);
 }
 
@@ -119,29 +126,45 @@ static struct trimesh prism(int n, const double (*x)[2], double length)
     return trimesh_prism(n, (const double(*)[2])turned, -0.5 * length, 0.5 * length);
 }
 
-static struct trimesh sphere(double radius)
+static int level_of(double radius, double facet)
+{
+    int level = facet > 0.0 ? LEVEL_LEAST : LEVEL;
+    while (facet > 0.0 && level < LEVEL_MOST && edge_of_level * radius > 1.4 * facet * (1 << level))
+        level++;
+    return level;
+}
+
+/* A multiple of four, so that corners lie on the axes. */
+static int sides_of(double radius, double facet)
+{
+    const double wanted = facet > 0.0 ? 2.0 * M_PI * radius / facet : CORNERS;
+    return 4 * (int)ceil(0.25 * fmin(fmax(wanted, SIDES_LEAST), CORNERS));
+}
+
+static struct trimesh sphere(double radius, double facet)
 {
     const double centre[3] = {0.0};
-    struct trimesh m = trimesh_sphere(centre, radius, SPHERE_LEVEL);
+    struct trimesh m = trimesh_sphere(centre, radius, level_of(radius, facet));
     const double whole = 4.0 / 3.0 * M_PI * radius * radius * radius;
     const double grow = cbrt(whole / trimesh_solid(&m, -1).volume);
     for (int v = 0; v < m.nvertices; v++)
         for (int a = 0; a < 3; a++)
-            m.x[v][a] *= grow;
+            m.x[v][a] = within(grow * m.x[v][a], radius);
     return m;
 }
 
-struct trimesh scene_form_mesh(const struct scene_body *b)
+struct trimesh scene_form_mesh(const struct scene_body *b, double facet)
 {
+    const int sides = sides_of(b->radius, facet);
     double x[CORNERS][2];
     switch (scene_form_of(b)) {
     case FORM_BOX:
         return trimesh_box(b->box[0], b->box[1], 1);
     case FORM_ROUND:
-        return sphere(b->radius);
+        return sphere(b->radius, facet);
     case FORM_CYLINDER:
-        circle(b->radius, x);
-        return prism(CORNERS, (const double(*)[2])x, b->length);
+        circle(b->radius, sides, x);
+        return prism(sides, (const double(*)[2])x, b->length);
     default:
         return prism(b->section.n, (const double(*)[2])b->section.x, b->length);
     }

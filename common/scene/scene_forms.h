@@ -1,5 +1,6 @@
 /* scene_forms.h - bodies of simple form, without a file: boxes, discs, and in 3D spheres, cylinders
- * and prisms. Their area or volume is that of the form, not of a polygon inscribed in it.
+ * and prisms. Area or volume are those of the form within 1e-3, not of a polygon inscribed
+ * in it, and the extent along the axes is exact.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_FORMS_H
 #define COMMON_SCENE_FORMS_H
@@ -15,7 +16,7 @@ enum body_form scene_form_of(const struct scene_body *b);
  * scene_check. */
 void scene_forms_make(struct scene *s, const struct params *p, struct faults *f);
 /* In 3D: the triangles of a body of simple form, normals out, connected, not yet placed; the
- * caller owns them. */
-struct trimesh scene_form_mesh(const struct scene_body *b);
+ * caller owns them. Round ones have edges of about `facet', m, where that is not 0. */
+struct trimesh scene_form_mesh(const struct scene_body *b, double facet);
 
 #endif

@@ -230,7 +230,8 @@ struct scene {
         double tolerance; /* accepted while the value is at most this */
     } accept[ACCEPT_MAX];
     bool has_coupling, has_output, has_waves;
-    bool has_sph, has_fv;        /* the groups of the solvers are there: both make a coupled job */
+    bool has_sph, has_fv; /* the groups of the solvers are there: both make a coupled job */
+    double facet; /* m: edge wanted of the facets of round bodies in 3D; 0: fixed numbers of them */
     struct scene_meshes *meshes; /* what the files of surfaces hold; scene_mesh.h; NULL: none */
 };
 

@@ -75,7 +75,7 @@ static bool take(const struct reading *r, const struct scene_mesh *m,
 {
     char path[1024 + PARAM_TEXT_SIZE];
     if (!*is->mesh) {
-        *t = scene_form_mesh(r->s->bodies + m->index);
+        *t = scene_form_mesh(r->s->bodies + m->index, r->s->facet);
         return true;
     }
     snprintf(path, sizeof path, "%s%s%s", *is->mesh == '/' ? "" : r->case_dir,

@@ -759,3 +759,10 @@ void sph_params_check(const struct run *r, struct faults *f)
     if (f->n == 0 && apr_params_of(r))
         check_levels(r, f);
 }
+
+void sph_meshes_read(struct scene *s, const char *case_dir, const struct params *p, MPI_Comm comm,
+                     struct faults *f)
+{
+    s->facet = given.dx;
+    scene_meshes_read(s, case_dir, p, comm, f);
+}

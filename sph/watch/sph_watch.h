@@ -59,7 +59,7 @@ struct sph_watch {
     struct sph_crowd crowd;               /* at the last sample */
     char crowd_place[256];                /* where that was, in words */
     struct rest_forces still[BODIES_MAX]; /* of bodies that are at rest */
-    char still_place[256];                /* which of them is off most, in words */
+    char still_place[400];                /* which of them is off most, in words */
     bool budget_closed; /* all work done on the flow is known, so that its energy is judged */
     double reference;   /* m/s: largest speed that the scene lets expect */
     double rest;        /* -: static pressure over rho0 c0^2, the compression at rest */
