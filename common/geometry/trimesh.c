@@ -206,6 +206,21 @@ void trimesh_middle(const struct trimesh *m, int triangle, double x[3])
         x[a] = (m->x[v[0]][a] + m->x[v[1]][a] + m->x[v[2]][a]) / 3.0;
 }
 
+bool trimesh_cut(const struct trimesh *m, int triangle, int axis, double at, double x[2][3])
+{
+    int n = 0;
+    for (int k = 0; k < 3 && n < 2; k++) {
+        const double *a = m->x[m->vertex[triangle][k]], *b = m->x[m->vertex[triangle][(k + 1) % 3]];
+        if ((a[axis] > at) == (b[axis] > at))
+            continue;
+        const double w = (at - a[axis]) / (b[axis] - a[axis]);
+        for (int c = 0; c < 3; c++)
+            x[n][c] = a[c] + w * (b[c] - a[c]);
+        n++;
+    }
+    return n == 2;
+}
+
 double trimesh_area(const struct trimesh *m)
 {
     double sum = 0.0, n[3];

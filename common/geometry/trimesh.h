@@ -43,6 +43,8 @@ void trimesh_bounds(const struct trimesh *m, double lo[3], double hi[3]);
 double trimesh_normal(const struct trimesh *m, int triangle, double n[3]);
 /* Centroid of a triangle, m. */
 void trimesh_middle(const struct trimesh *m, int triangle, double x[3]);
+/* Where the plane across `axis' at `at', m, cuts a triangle: both ends, m. False: it does not. */
+bool trimesh_cut(const struct trimesh *m, int triangle, int axis, double at, double x[2][3]);
 /* Area of all triangles, m^2. */
 double trimesh_area(const struct trimesh *m);
 /* For each triangle a number that is shared by connected neighbours in one plane; -1 where no

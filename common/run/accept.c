@@ -120,27 +120,17 @@ static bool begins_with(const char *key, const char *name)
     return key[n] == '.';
 }
 
-static bool names_body(const struct scene *s, const char *key)
+/* Bodies, gauges or groups of gauges: their names stand `stride' bytes apart. */
+struct named {
+    const char *first;
+    size_t stride;
+    int n;
+};
+static bool any_begins(const struct named *of, const char *key)
 {
     bool any = false;
-    for (int k = 0; k < s->nbodies; k++)
-        any = any || begins_with(key, s->bodies[k].name);
-    return any;
-}
-
-static bool names_gauges(const struct scene *s, const char *key)
-{
-    bool any = false;
-    for (int k = 0; k < s->ngauges; k++)
-        any = any || begins_with(key, s->gauges[k].name);
-    return any;
-}
-
-static bool names_probe(const struct scene *s, const char *key)
-{
-    bool any = false;
-    for (int k = 0; k < s->nprobes; k++)
-        any = any || begins_with(key, s->probes[k].name);
+    for (int k = 0; k < of->n; k++)
+        any = any || begins_with(key, of->first + (size_t)k * of->stride);
     return any;
 }
 
@@ -160,16 +150,23 @@ static bool is_probe(const struct scene *s, const char *what)
     return any;
 }
 
+static void has_none(const char *what, const char *of, const char *key, const struct params *p,
+                     struct faults *f)
+{
+    params_fault(p, f, key, "summary.json will have no %s: no %s of the case has that name", what,
+                 of);
+}
+
 /* A number of the summary is made at the end, but whose it is stands in the case. */
 static void check_number(const struct scene *s, int k, const struct params *p, struct faults *f)
 {
-    static const struct {
+    const struct {
         const char *group, *of;
-        bool (*names)(const struct scene *s, const char *key);
-    } groups[] = {{"body.", "body", names_body},
-                  {"discharge.", "gauge of kind discharge", names_section},
-                  {"height.", "gauge", names_probe},
-                  {"reflection.", "group of gauges", names_gauges}};
+        struct named among;
+    } groups[] = {
+        {"body.", "body", {s->bodies->name, sizeof *s->bodies, s->nbodies}},
+        {"height.", "gauge", {s->probes->name, sizeof *s->probes, s->nprobes}},
+        {"reflection.", "group of gauges", {s->gauges->name, sizeof *s->gauges, s->ngauges}}};
     const char *what = s->accept[k].what;
     char key[64];
     snprintf(key, sizeof key, "accept.[%d].what", k);
@@ -181,10 +178,11 @@ static void check_number(const struct scene *s, int k, const struct params *p, s
     what += strncmp(what, "sph.", 4) == 0 ? 4 : strncmp(what, "fv.", 3) == 0 ? 3 : 0;
     for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
         const size_t n = strlen(groups[g].group);
-        if (strncmp(what, groups[g].group, n) == 0 && !groups[g].names(s, what + n))
-            params_fault(p, f, key, "summary.json will have no %s: no %s of the case has that name",
-                         what, groups[g].of);
+        if (strncmp(what, groups[g].group, n) == 0 && !any_begins(&groups[g].among, what + n))
+            has_none(what, groups[g].of, key, p, f);
     }
+    if (strncmp(what, "discharge.", 10) == 0 && !names_section(s, what + 10))
+        has_none(what, "gauge of kind discharge", key, p, f);
 }
 
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,

@@ -312,7 +312,7 @@ static void cut_lines(struct picture *p, const struct scene_mesh *is, enum pictu
     double way = 15.0;
     for (int t = 0; t < is->mesh.ntriangles; t++) {
         double x[2][3], n[3];
-        if (!picture_cut(&is->mesh, t, off, cut, x))
+        if (!trimesh_cut(&is->mesh, t, off, cut, x))
             continue;
         const double line[2][2] = {{x[0][p->axis[0]], x[0][p->axis[1]]},
                                    {x[1][p->axis[0]], x[1][p->axis[1]]}};

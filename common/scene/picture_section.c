@@ -25,21 +25,6 @@ double picture_water_middle(const struct scene *s, int axis)
     return n > 0 ? sum / n : 0.5 * (d->min[axis] + d->max[axis]);
 }
 
-bool picture_cut(const struct trimesh *m, int triangle, int axis, double cut, double x[2][3])
-{
-    int n = 0;
-    for (int k = 0; k < 3 && n < 2; k++) {
-        const double *a = m->x[m->vertex[triangle][k]], *b = m->x[m->vertex[triangle][(k + 1) % 3]];
-        if ((a[axis] > cut) == (b[axis] > cut))
-            continue;
-        const double w = (cut - a[axis]) / (b[axis] - a[axis]);
-        for (int c = 0; c < 3; c++)
-            x[n][c] = a[c] + w * (b[c] - a[c]);
-        n++;
-    }
-    return n == 2;
-}
-
 bool picture_is_sharp(const struct trimesh *m, int a, int b)
 {
     double n[3], q[3];

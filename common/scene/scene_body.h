@@ -77,7 +77,7 @@ struct scene_body {
     char name[PARAM_TEXT_SIZE];       /* as columns, gauges and mooring lines call it */
     struct param_points points;       /* 2D: corners, m; 3D: none */
     double box[2][3], radius, length; /* m: a simple form, scene_forms.h */
-    struct param_points section;      /* of a prism: what its points were */
+    struct param_points section;      /* of a prism: what its points were, counter-clockwise */
     struct scene_surface surface;     /* 3D: the file of its mesh and how it is placed */
     const struct scene_mesh *mesh;    /* what its file holds; NULL: points */
     bool thin;                        /* particles on one side have no neighbours on the other */

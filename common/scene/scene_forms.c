@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../geometry/geometry.h"
+#include "scene_geometry.h"
 #include "scene_outlines.h"
 
 /* Corners of a disc in the plane, most of a cylinder; levels of a sphere, 20 times 4^level facets.
@@ -107,23 +108,27 @@ void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
         } else if (form == FORM_PRISM) {
             b->section = b->points;
             b->points.n = 0;
+            const struct line l = line_of(&b->section, true);
+            if (line_area(&l) < 0.0)
+                points_reverse(&b->section);
         }
     }
 }
 
 /* --- in space --- */
 
-/* The points of a prism counter-clockwise, as trimesh_prism takes them. */
-static struct trimesh prism(int n, const double (*x)[2], double length)
+/* The section runs counter-clockwise. */
+static struct trimesh prism(const struct param_points *section, double length)
 {
-    double area = 0.0, turned[PARAM_POINTS_MAX][2];
-    for (int i = 0; i < n; i++) {
-        const double *a = x[i], *b = x[(i + 1) % n];
-        area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
-    }
-    for (int i = 0; i < n; i++)
-        memcpy(turned[i], x[area > 0.0 ? i : n - 1 - i], sizeof turned[i]);
-    return trimesh_prism(n, (const double(*)[2])turned, -0.5 * length, 0.5 * length);
+    return trimesh_prism(section->n, (const double(*)[2])section->x, -0.5 * length, 0.5 * length);
+}
+
+static struct trimesh cylinder(double radius, int sides, double length)
+{
+    struct param_points section = {.n = sides};
+    circle(radius, sides, section.x);
+    points_reverse(&section);
+    return prism(&section, length);
 }
 
 static int level_of(double radius, double facet)
@@ -155,17 +160,14 @@ static struct trimesh sphere(double radius, double facet)
 
 struct trimesh scene_form_mesh(const struct scene_body *b, double facet)
 {
-    const int sides = sides_of(b->radius, facet);
-    double x[CORNERS][2];
     switch (scene_form_of(b)) {
     case FORM_BOX:
         return trimesh_box(b->box[0], b->box[1], 1);
     case FORM_ROUND:
         return sphere(b->radius, facet);
     case FORM_CYLINDER:
-        circle(b->radius, sides, x);
-        return prism(sides, (const double(*)[2])x, b->length);
+        return cylinder(b->radius, sides_of(b->radius, facet), b->length);
     default:
-        return prism(b->section.n, (const double(*)[2])b->section.x, b->length);
+        return prism(&b->section, b->length);
     }
 }

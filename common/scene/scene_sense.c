@@ -76,8 +76,10 @@ static void check_lines(const struct scene *s, const struct params *p, struct fa
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].side == SIDE_NONE)
             check_line(p, f, "walls", k, &s->walls[k].points, s->walls[k].closed);
-    for (int k = 0; k < s->nbodies; k++)
+    for (int k = 0; k < s->nbodies; k++) {
         check_line(p, f, "bodies", k, &s->bodies[k].points, true);
+        check_line(p, f, "bodies", k, &s->bodies[k].section, true);
+    }
     for (int k = 0; k < s->nshapes; k++)
         if (s->shapes[k].form == SHAPE_POLYGON)
             check_line(p, f, "shapes", k, &s->shapes[k].points, true);

@@ -73,14 +73,12 @@ void wave_pressure_frame(struct waves *w, double share)
     }
 }
 
-static double speed_squared(const double u[3]) { return u[0] * u[0] + u[1] * u[1] + u[2] * u[2]; }
-
 double waves_pressure(const struct waves *w, double x, double y, double z, const double u[3])
 {
     const double eta = waves_eta(w, x, y), hydrostatic = w->of.g * (eta - z);
     double top[3], here[3], there[3];
     waves_velocity(w, x, y, eta, top);
-    const double kinetic = 0.5 * (speed_squared(top) - speed_squared(u));
+    const double kinetic = 0.5 * (vec3_dot(top, top) - vec3_dot(u, u));
     if (w->of.kind == WAVE_REGULAR)
         return hydrostatic + kinetic - w->celerity * (top[0] - u[0]);
     wave_table_velocity(&w->rise, x, y, z, here);

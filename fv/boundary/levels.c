@@ -46,11 +46,7 @@ void levels_free(struct levels **l)
 bool levels_set_any(const struct fv *s) { return s->levels && s->levels->p; }
 
 /* m/s^2: gravity across closed sides. */
-static double weight(const struct fv *s)
-{
-    const double *g = s->gravity.hydrostatic;
-    return hypot(hypot(g[0], g[1]), g[2]);
-}
+static double weight(const struct fv *s) { return vec3_length(s->gravity.hydrostatic); }
 
 /* m/s: velocity outwards through a face, by its projected flux. */
 static double velocity_out(const struct fv *s, const struct outflow *o, int64_t i)

@@ -117,23 +117,15 @@ static bool runs_within(const struct scene_domain *d, int side, const double *p,
     return from < to;
 }
 
-/* The same of a triangle of a mesh, cut by the plane of the side. */
+/* The same of a triangle of a mesh, cut a hair within the side, where meshes that end on it do. */
 static bool crosses_side(const struct scene_domain *d, int side, const struct trimesh *m, int k,
                          double near)
 {
     const int a = side / 2;
-    const double at = side % 2 ? d->max[a] : d->min[a];
-    double cut[3][3];
-    int n = 0;
-    for (int e = 0; e < 3; e++) {
-        const double *x = m->x[m->vertex[k][e]], *y = m->x[m->vertex[k][(e + 1) % 3]];
-        if ((x[a] < at) == (y[a] < at))
-            continue;
-        for (int t = 0; t < 3; t++)
-            cut[n][t] = x[t] + (at - x[a]) / (y[a] - x[a]) * (y[t] - x[t]);
-        n++;
-    }
-    return n == 2 && runs_within(d, side, cut[0], cut[1], near);
+    const double hair = 1e-6 * near;
+    double cut[2][3];
+    return trimesh_cut(m, k, a, side % 2 ? d->max[a] - hair : d->min[a] + hair, cut) &&
+           runs_within(d, side, cut[0], cut[1], near);
 }
 
 /* In 3D a parabola spans the whole side, which is no profile of an opening that meshes cut out. */

@@ -241,8 +241,8 @@ static struct wall_moments moments_of(int integrals, double height, double from,
 static void measure(const struct segment *g, int integrals, const double *cut, const double *x,
                     double R, struct wall_touch *t)
 {
-    const double d[2] = {g->a[0] - x[0], g->a[1] - x[1]};
-    const double height = g->n[0] * d[0] + g->n[1] * d[1], begin = g->t[0] * d[0] + g->t[1] * d[1];
+    double height, begin;
+    segment_seen(g, x, &height, &begin);
     const double from = cut ? begin + cut[0] : begin, to = begin + (cut ? cut[1] : g->length);
     const struct wall_moments m = is_round(g, height, from, to)
                                       ? (struct wall_moments){0}

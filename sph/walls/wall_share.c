@@ -13,11 +13,10 @@ static double share_of_segments(const struct sph *s, int body, const double *x)
     double sum = 0.0;
     for (int k = 0; k < w->nsegments; k++) {
         const struct segment *g = w->segments + k;
-        const double d[2] = {(g->a[0] - x[0]) / s->R, (g->a[1] - x[1]) / s->R};
-        const double height = g->n[0] * d[0] + g->n[1] * d[1];
-        const double from = g->t[0] * d[0] + g->t[1] * d[1];
-        if (g->body == body && fabs(height) < 1.0)
-            sum -= wall_moments(height, from, from + g->length / s->R).gamma;
+        double height, from;
+        segment_seen(g, x, &height, &from);
+        if (g->body == body && fabs(height) < s->R)
+            sum -= wall_moments(height / s->R, from / s->R, (from + g->length) / s->R).gamma;
     }
     return sum;
 }
@@ -43,8 +42,7 @@ static double share_of_mesh(const struct wall_mesh *m, double R, const double *x
         facet_ask(&batch, facet + k, own, R, &sum);
     }
     facet_finish(&batch);
-    mem_free(near);
-    mem_free(facet);
+    FREE(near, facet);
     return -sum.gamma;
 }
 
@@ -89,14 +87,12 @@ void wall_share_weight(const struct sph *s, int body, const double *x, const dou
     const struct walls *w = s->walls;
     for (int k = 0; k < w->nsegments && s->dim == 2; k++) {
         const struct segment *g = w->segments + k;
-        const double d[2] = {(g->a[0] - x[0]) / s->R, (g->a[1] - x[1]) / s->R};
-        const double height = g->n[0] * d[0] + g->n[1] * d[1];
-        const double from = g->t[0] * d[0] + g->t[1] * d[1];
-        double sums[2] = {0.0, 0.0};
-        if (g->body != body || fabs(height) >= 1.0)
+        double height, from, sums[2] = {0.0, 0.0};
+        segment_seen(g, x, &height, &from);
+        if (g->body != body || fabs(height) >= s->R)
             continue;
-        add_to(height, from + g->length / s->R, 1.0, sums);
-        add_to(height, from, -1.0, sums);
+        add_to(height / s->R, (from + g->length) / s->R, 1.0, sums);
+        add_to(height / s->R, from / s->R, -1.0, sums);
         const double down = g->n[0] * s->gravity[0] + g->n[1] * s->gravity[1];
         const double turn = g->n[0] * n[0] + g->n[1] * n[1];
         for (int a = 0; a < 2; a++)

@@ -25,6 +25,16 @@ struct segment {
     double shift[2];   /* m: from that to the image */
 };
 
+/* As x sees a segment: how high it lies along its normal, and how far along it its end a lies, m.
+ */
+static inline void segment_seen(const struct segment *g, const double *x, double *height,
+                                double *begin)
+{
+    const double d[2] = {g->a[0] - x[0], g->a[1] - x[1]};
+    *height = g->n[0] * d[0] + g->n[1] * d[1];
+    *begin = g->t[0] * d[0] + g->t[1] * d[1];
+}
+
 /* A plane side of the domain, as mirrored ghosts need it. */
 struct wall_plane {
     int axis, sign; /* n = sign e_axis */
