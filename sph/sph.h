@@ -45,6 +45,7 @@ struct list_state {
     bool ready;
     /* Prim and slope belong to y as well, and the next stage may take them as they are. */
     bool sloped;
+    bool broken; /* the state cannot be trusted: no list is made from it any more */
 };
 
 /* The last step of this level: extremes over all ranks (extremes.h), and the bounds of the next
@@ -69,6 +70,14 @@ struct sph_step {
     double mass;
 };
 
+/* Force on the first body over the second half of the run: length of the sampled time, s, integrals
+ * of F and of |F|^2; the same from the averaged wall pressure, row by row: last time, length,
+ * integral of F. */
+struct mean_force {
+    double time, sum[3], sum2;
+    double average_t, average_time, average_sum[3];
+};
+
 /* Sums and maxima over all steps since the start. */
 struct sph_totals {
     double max_mach;  /* |u|/c0 */
@@ -86,20 +95,13 @@ struct sph_totals {
     int64_t pairs_now; /* the same, of the present list */
     double wall_s, cpu_s;  /* s: of all steps; this rank */
     struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
+    struct mean_force mean_force;
 };
 
 /* The sums at t = 0, against which drifts are measured. */
 struct sph_start {
     double mass, energy, momentum[3]; /* kg, J, kg m/s: of all ranks */
     double volume; /* m^dim: of the fluid in a closed room, conserved by volume.h; 0: not closed */
-};
-
-/* Force on the first body over the second half of the run: length of the sampled time, s, integrals
- * of F and of |F|^2; the same from the averaged wall pressure, row by row: last time, length,
- * integral of F. */
-struct mean_force {
-    double time, sum[3], sum2;
-    double average_t, average_time, average_sum[3];
 };
 
 /* One level of particles with all that acts on it. Made by sph_create, freed by sph_free
@@ -143,14 +145,10 @@ struct sph {
     struct mixed *mixed;
     double background; /* Pa: background pressure of this stage [2.105], added to every pair's */
     struct list_state lists;
-    bool packing;    /* the first lattice is being rearranged and nothing flows */
-    bool broken;     /* the state cannot be trusted: no list is made from it any more */
-    int64_t next_id; /* id of the next particle created on this rank; ids go up by the number of
-                        ranks */
+    bool packing; /* the first lattice is being rearranged and nothing flows */
     struct sph_step step;
     struct sph_totals total;
     struct sph_start start;
-    struct mean_force mean_force;
     struct sph_watch watch;
 };
 

@@ -348,7 +348,7 @@ struct fill *fill_lattice(struct sph *s)
         refresh(s, &look.exact);
     weigh(s, b);
     columns_free(&look.columns);
-    s->next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
+    s->p.next_id = (all + ranks - 1) / ranks * ranks + s->run->rank;
     return f;
 }
 

@@ -91,10 +91,10 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
         coarser->finer = s;
         s->level = coarser->level + 1;
         s->prm.dx = 0.5 * coarser->dx;
-        s->next_id = ((int64_t)s->level << 56) + r->rank;
     }
     set_constants(s);
     particles_create(&s->p, s->dim, 0);
+    s->p.next_id = ((int64_t)s->level << 56) + r->rank;
     s->list = neighbours_create();
     s->list->touching = collisions_distance(s);
     s->zones = coarser ? NULL : zones_create(s); /* open sides are of the first level */

@@ -282,8 +282,8 @@ static void add_at(struct sph *s, const struct rows_water *w, const double *cent
     const double volume = surface_rows_place(s, w->e, x);
     if (volume == 0.0 || !first_has_room(s, x))
         return;
-    const int i = first_add(s, w->e, s->next_id, x, volume);
-    s->next_id += s->run->size;
+    const int i = first_add(s, w->e, s->p.next_id, x, volume);
+    s->p.next_id += s->run->size;
     memset(slope_line(&s->p, i), 0, (size_t)s->p.nslope * sizeof(double));
     s->p.role[i] = ROLE_GUARD; /* until it gets its role */
 }

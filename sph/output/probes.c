@@ -153,15 +153,15 @@ struct force probes_force(struct sph *s, int k)
  * run, each value for the time since the last row. */
 static void sample_average(struct sph *s)
 {
-    const double begin = fmax(s->mean_force.average_t, 0.5 * s->run->scene.time.end),
+    const double begin = fmax(s->total.mean_force.average_t, 0.5 * s->run->scene.time.end),
                  dt = s->t - begin;
-    s->mean_force.average_t = s->t;
+    s->total.mean_force.average_t = s->t;
     if (dt <= 0.0)
         return;
     const struct force force = body_average(s, 0);
-    s->mean_force.average_time += dt;
+    s->total.mean_force.average_time += dt;
     for (int a = 0; a < s->dim; a++)
-        s->mean_force.average_sum[a] += dt * force.F[a];
+        s->total.mean_force.average_sum[a] += dt * force.F[a];
 }
 
 /* The order is that of probes_columns. */

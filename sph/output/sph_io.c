@@ -194,9 +194,9 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     const char *list = s->run->scene.output.fields;
     struct xdmf_field shown[FIELDS];
     int nshown = 0;
-    for (struct sph *q = s; q && s->broken; q = q->finer)
+    for (struct sph *q = s; q && s->lists.broken; q = q->finer)
         particles_lines(q);
-    if (!s->broken)
+    if (!s->lists.broken)
         integrate_gradients(s);
     const int64_t n = shown_here(s);
     double *v = NEW(double, 3 * (size_t)n);
@@ -249,17 +249,17 @@ static const struct number {
     NUMBER("momentum0[0]", start.momentum[0]),
     NUMBER("momentum0[1]", start.momentum[1]),
     NUMBER("momentum0[2]", start.momentum[2]),
-    NUMBER("force_time", mean_force.time),
-    NUMBER("force_sum[0]", mean_force.sum[0]),
-    NUMBER("force_sum[1]", mean_force.sum[1]),
-    NUMBER("force_sum[2]", mean_force.sum[2]),
-    NUMBER("force_sum2", mean_force.sum2),
+    NUMBER("force_time", total.mean_force.time),
+    NUMBER("force_sum[0]", total.mean_force.sum[0]),
+    NUMBER("force_sum[1]", total.mean_force.sum[1]),
+    NUMBER("force_sum[2]", total.mean_force.sum[2]),
+    NUMBER("force_sum2", total.mean_force.sum2),
     NUMBER("mach_late", total.mach_late),
-    NUMBER("average_t", mean_force.average_t),
-    NUMBER("average_time", mean_force.average_time),
-    NUMBER("average_sum[0]", mean_force.average_sum[0]),
-    NUMBER("average_sum[1]", mean_force.average_sum[1]),
-    NUMBER("average_sum[2]", mean_force.average_sum[2]),
+    NUMBER("average_t", total.mean_force.average_t),
+    NUMBER("average_time", total.mean_force.average_time),
+    NUMBER("average_sum[0]", total.mean_force.average_sum[0]),
+    NUMBER("average_sum[1]", total.mean_force.average_sum[1]),
+    NUMBER("average_sum[2]", total.mean_force.average_sum[2]),
     NUMBER("volume0", start.volume),
 };
 /* The first of them belong to the flow, one for all levels. */
@@ -332,7 +332,7 @@ static void save_particles(const struct sph *s, struct h5 *f)
     h5_write_real(f, name(s, "state"), "x, m u, w, m", s->p.n, s->p.nstate, s->p.y, false);
     h5_write_int(f, name(s, "id"), s->p.n, s->p.id);
     h5_write_int(f, name(s, "zone"), s->p.n, kind);
-    h5_write_int(f, name(s, "next_id"), 1, &s->next_id);
+    h5_write_int(f, name(s, "next_id"), 1, &s->p.next_id);
     mem_free(kind);
     if (s->guards)
         h5_write_real(f, name(s, "slope"), "-", s->p.n, s->p.nslope,
@@ -442,7 +442,7 @@ static bool read_next_id(struct sph *s, struct h5 *f)
     int64_t *all = h5_read_all_int(f, name(s, "next_id"), &n);
     for (int64_t k = 0; all && k < n; k++)
         most = all[k] > most ? all[k] : most;
-    s->next_id = all && n == size ? all[rank] : (most + size) / size * size + rank;
+    s->p.next_id = all && n == size ? all[rank] : (most + size) / size * size + rank;
     mem_free(all);
     return all != NULL;
 }

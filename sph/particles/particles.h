@@ -51,6 +51,7 @@ struct particles {
     double *prim;         /* [capacity+1][8] packed primitive variables */
     double *slope;        /* [capacity+1][nslope] packed gradients and transport velocity */
     int64_t *id;          /* [capacity] unique over all ranks */
+    int64_t next_id;      /* of the next one created on this rank; goes up by the number of ranks */
     unsigned char *zone;  /* [capacity] enum sph_zone */
     unsigned short *role; /* [capacity] bits of enum sph_role, 0 without levels */
     double (*size)[2];    /* [capacity] R, m, and weight, where particles of one set differ in them;

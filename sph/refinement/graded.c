@@ -32,7 +32,7 @@ static void add_cell(struct filler *f, double x0, double x1, double y0, double y
     for (int a = 0; a < 2; a++)
         u[a] += more[a];
     particles_reserve(&s->p, s->p.n + 1);
-    const int i = particles_add(&s->p, s->next_id++, ZONE_FREE);
+    const int i = particles_add(&s->p, s->p.next_id++, ZONE_FREE);
     particles_set(s, i, x, u, w, eos_rho(p, s->rho0, s->c0, s->gamma));
     *mixed_R(s, i) = s->prm.R_dx * dx;
     *mixed_weight(s, i) = 1.0;

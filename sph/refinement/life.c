@@ -152,7 +152,7 @@ int refinement_child(const struct sph *s, struct sph *to, int i, const double *d
 {
     const int dim = s->dim;
     particles_reserve(&to->p, to->p.n + 1); /* which may be those of i */
-    const int k = particles_add(&to->p, to->next_id, ZONE_FREE);
+    const int k = particles_add(&to->p, to->p.next_id, ZONE_FREE);
     const double *y = state_row(&s->p, s->p.y, i), *grad = slope_line(&s->p, i);
     const double m = y[at_mass(dim)], rho = m / y[at_volume(dim)];
     double more = 0.0, x[3] = {0.0}, u[3] = {0.0};
@@ -164,7 +164,7 @@ int refinement_child(const struct sph *s, struct sph *to, int i, const double *d
             u[a] += grad[dim + dim * a + b] * d[b];
     }
     const double rho_f = rho + fmax(-steepest * rho, fmin(more, steepest * rho));
-    to->next_id += s->run->size;
+    to->p.next_id += s->run->size;
     particles_set(to, k, x, u, ldexp(m, -dim) / rho_f, rho_f);
     memcpy(slope_line(&to->p, k), grad, (size_t)s->p.nslope * sizeof *grad);
     return k;
@@ -284,8 +284,8 @@ static void add_created(struct sph *s)
         const struct created *is = g->created + k;
         s->p.nghost = 0;
         particles_reserve(&s->p, s->p.n + 1);
-        const int i = particles_add(&s->p, s->next_id, ZONE_FREE);
-        s->next_id += s->run->size;
+        const int i = particles_add(&s->p, s->p.next_id, ZONE_FREE);
+        s->p.next_id += s->run->size;
         double x[3];
         for (int a = 0; a < s->dim; a++)
             x[a] = is->x[a] + (s->t - is->t) * is->u[a];

@@ -396,7 +396,7 @@ static void judge(struct sph *s, double fault, struct diagnosis *d)
         sph_watch_judge(s, d);
     else if (s->run->summary)
         sph_watch_summarise(s);
-    s->broken = d->bad;
+    s->lists.broken = d->bad;
 }
 
 /* Counts pairs every 20 steps and takes that number for the others: it is for figures of throughput

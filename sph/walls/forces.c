@@ -116,10 +116,10 @@ static void sample(struct sph *s, double dt)
     const double part = fmin(dt, s->t - 0.5 * s->run->scene.time.end);
     if (part <= 0.0)
         return;
-    s->mean_force.time += part;
+    s->total.mean_force.time += part;
     for (int a = 0; a < s->dim; a++) {
-        s->mean_force.sum[a] += part * now[a];
-        s->mean_force.sum2 += part * now[a] * now[a];
+        s->total.mean_force.sum[a] += part * now[a];
+        s->total.mean_force.sum2 += part * now[a] * now[a];
     }
 }
 
@@ -182,20 +182,20 @@ bool forces_load(struct sph *s, struct h5 *f)
 static void summarise_body(const struct sph *s)
 {
     struct summary *to = s->run->summary;
-    const double *wanted = s->run->scene.bodies[0].force, T = s->mean_force.time;
+    const double *wanted = s->run->scene.bodies[0].force, T = s->total.mean_force.time;
     static const char *const names[2][3] = {
         {"force.x", "force.y", "force.z"},
         {"force.average_x", "force.average_y", "force.average_z"}};
-    double var = s->mean_force.sum2 / T, size2 = 0.0, error2 = 0.0;
+    double var = s->total.mean_force.sum2 / T, size2 = 0.0, error2 = 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double mean = s->mean_force.sum[a] / T;
+        const double mean = s->total.mean_force.sum[a] / T;
         var -= mean * mean;
         size2 += wanted[a] * wanted[a];
         error2 += (mean - wanted[a]) * (mean - wanted[a]);
         summary_real(to, names[0][a], mean);
-        if (s->mean_force.average_time > 0.0)
+        if (s->total.mean_force.average_time > 0.0)
             summary_real(to, names[1][a],
-                         s->mean_force.average_sum[a] / s->mean_force.average_time);
+                         s->total.mean_force.average_sum[a] / s->total.mean_force.average_time);
     }
     summary_real(to, "force.rms", sqrt(fmax(0.0, var)));
     if (size2 > 0.0)
@@ -205,11 +205,11 @@ static void summarise_body(const struct sph *s)
 /* Of models that credit nothing: the mean of the averages, and its error. */
 static void summarise_average(const struct sph *s)
 {
-    const double *wanted = s->run->scene.bodies[0].force, T = s->mean_force.average_time;
+    const double *wanted = s->run->scene.bodies[0].force, T = s->total.mean_force.average_time;
     static const char *const names[3] = {"force.average_x", "force.average_y", "force.average_z"};
     double size2 = 0.0, error2 = 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double mean = s->mean_force.average_sum[a] / T;
+        const double mean = s->total.mean_force.average_sum[a] / T;
         size2 += wanted[a] * wanted[a];
         error2 += (mean - wanted[a]) * (mean - wanted[a]);
         summary_real(s->run->summary, names[a], mean);
@@ -251,11 +251,11 @@ static void summarise_balance(const struct sph *s)
 
 void forces_summarise(const struct sph *s)
 {
-    if (!s->walls->forces.known && s->walls->nbodies > 0 && s->mean_force.average_time > 0.0)
+    if (!s->walls->forces.known && s->walls->nbodies > 0 && s->total.mean_force.average_time > 0.0)
         summarise_average(s);
     if (!s->walls->forces.known)
         return;
-    if (s->walls->nbodies > 0 && s->mean_force.time > 0.0)
+    if (s->walls->nbodies > 0 && s->total.mean_force.time > 0.0)
         summarise_body(s);
     summarise_balance(s);
 }
