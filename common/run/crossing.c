@@ -115,9 +115,55 @@ static bool is_drowned(const struct scene *c, int up, double box[2][3], const st
     return scene_is_fluid(c, &e, x, NULL);
 }
 
+/* How a section, or the rectangle that it spans, lies to a box: all of it in it, or a part. One
+ * that runs along a face of the box lies outside. */
+static void section_in(const struct scene *c, double box[2][3], const struct scene_probe *g,
+                       bool *all, bool *part)
+{
+    *all = *part = true;
+    for (int a = 0; a < c->domain.dim; a++) {
+        if (box[1][a] <= box[0][a])
+            continue;
+        const double lo = image_from(&c->domain, a, box[0][a], fmin(g->at[a], g->to[a]));
+        const double hi = lo + fabs(g->to[a] - g->at[a]);
+        const double eps = 1e-9 * (box[1][a] - box[0][a]);
+        *part = *part && lo < box[1][a] - eps && hi > box[0][a] + eps;
+        *all = *all && lo >= box[0][a] - eps && hi <= box[1][a] + eps;
+    }
+    *all = *all && *part;
+}
+
+/* A discharge is the one of one program, so no box may hold a part of its section, nor run away. */
+static void deal_section(struct run *r, int k, double box[PARAM_PROGRAMS_MAX][2][3], int n,
+                         struct faults *f)
+{
+    const struct scene_probe *g = r->scene.probes + k;
+    const bool particles = strncmp(r->name, "sph", 3) == 0;
+    bool inside = false;
+    char key[64];
+    snprintf(key, sizeof key, "probes.[%d].at", k);
+    if (any_moves(r))
+        params_fault(r->params, f, key,
+                     "%s: a discharge is read by one program, and the box of the particles moves: "
+                     "leave the gauge out, or hold the box",
+                     g->name);
+    for (int q = 0; q < n; q++) {
+        bool all, part;
+        section_in(&r->scene, box[q], g, &all, &part);
+        inside = inside || all;
+        if (part && !all)
+            params_fault(r->params, f, key,
+                         "%s: a discharge is read by one program: end its section at the box of "
+                         "the particles, (%g, %g) to (%g, %g) m, and give the rest as another "
+                         "gauge, or move it",
+                         g->name, box[q][0][0], box[q][0][1], box[q][1][0], box[q][1][1]);
+    }
+    r->gauge_elsewhere[k] = inside != particles;
+}
+
 /* A gauge is read here unless gauge_elsewhere says otherwise, by SPH or by FV, but not by both,
  * except points where a box moves (`both'). */
-void crossing_deal(struct run *r)
+void crossing_deal(struct run *r, struct faults *f)
 {
     const struct scene *c = &r->scene;
     const int up = scene_still_axis(c);
@@ -129,6 +175,10 @@ void crossing_deal(struct run *r)
     for (int k = 0; k < c->nprobes; k++) {
         const struct scene_probe *g = c->probes + k;
         bool inside = false;
+        if (shared && g->kind == PROBE_DISCHARGE) {
+            deal_section(r, k, box, n, f);
+            continue;
+        }
         for (int q = 0; q < n; q++)
             inside = inside || (holds(c, up, box[q], g) &&
                                 !(g->kind == PROBE_LEVEL && is_drowned(c, up, box[q], g)));

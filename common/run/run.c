@@ -137,11 +137,8 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
-    wall_histories_read(&r->scene, r->motions);
     if (l->faults.n == 0)
-        scene_outlines_read(&r->scene, r->case_dir, l->params, &l->faults);
-    if (l->faults.n == 0)
-        scene_wave_file_read(&r->scene, r->case_dir, l->params, &l->faults);
+        scene_files_read(&r->scene, r->case_dir, r->motions, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
@@ -157,7 +154,7 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         r->crossed = crossing_find(r);
     if (l->faults.n == 0)
-        crossing_deal(r);
+        crossing_deal(r, &l->faults);
     if (l->faults.n == 0)
         wave_gauges_check(&r->scene, r->gauge_elsewhere, l->params, &l->faults);
     if (l->faults.n == 0)

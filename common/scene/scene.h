@@ -12,6 +12,7 @@
 #include "scene_check.h"
 #include "scene_currents.h"
 #include "scene_facts.h"
+#include "scene_files.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"
 #include "scene_groups.h"

@@ -25,7 +25,7 @@ static bool no_motion_file(const void *scene, const void *element)
 static bool no_free_density(const void *scene, const void *element)
 {
     const struct scene_body *b = element;
-    return (void)scene, !b->free || b->density <= 0.0;
+    return (void)scene, !b->free || b->density <= 0.0 || b->radius > 0.0;
 }
 
 static bool no_free_hinge(const void *scene, const void *element)
@@ -126,7 +126,7 @@ const struct param scene_body_rows[] = {
     PARAM(P, name,     "-",   "body#", 0, 0, "its name in the outputs"),
     PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (reversed, with a line in the log, if not)"),
     PARAM(P, box,      "m",   "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "instead of points or a file: two opposite corners of a box along the axes"),
-    PARAM(P, radius,   "m",   "0.0", 0, 1e9, "instead: of a disc, in 3D a sphere, about the origin; translate says where it is"),
+    PARAM(P, radius,   "m",   "0.0", 0, 1e9, "instead: of a disc, in 3D a sphere; its middle is centre, or translate, if only that is given"),
     PARAM(P, length,   "m",   "0.0", 0, 1e9, "in 3D: of a cylinder (radius) or prism (points), along z, half of it on either side of z = 0",
           USED(NEED(SPACE, "in 2 dimensions bodies have no length across the plane"),
                WHERE(has_section, "with radius or points", "it is of a cylinder (radius) or a prism (points)"))),
@@ -137,7 +137,7 @@ const struct param scene_body_rows[] = {
     CHOICE(P, kind, "slip|no_slip", "slip", "kind of boundary on its surface",
           USED(NEED_OR_ONLY(FRICTION, kind, ONE(WALL_SLIP), "without viscosity (fluid.nu) a body exerts no friction: give slip"))),
     PARAM(P, centre,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "centre of rotation and of moments at the start; of a free body with mass: its mass centre",
-          USED(WHERE(no_free_density, "without free and density", "the density gives it: give mass, centre and inertia instead"))),
+          USED(WHERE(no_free_density, "without free and density, or with radius", "the density gives it: give mass, centre and inertia instead"))),
     PARAM(P, velocity, "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "of the centre; of a free body: at the start",
           USED(WHERE(no_motion_file, "no file of motion", "the file of motion says how the body moves"),
                WHERE(no_free_hinge, "no hinge", "a hinge lets the body turn alone: give spin"))),

@@ -31,6 +31,13 @@ enum body_form scene_form_of(const struct scene_body *b)
 
 /* --- faults --- */
 
+static bool has(int k, const char *what, const struct params *p)
+{
+    char key[64];
+    snprintf(key, sizeof key, "bodies.[%d].%s", k, what);
+    return params_given(p, key);
+}
+
 static bool is_clear(const struct scene *s, int k, const struct params *p, struct faults *f)
 {
     const struct scene_body *b = s->bodies + k;
@@ -49,6 +56,9 @@ static bool is_clear(const struct scene *s, int k, const struct params *p, struc
         params_fault(p, f, key, "a radius is given, too: a body is a box or round");
     else if ((has_box(b) || b->radius > 0.0) && b->points.n > 0)
         params_fault(p, f, key, "points are given, too: leave one of them out");
+    else if (b->radius > 0.0 && b->free && b->density > 0.0 && has(k, "centre", p) &&
+             has(k, "translate", p))
+        params_fault(p, f, key, "centre and translate say both where it is: leave one of them out");
     else if (*is->mesh || *is->outline)
         params_fault(p, f, key, "a %s is given, too: leave one of them out",
                      *is->mesh ? "mesh" : "outline");
@@ -96,6 +106,17 @@ static void make_points(struct scene_body *b, enum body_form form)
     scene_outline_place(&b->surface, n, (const double(*)[2])x, &b->points);
 }
 
+/* A round form turns about its middle, unless the case puts it elsewhere: the centre that is given
+ * is its place, and its place the centre. */
+static void centre_on(struct scene_body *b, int k, const struct params *p)
+{
+    double *place = b->surface.translate;
+    if (!has(k, "translate", p))
+        memcpy(place, b->centre, sizeof b->centre);
+    else if (!has(k, "centre", p))
+        memcpy(b->centre, place, sizeof b->centre);
+}
+
 void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nbodies; k++) {
@@ -103,6 +124,8 @@ void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
         const enum body_form form = scene_form_of(b);
         if (form == FORM_NONE || !is_clear(s, k, p, f))
             continue;
+        if (b->radius > 0.0)
+            centre_on(b, k, p);
         if (s->domain.dim == 2 && form != FORM_PRISM) {
             make_points(b, form);
         } else if (form == FORM_PRISM) {

@@ -14,9 +14,10 @@ void wall_histories_read(struct scene *s, struct motion_files *files)
 {
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;
-        w->levels = *w->level_file ? motion_files_read(files, w->level_file, COLUMNS) : NULL;
-        w->discharges =
-            *w->discharge_file ? motion_files_read(files, w->discharge_file, COLUMNS) : NULL;
+        if (files && *w->level_file)
+            w->levels = motion_files_read(files, w->level_file, COLUMNS);
+        if (files && *w->discharge_file)
+            w->discharges = motion_files_read(files, w->discharge_file, COLUMNS);
         w->has_level = w->level < LEVEL_TOP || *w->level_file;
         w->has_discharge = w->discharge != 0.0 || *w->discharge_file;
     }

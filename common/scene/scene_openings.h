@@ -10,8 +10,8 @@
 #include "motion_files.h"
 #include "scene_groups.h"
 
-/* Reads the files of all walls, which `files' owns, and sets has_level and has_discharge of each
- * wall. */
+/* Sets has_level and has_discharge of each wall and reads the files of all, which `files' owns;
+ * NULL: they stay unread. */
 void wall_histories_read(struct scene *s, struct motion_files *files);
 /* Adds a fault for each file that does not exist, holds faulty rows or values out of range, or
  * stands beside a constant value. */

@@ -249,10 +249,7 @@ static void check_discharge(const struct scene *s, const struct params *p, int k
     snprintf(key, sizeof key, "probes.[%d].to", k);
     if (g->kind != PROBE_DISCHARGE)
         return;
-    if (s->has_sph && s->has_fv)
-        params_fault(p, f, key, "%s: a discharge is read by one program, without a partner",
-                     g->name);
-    else if (!params_given(p, key))
+    if (!params_given(p, key))
         params_fault(p, f, key, "%s: must be given: the other end of its section", g->name);
     else if (s->domain.dim == 2 ? same == 2 : same != 1)
         params_fault(p, f, key, "%s: %s", g->name,

@@ -105,7 +105,7 @@ struct params *job_read(struct job *j, struct scene *s, MPI_Comm comm, const str
     if (j->shared) {
         char dir[1024];
         run_case_dir(l->case_file, dir, sizeof dir);
-        scene_outlines_read(s, dir, p, f);
+        scene_files_read(s, dir, NULL, p, f);
     }
     if (j->shared && f->n == 0)
         scene_check(s, p, f);

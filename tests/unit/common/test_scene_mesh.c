@@ -360,7 +360,7 @@ static void simple_forms_are_exact(void **state)
     (void)state;
     static const char text[] =
         "bodies: ( { box = ((0.5, 0.5, 0.5), (1.5, 1.0, 1.25)); },\n"
-        "  { radius = 0.4; translate = (2.0, 1.0, 1.5); },\n"
+        "  { radius = 0.4; centre = (2.0, 1.0, 1.5); },\n"
         "  { radius = 0.25; length = 0.8; rotate = (0, 90, 0); translate = (3.0, 1.0, 1.0); },\n"
         "  { points = ((0, 0), (0.6, 0), (0, 0.3)); length = 0.5; rotate = (90, 0, 0); "
         "translate = (1.5, 1.5, 0.2); } );\n";
@@ -380,6 +380,8 @@ static void simple_forms_are_exact(void **state)
         assert_close(m->volume, volume[k], (k == 1 || k == 2 ? 1e-3 * volume[k] : 1e-12));
         for (int a = 0; a < 3; a++)
             assert_close(is.centre[a], centre[k][a], 1e-12);
+        for (int a = 0; a < 3 && (k == 1 || k == 2); a++) /* about which it turns */
+            assert_close(r.scene.bodies[k].centre[a], centre[k][a], 1e-15);
         if (k == 1 || k == 2) { /* to the floor and no further */
             assert_close(m->lo[1], centre[k][1] - (k == 1 ? 0.4 : 0.25), 1e-12);
             assert_close(m->hi[2], centre[k][2] + (k == 1 ? 0.4 : 0.25), 1e-12);
@@ -397,6 +399,8 @@ static void half_given_forms_are_refused(void **state)
         {"box = ((1, 1, 1), (2, 0.5, 2));", "bodies.[0].box"},
         {"box = ((1, 1, 1), (2, 1.5, 2)); radius = 0.3;", "bodies.[0].box"},
         {"box = ((1, 1, 1), (2, 1.5, 2)); length = 0.3;", "bodies.[0].box"},
+        {"radius = 0.3; centre = (1, 1, 1); translate = (1, 1, 1); free = true; density = 500.0;",
+         "bodies.[0].radius"},
         {"radius = 0.3; mesh = \"ball.stl\";", "bodies.[0].radius"},
         {"points = ((0, 0), (1, 0)); length = 1.0;", "bodies.[0].length"},
         {"radius = 0.3; translate = (9, 0, 0);", "bodies.[0].radius"}};
