@@ -49,8 +49,8 @@ void body_contacts_add(struct sph *s, double (*loads)[6]);
  * fluid that moves with the body. (The sum of the particles' wall terms is 1.39 times a constant
  * pressure.) Needs prim and slope. Collective. */
 struct force body_average(struct sph *s, int k);
-/* The same, with *pushed = |p| times area, N, along the axis where that is largest, half of both
- * sides, and *pressure = the mean of |p|, Pa. */
+/* The same, with *pushed = |p| times area, N, of the side along an axis that bears most of it, and
+ * *pressure = the mean of |p|, Pa. */
 struct force body_average_pushed(struct sph *s, int k, double *pushed, double *pressure);
 /* The force of the pressure reference alone, which the particles leave out, on the part of the
  * surface that the domain and other walls leave wet: zero, or the weight of what the body

@@ -143,12 +143,12 @@ static void add_force(const struct sph *s, const struct body *b, const struct av
     push(b, d, f, to);
 }
 
-/* Of a point of the surface: its |p| times area by axes, and area. */
-static void add_pushed(const struct average_node *d, double to[3], double sums[2])
+/* Of a point of the surface: its |p| times area by sides, down and up each axis, and area. */
+static void add_pushed(const struct average_node *d, double to[3][2], double sums[2])
 {
     const double P = fabs(d->said.P) / fmax(d->said.W, 0.4);
     for (int a = 0; a < 3; a++)
-        to[a] += 0.5 * d->area * P * fabs(d->n[a]);
+        to[a][d->n[a] > 0.0] += d->area * P * fabs(d->n[a]);
     sums[0] += d->area * P;
     sums[1] += d->area;
 }
@@ -158,14 +158,16 @@ struct force body_average_pushed(struct sph *s, int which, double *pushed, doubl
     const struct walls *w = s->walls;
     struct nodes nodes = body_nodes_lay(s, which);
     struct force force = {0};
-    double axis[3] = {0.0, 0.0, 0.0}, sums[2] = {0.0, 0.0};
+    double sides[3][2] = {{0.0}}, sums[2] = {0.0, 0.0};
     body_nodes_ask(s, &nodes);
     for (int k = 0; k < nodes.n; k++) {
         add_force(s, w->bodies + which, nodes.node + k, &force);
-        add_pushed(nodes.node + k, axis, sums);
+        add_pushed(nodes.node + k, sides, sums);
     }
     mem_free(nodes.node);
-    *pushed = fmax(axis[0], fmax(axis[1], axis[2]));
+    *pushed = 0.0;
+    for (int a = 0; a < 3; a++)
+        *pushed = fmax(*pushed, fmax(sides[a][0], sides[a][1]));
     *pressure = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     return force;
 }

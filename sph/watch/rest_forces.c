@@ -1,7 +1,7 @@
 /* rest_forces.c - where the water around a body is at rest the force that the fluid loses to it and
  * the kernel average of the pressure on its surface are two estimates of one figure. Their
- * difference is told over the pressure times the area, of the axis where that is largest, half of
- * both sides. Means of samples in a row, for sound passes through both.
+ * difference is told over the pressure times the area of the side that bears most. Means of samples
+ * in a row, for sound passes through both.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
