@@ -50,6 +50,10 @@ struct fv_params {
     int flux;            /* enum fv_flux; newton only */
     double c0;           /* m/s: sound speed; newton only, 0: incompressible */
     bool steady;         /* newton only: march to a steady state */
+    bool dual_time;      /* newton only: pseudo steps instead of its linear systems */
+    double pseudo_cfl;   /* -: length of a pseudo step, see newton_dual.c */
+    int pseudo_steps;    /* at most, to a step */
+    int pseudo_memory;   /* states that their acceleration remembers; 0: none */
     double graded[3];    /* m, rows: see rows.h; rows 0: all even */
     double hole[2][3];   /* box whose cells take the exact solution; all 0: none */
     double upwind;       /* C of the bias in convection.c; 0: none, -1: 1 with walls, else none */

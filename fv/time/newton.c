@@ -110,7 +110,10 @@ struct newton *newton_create(struct fv *s)
     }
     for (int e = 0; e <= 2 * s->dim; e++)
         w->A[e] = NEW(double, s->size);
-    make_kinsol(s, w);
+    if (s->prm.dual_time)
+        newton_dual_create(s, w);
+    else
+        make_kinsol(s, w);
     return w;
 }
 
@@ -120,10 +123,11 @@ void newton_free(struct newton **wp)
     if (!w)
         return;
     KINFree(&w->kin);
-    SUNLinSolFree(w->krylov);
-    N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual};
+    if (w->krylov)
+        SUNLinSolFree(w->krylov);
+    N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual, w->pseudo};
     for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
-        N_VDestroy(vectors[k]);
+        N_VDestroy(vectors[k]); /* NULL is let be */
     FREE(w->v.p, w->face, w->dface, w->phi, w->div, w->d);
     for (int a = 0; a < 3; a++)
         FREE(w->v.u[a], w->v.U[a], w->v.G[a], w->G[a], w->x[a], w->r[a]);
@@ -173,9 +177,14 @@ static bool is_small(const struct fv *s)
 static bool solve(struct fv *s)
 {
     struct newton *w = s->newton;
-    SUN(KINSetNumMaxIters(w->kin, NEWTONS));
-    SUN(KINSetFuncNormTol(w->kin, s->prm.tol_newton));
-    const int code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
+    int code = 0;
+    if (s->prm.dual_time)
+        code = newton_dual_solve(s);
+    else {
+        SUN(KINSetNumMaxIters(w->kin, NEWTONS));
+        SUN(KINSetFuncNormTol(w->kin, s->prm.tol_newton));
+        code = KINSol(w->kin, w->q, KIN_LINESEARCH, w->uscale, w->fscale);
+    }
     count(w);
     newton_residual(w->q, w->residual, s); /* leaves u, p, U and ghosts of this q */
     w->norm = scaled_norm(w, w->residual);
@@ -212,11 +221,10 @@ void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
     double x[3];
     cell_place(s, cell_of(s, at % w->cells), place, sizeof place, x);
     d->bad = true;
-    snprintf(
-        d->reason, sizeof d->reason,
-        "Newton's method leaves a residual of %.3g (of velocity, relative), wanted %.3g, after "
-        "%s",
-        worst, s->prm.tol_newton, after);
+    snprintf(d->reason, sizeof d->reason,
+             "%s a residual of %.3g (of velocity, relative), wanted %.3g, after %s",
+             s->prm.dual_time ? "dual time stepping leaves" : "Newton's method leaves", worst,
+             s->prm.tol_newton, after);
     snprintf(d->where, sizeof d->where, "%s of %s at (%g, %g, %g) m",
              at < w->cells ? "continuity" : "momentum", place, x[0], x[1], x[2]);
     if (s->prm.steady)
@@ -224,6 +232,8 @@ void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
                  "this flow may have no steady state on these cells: fv.steady = false shows what "
                  "it does in time; more cells, %smore viscosity",
                  s->prm.flux == FLUX_CENTRAL ? "fv.flux = \"upwind\", " : "");
+    else if (s->prm.dual_time)
+        newton_dual_explain(s, d->likely, sizeof d->likely);
     else
         snprintf(d->likely, sizeof d->likely,
                  "fv.cfl = %g is too large for this flow, or fv.flux = \"central\" finds it "
@@ -318,15 +328,14 @@ static bool try_pseudo_step(struct fv *s)
     return good;
 }
 
-/* The residual goes up while eddies form, and down at last; that which no longer does is told. */
-static bool stalls(struct newton *w)
+bool newton_stalls(struct newton *w, int64_t most)
 {
     w->pseudo_steps++;
     if (w->best == 0.0 || w->norm < 0.9 * w->best) {
         w->best = w->norm;
         w->best_at = w->pseudo_steps;
     }
-    return w->pseudo_steps - w->best_at >= STALL;
+    return w->pseudo_steps - w->best_at >= most;
 }
 
 /* Of the pseudo step. Residual: left in the step's own equation, and gained in the steady one, each
@@ -389,7 +398,7 @@ double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagn
     march(s, d);
     stop(s, "newton");
     const double dt = w->steady ? left : fmin(left, end / PSEUDO_STEPS);
-    const bool stalled = stalls(w), late = s->t + dt >= (1.0 - 1e-9) * end;
+    const bool stalled = newton_stalls(w, STALL), late = s->t + dt >= (1.0 - 1e-9) * end;
     if (!d->bad && !w->steady && (stalled || late)) {
         char after[160];
         snprintf(after, sizeof after,

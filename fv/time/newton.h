@@ -40,6 +40,8 @@ struct newton_cells {
     void (*evaluate_variation)(struct fv *s);
     /* Rows A of the preconditioner from the fluxes of the state, but for what a surface changes. */
     void (*fill_rows)(struct fv *s);
+    /* out = the diagonal of -Lap in each cell, 1/m^2, sides and the surface aside; dual time. */
+    void (*laplacian)(const struct fv *s, double *out);
     /* div -= D I(x); x with its ghosts. */
     void (*subtract_divergence)(struct fv *s, double *const x[3], double *div);
 };
@@ -50,8 +52,8 @@ extern const struct newton_cells newton_even, newton_blocks;
 struct newton {
     const struct newton_cells *cells_of;
     SUNContext ctx;
-    void *kin; /* KINSOL's memory */
-    SUNLinearSolver krylov;
+    void *kin;              /* KINSOL's memory */
+    SUNLinearSolver krylov; /* NULL in dual time */
     N_Vector q, q1,
         q2; /* the unknown, and one and two levels before: p, u, v[, w] of local cells */
     N_Vector uscale, fscale, residual;
@@ -64,12 +66,13 @@ struct newton {
     double *d;            /* s: of.d of each cell; blocks */
     double *A[7];         /* the momentum operator of the preconditioner: 1/diagonal, -x, +x, .. */
     double *x[3], *r[3], *phi, *div; /* its unknowns and right sides */
+    N_Vector pseudo;     /* m^2/s, s: what newton_dual.c multiplies residuals by; else NULL */
     double dtau, norm;   /* s, -: pseudo step; scaled residual (rms) after the last one */
     double longest_step; /* s: bound of dtau that unsolved linear systems leave */
     double pace;         /* -: lately best fall of the logarithm of norm a Krylov vector */
     double left;         /* -: residual that the last pseudo step left in its own equation */
     double best;         /* -: least norm so far, reached at the pseudo step best_at */
-    int64_t best_at, pseudo_steps;
+    int64_t best_at, pseudo_steps;              /* in dual time of the step under way, as best */
     bool steady;                                /* reached */
     int64_t newtons, krylovs, cycles, halvings; /* summed over the run */
 };
@@ -81,6 +84,9 @@ struct newton *newton_create(struct fv *s);
 void newton_free(struct newton **n);
 /* One step of dt s from s->t; false: not converged, and the state is not one. */
 bool newton_try(struct fv *s, double dt);
+/* Counts a pseudo step that leaves w->norm, and says whether the least norm is `most' of them old:
+ * it goes up while eddies form, and down at last. */
+bool newton_stalls(struct newton *w, int64_t most);
 /* Where the last solve failed, and why it may have. */
 void newton_describe(struct fv *s, const char *after, struct diagnosis *d);
 /* One step of at most *dt s from s->t, halved as often as Newton fails (then d tells why). */
@@ -107,6 +113,14 @@ int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_
 /* newton_residual.c: coefficient of the dissipation in newton's convection, -: 1/12 with fv.flux =
  * "upwind", else 1/96. */
 double newton_dissipation(const struct fv *s);
+
+/* newton_dual.c: makes w->kin and w->pseudo of dual time; newton_free frees them. Collective. */
+void newton_dual_create(struct fv *s, struct newton *w);
+/* Solves R(q) = 0 for w->q, from what it holds, to fv.tol_newton; the largest scaled residual is
+ * left in w->norm. Returns KIN_SUCCESS or KIN_MAXITER_REACHED, on all ranks alike. */
+int newton_dual_solve(struct fv *s);
+/* Writes to text[size] what may help where the last solve failed. */
+void newton_dual_explain(const struct fv *s, char *text, size_t size);
 
 /* newton_vector.c: gives q, and what is cloned from it, faster sums. */
 void newton_vector_sums(N_Vector q);

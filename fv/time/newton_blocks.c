@@ -198,6 +198,17 @@ static void fill_rows(struct fv *s)
         poisson_shift(s, pow(s->newton->of.c0 / s->prm.c0, 2.0));
 }
 
+static void laplacian(const struct fv *s, double *out)
+{
+    const struct mesh *m = s->m;
+    FLOW_ROWS_AT (s, part, j, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            out[i] = 0.0;
+            for (int a = 0; a < s->dim; a++)
+                out[i] += (m->G[a][a][i] + m->G[a][a][i + part->stride[a]]) / m->V[i];
+        }
+}
+
 static void subtract_divergence(struct fv *s, double *const x[3], double *div)
 {
     const struct mesh *m = s->m;
@@ -228,4 +239,5 @@ static void subtract_divergence(struct fv *s, double *const x[3], double *div)
 const struct newton_cells newton_blocks = {.set_rates = set_rates,
                                            .evaluate = evaluate,
                                            .fill_rows = fill_rows,
+                                           .laplacian = laplacian,
                                            .subtract_divergence = subtract_divergence};

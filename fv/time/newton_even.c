@@ -313,6 +313,19 @@ static void fill_rows(struct fv *s)
     poisson_shift(s, a * c0 * c0);
 }
 
+static void laplacian(const struct fv *s, double *out)
+{
+    const struct block *b = &s->b;
+    BLOCK_ROWS_AT (b, 0, j, c, n) {
+        double sum = 0.0;
+        for (int a = 0; a < b->dim; a++)
+            sum +=
+                (1.0 / block_step(b, a, j) + 1.0 / block_step(b, a, j + 1)) / block_size(b, a, j);
+        for (int64_t i = c; i < c + n; i++)
+            out[i] = sum;
+    }
+}
+
 /* div -= D I(x) */
 static void subtract_divergence(struct fv *s, double *const x[3], double *restrict div)
 {
@@ -336,4 +349,5 @@ const struct newton_cells newton_even = {.set_rates = set_rates,
                                          .evaluate = evaluate,
                                          .evaluate_variation = evaluate_variation,
                                          .fill_rows = fill_rows,
+                                         .laplacian = laplacian,
                                          .subtract_divergence = subtract_divergence};

@@ -53,6 +53,9 @@ static const struct {
     {"cavity, steady",
      HEAD SQUARE "fluid: { nu = 0.01; };\nfv: { cells = (8, 8); integrator = "
                  "\"newton\"; steady = true; };\n" FOUR_WALLS("no_slip", "velocity = (1, 0); ")},
+    {"cavity, dual time",
+     HEAD SQUARE "fluid: { nu = 0.01; };\nfv: { cells = (8, 8); integrator = \"newton\"; cfl = 2; "
+                 "dual_time = true; };\n" FOUR_WALLS("no_slip", "velocity = (1, 0); ")},
     {"duct",
      HEAD SQUARE DUCT "fluid: { nu = 0.01; };\nprobes: ( { name = \"p\"; at = (0.5, 0.2); } );\n"
                       "fv: { cells = (12, 12); };\n"},
@@ -147,6 +150,7 @@ static const struct {
     {"blocked.name", "a heading in series.csv, in messages"},
     {"blocks.name", "a heading in series.csv, in messages"},
     {"fv.force", "wants eight rows in the second half of the run"},
+    {"fv.pseudo_steps", "binds where pseudo steps do not converge"},
     {"fv.surface", "\"no\" repeats what auto finds in a scene without water"},
     {"time.end", "a march to a steady state ends by itself"},
     {"domain.min", "bounds of blocks, which are checked"},
