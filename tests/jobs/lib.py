@@ -3,6 +3,7 @@ the build, `root' the project. SPDX-License-Identifier: BSD-3-Clause"""
 import atexit
 import csv
 import json
+import math
 import os
 import re
 import shutil
@@ -104,9 +105,40 @@ def series(path):
     """Columns of a CSV file by title."""
     with open(path) as f:
         rows = list(csv.reader(f))
-    return {title: [float(row[k]) for row in rows[1:]] for k, title in enumerate(rows[0])}
+    return {title: [float(row[k] or 'nan') for row in rows[1:]] for k, title in enumerate(rows[0])}
 
 
 def box_stl(path, low, high, without='', sense=1):
     """The triangles of a box, normals out of it; `without' names open faces (zp: upper z); sense -1: normals in."""
     write(path, stl.box(low, high, without, sense))
+
+
+def varied(text, *changes):
+    """The text with `old', `new', `old', `new' ... replaced in turn, each wherever it stands; what stands nowhere is an error."""
+    for old, new in zip(changes[::2], changes[1::2]):
+        assert old in text, 'no "%s" in the text to change' % old
+        text = text.replace(old, new)
+    return text
+
+
+def runs(case, text, *args, program='sph', ends=0):
+    """A run of that text, CASE.cfg, on one rank into the folder CASE; what it says is in CASE.txt; another exit code is a fault."""
+    write(case + '.cfg', text)
+    code = start(program, case + '.cfg', '-o', case, '--force', *args, log=case + '.txt')
+    if code != ends:
+        bad('%s: exit code %d instead of %d' % (case, code, ends), case + '.txt')
+
+
+def column(path, title):
+    """The values of the first column of a CSV file whose title begins so; none: empty."""
+    return next((values for whole, values in series(path).items() if whole.startswith(title)), [])
+
+
+def last(path, title):
+    return (column(path, title) or [math.nan])[-1]
+
+
+def near(what, value, wanted, most, log=None):
+    """A fault if a value is farther than `most' from what is wanted, or no number."""
+    if not abs(value - wanted) <= most:
+        bad('%s: %.8g instead of %.8g (within %.3g)' % (what, value, wanted, most), log)
