@@ -130,7 +130,7 @@ check: deps
 test-fast: # units alone, for development
 	@$(MAKE) --no-print-directory -j2 tests
 	@FAST=1 tests/run $(B)
-properties: all $(B)/tests/properties_scene # SEED=, N= or MINUTES=, JOBS=, KEEP=
+properties: all $(B)/tests/properties_scene $(preloaded) # SEED=, N= or MINUTES=, JOBS=, KEEP=
 	@tests/properties/run $(B)
 report: all
 	@cases/report

@@ -130,8 +130,9 @@ def runs(case, text, *args, program='sph', ends=0):
 
 
 def column(path, title):
-    """The values of the first column of a CSV file whose title begins so; none: empty."""
-    return next((values for whole, values in series(path).items() if whole.startswith(title)), [])
+    """The values of the first column of a CSV file whose title begins so; no such column or file: empty."""
+    whole = series(path) if os.path.exists(path) else {}
+    return next((whole[name] for name in whole if name.startswith(title)), [])
 
 
 def last(path, title):
@@ -142,3 +143,11 @@ def near(what, value, wanted, most, log=None):
     """A fault if a value is farther than `most' from what is wanted, or no number."""
     if not abs(value - wanted) <= most:
         bad('%s: %.8g instead of %.8g (within %.3g)' % (what, value, wanted, most), log)
+
+
+def refused(program, text, words):
+    """A fault unless --check refuses the text with these words."""
+    write('faulty.cfg', text)
+    code = start(program, 'faulty.cfg', '--check', log='faulty.log')
+    if code != 2 or not says(words, 'faulty.log'):
+        bad('exit code %d, wanted 2 and the words: %s' % (code, words), 'faulty.log')

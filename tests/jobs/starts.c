@@ -14,11 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum {
-    LINE_BYTES = 65536,
-    ARGS = 256,
-    LONGEST = 240 /* s of processor time that a run may take */
-};
+enum { LINE_BYTES = 65536, ARGS = 256, LONGEST = 240 /* s of processor time of a run */ };
 
 /* In the child: the folder, the file and the arguments of a line. */
 static void become(char *line, int *argc, char ***argv)
