@@ -142,7 +142,8 @@ static void describe_scene(const struct run *r)
             "and level, behind a beach the mean flow");
     else if (!has_partner_flow(r) && prm->surface == SURFACE_YES)
         openings_describe(&r->scene);
-    scene_waves_describe(&r->scene);
+    if (!r->coupled || !r->scene.has_fv) /* which says it */
+        scene_waves_describe(&r->scene);
     paddles_describe(r, prm);
 }
 

@@ -17,6 +17,7 @@ static struct {
     int rank; /* of the program; -1 before log_open */
     char program[64];
     FILE *file;
+    bool told_elsewhere;
 } state = {.rank = -1};
 
 void (*fail_hook)(const char *reason) = NULL;
@@ -79,10 +80,12 @@ static void say(bool terminal, bool file, const char *prefix, const char *fmt, v
         va_end(args);                                                                              \
     } while (0)
 
+void log_told_elsewhere(bool is) { state.told_elsewhere = is; }
+
 void log_say(const char *fmt, ...)
 {
     if (rank_now() == 0)
-        SAY(true, true, "");
+        SAY(!state.told_elsewhere, true, "");
 }
 
 /* Whether this is a process of a later program of an MPMD job (MPI_APPNUM counts them from 0). */
@@ -129,7 +132,7 @@ void log_quiet(const char *fmt, ...)
 void log_warn(const char *fmt, ...)
 {
     if (rank_now() == 0)
-        SAY(true, true, "warning: ");
+        SAY(!state.told_elsewhere, true, "warning: ");
 }
 
 /* From any rank, with "program rank N: " before the text: to the terminal, on rank 0 to the file

@@ -30,6 +30,9 @@ struct log_use {
 };
 /* Prints that line for uses[n], one ingredient after the other in their order. */
 void log_uses(const struct log_use *uses, int n);
+/* From true to false what log_say and log_warn say goes to the file only: another program of the
+ * job says the same. */
+void log_told_elsewhere(bool is);
 /* As log_say, with "warning: " before the text. */
 void log_warn(const char *fmt, ...) __attribute__((format(printf, 1, 2)));
 

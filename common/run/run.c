@@ -137,10 +137,12 @@ static int read_case(struct life *l)
     if (l->faults.n == 0)
         check_place(l);
     r->coupled = r->partner_ctx || (l->line.check && r->scene.has_sph && r->scene.has_fv);
+    log_told_elsewhere(r->partner_ctx && r->scene.has_sph && r->scene.has_fv); /* by the coupler */
     if (l->faults.n == 0)
         scene_files_read(&r->scene, r->case_dir, r->motions, l->params, &l->faults);
     if (l->faults.n == 0)
         scene_check(&r->scene, l->params, &l->faults);
+    log_told_elsewhere(false);
     if (l->faults.n == 0)
         wall_histories_check(&r->scene, l->params, &l->faults);
     if (l->faults.n == 0)
