@@ -52,6 +52,8 @@ static void say_forecast(const struct run *r, const struct fv_params *prm, doubl
         rate = fmax(rate, limits_reference(r) / (limits_cfl(prm) * least));
     forecast_say("fv", dim, prm->water ? cells * surface_cost[dim - 2] : cells,
                  ceil(r->scene.time.end * rate));
+    forecast_warn_outputs(r->scene.output.every, r->scene.output.checkpoint, r->scene.time.end,
+                          ceil(r->scene.time.end / dt));
 }
 
 static void describe(const struct run *r)

@@ -20,6 +20,9 @@
 #include "time/sph_time.h"
 #include "walls/sph_walls.h"
 
+/* What a triangle near a particle costs, in pairs: three stages of integrals, fluxes, forces. */
+static const double PAIRS_OF_TOUCH = 20.0;
+
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */
 
@@ -57,6 +60,48 @@ static double pairs_of_particle(const struct run *r)
 {
     const double R = sph_params_of(r)->R_dx;
     return r->scene.domain.dim == 2 ? M_PI * R * R : 4.0 / 3.0 * M_PI * R * R * R;
+}
+
+/* Whether a triangle of a wall or body stands in water at the start, on either side. */
+static bool is_wet(const struct run *r, const struct exact *e, const struct trimesh *m, int k)
+{
+    double x[3], n[3];
+    bool wet = false;
+    trimesh_normal(m, k, n);
+    for (int way = -1; way <= 1 && !wet; way += 2) {
+        trimesh_middle(m, k, x);
+        vec3_add(x, 0.5 * way * sph_params_of(r)->dx, n);
+        wet = scene_matter(&r->scene, e, x) == MATTER_FLUID;
+    }
+    return wet;
+}
+
+/* How many triangles particles have within their support, of all: beside a flat triangle of the
+ * area A and the circumference U particles are in A R + pi U R^2/4 + 2 pi R^3/3 (half of Steiner's
+ * formula), as many as have no room. Of large meshes some triangles stand for all. */
+static double touches_of_meshes(const struct run *r, double n)
+{
+    enum { SAMPLES = 2000 };
+    const struct sph_params *prm = sph_params_of(r);
+    const double dx = prm->dx, R = prm->R_dx * dx;
+    const struct exact e = exact_create(&r->scene);
+    double sum = 0.0;
+    for (int i = 0; r->scene.meshes && i < r->scene.meshes->n; i++) {
+        const struct scene_mesh *is = r->scene.meshes->of + i;
+        const int every = 1 + is->mesh.ntriangles / SAMPLES;
+        for (int k = 0; k < is->mesh.ntriangles && is->owner != MESH_OF_SHAPE; k += every) {
+            const int *v = is->mesh.vertex[k];
+            double normal[3], U = 0.0, side[3];
+            const double A = trimesh_normal(&is->mesh, k, normal);
+            for (int c = 0; c < 3; c++) {
+                vec3_from(is->mesh.x[v[c]], is->mesh.x[v[(c + 1) % 3]], side);
+                U += vec3_length(side);
+            }
+            const double V = A * R + 0.25 * M_PI * U * R * R + 2.0 / 3.0 * M_PI * R * R * R;
+            sum += is_wet(r, &e, &is->mesh, k) ? every * fmin(V / (dx * dx * dx), n) : 0.0;
+        }
+    }
+    return sum;
 }
 
 /* The flow goes on in fv; other programs of a job may move bodies alone. */
@@ -248,8 +293,11 @@ static void describe(const struct run *r)
     const struct apr_params *apr = apr_params_of(r);
     log_say("dt about %.3g s (%s), %.0f steps%s", dt, limit, steps,
             apr && apr->local_steps ? " of the finest level; coarser ones take fewer" : "");
+    forecast_warn_outputs(r->scene.output.every, r->scene.output.checkpoint, r->scene.time.end,
+                          steps);
     if (all >= 1.0)
-        forecast_say("sph", r->scene.domain.dim, all * pairs_of_particle(r), steps);
+        forecast_say("sph", r->scene.domain.dim,
+                     all * pairs_of_particle(r) + PAIRS_OF_TOUCH * touches_of_meshes(r, n), steps);
     else
         log_say("run time: not known, as there is no water at the start");
     if (has_partner_flow(r))

@@ -72,6 +72,10 @@ found=$(grep -H '^#include "' $(find sph fv coupler common -mindepth 2 -name '*.
       if (!(of in door)) door[of] = to
       else if (door[of] != to) print part[1] " includes " to ", others of that folder " door[of] }')
 [ -z "$found" ] || bad "folders with two doors: $found"
+# what criteria of cases may name is one list
+for name in $(grep -rhoE '"error\.[a-z_0-9]+"' --include='*.c' sph fv coupler common | sort -u); do
+    grep -q "^ .*$name" common/run/accept.c || bad "$name is missing in the list of common/run/accept.c"
+done
 for f in $(find sph fv coupler common tests -name '*.[ch]'); do
     grep -q 'SPDX-License-Identifier: BSD-3-Clause' "$f" || bad "$f has no licence line"
 done

@@ -157,6 +157,49 @@ static void has_none(const char *what, const char *of, const char *key, const st
                  of);
 }
 
+/* The errors that sph, fv and the coupler report (tests/style.sh compares). */
+static const char *const errors[] = {
+    "error.amplitude",     "error.crest",           "error.damping",
+    "error.enstrophy",     "error.extrema",         "error.force",
+    "error.force_x",       "error.force_y",         "error.free",
+    "error.frequency",     "error.left_behind",     "error.level",
+    "error.period",        "error.phase",           "error.place",
+    "error.pressure_l2",   "error.pressure_offset", "error.pressure_rms",
+    "error.reflected",     "error.second",          "error.velocity_l2",
+    "error.velocity_linf", "error.velocity_rms",    "error.velocity_wall",
+    "error.vorticity_l2"};
+
+/* Of a field of another program, as the coupler reports it. */
+static bool has_norm(const char *what)
+{
+    static const char *const norms[] = {"_l2", "_rms", "_linf"};
+    bool any = false;
+    for (size_t k = 0; k < sizeof norms / sizeof *norms; k++) {
+        const size_t n = strlen(norms[k]), all = strlen(what);
+        any = any || (all > n && strcmp(what + all - n, norms[k]) == 0);
+    }
+    return any;
+}
+
+/* An error that no program reports: told now, not when the run is done. */
+static void check_error(const char *what, const char *key, const struct params *p, struct faults *f)
+{
+    const size_t n = sizeof errors / sizeof *errors;
+    struct hint_nearest near = hint_nearest_start(what);
+    for (size_t k = 0; k < n; k++) {
+        if (strcmp(what, errors[k]) == 0)
+            return;
+        hint_nearest_try(&near, errors[k]);
+    }
+    const char *word = hint_nearest_word(&near);
+    if (word || !has_norm(what))
+        params_fault(p, f, key, "no program reports %s%s%s%s", what, word ? ": did you mean " : "",
+                     word ? word
+                          : "; error.velocity_l2, error.pressure_rms and others are in "
+                            "summary.json of a run",
+                     word ? "?" : "");
+}
+
 /* A number of the summary is made at the end, but whose it is stands in the case. */
 static void check_number(const struct scene *s, int k, const struct params *p, struct faults *f)
 {
@@ -183,6 +226,8 @@ static void check_number(const struct scene *s, int k, const struct params *p, s
     }
     if (strncmp(what, "discharge.", 10) == 0 && !names_section(s, what + 10))
         has_none(what, "gauge of kind discharge", key, p, f);
+    if (strncmp(what, "error.", 6) == 0)
+        check_error(what, key, p, f);
 }
 
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,

@@ -25,6 +25,21 @@ static FILE *open_figures(void)
     return fopen(path, "r");
 }
 
+/* Steps end at outputs, so two steps or more between two of them cost at most half a step each. */
+static void warn_every(const char *key, double every, double end, double steps)
+{
+    if (every > 0.0 && every < 0.5 * end / steps)
+        log_warn("%s = %g s is far below a step of %.2g s: each output ends a step, so that %.3g "
+                 "steps take the place of %.3g, each with a file; take %.2g s or more",
+                 key, every, end / steps, ceil(end / every), steps, end / steps);
+}
+
+void forecast_warn_outputs(double every, double checkpoint, double end, double steps)
+{
+    warn_every("output.every", every, end, steps);
+    warn_every("output.checkpoint", checkpoint, end, steps);
+}
+
 void forecast_say(const char *program, int dim, double units, double steps)
 {
     char name[64];

@@ -120,6 +120,16 @@ static void keep_text(struct life *l)
     l->files.case_text = text;
 }
 
+/* Names of snapshots have six digits, and no disk wants more of them. */
+static void check_outputs(struct life *l)
+{
+    const double every = l->r.scene.output.every, end = l->r.scene.time.end, most = 999999.0;
+    if (every > 0.0 && end / every > most)
+        params_fault(l->params, &l->faults, "output.every",
+                     "%g s makes %.3g snapshots in %g s, more than have names: take %.2g s or more",
+                     every, end / every, end, end / most);
+}
+
 /* Reads and checks everything; returns the number of faults, the same on all ranks. The order
  * matters: each part uses what those before it have put into the scene or found sound, and stops at
  * the first part with faults, for those behind would report consequences. All faults of one part
@@ -161,6 +171,8 @@ static int read_case(struct life *l)
         wave_gauges_check(&r->scene, r->gauge_elsewhere, l->params, &l->faults);
     if (l->faults.n == 0)
         accept_check(&r->scene, r->case_dir, l->params, &l->faults);
+    if (l->faults.n == 0)
+        check_outputs(l);
     if (l->faults.n == 0 && l->p->complete)
         l->p->complete(r);
     if (l->faults.n == 0 && l->p->check)

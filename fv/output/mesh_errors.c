@@ -203,8 +203,10 @@ static void describe_step(const struct run *r, const struct fv_params *prm, cons
         return; /* marches in pseudo-time */
     log_say("dt about %.3g s if the fastest flow crosses the flattest cell (%s, CFL %g)",
             cfl * h / speed, limit_name(LIMIT_FLOW), cfl);
-    forecast_say("fv", m->dim, BLOCK_COST * (double)m->computed,
-                 ceil(r->scene.time.end * speed / (cfl * h)));
+    const double steps = ceil(r->scene.time.end * speed / (cfl * h));
+    forecast_say("fv", m->dim, BLOCK_COST * (double)m->computed, steps);
+    forecast_warn_outputs(r->scene.output.every, r->scene.output.checkpoint, r->scene.time.end,
+                          steps);
 }
 
 /* The mesh is left for the run to take (mesh_leave). */

@@ -218,11 +218,12 @@ static void say_out(const struct sph *s, const struct body *b, const double *x, 
                                : "openings farther away, or an earlier time.end");
 }
 
-/* A body that leaves its room, or is no longer a number. */
+/* A body that leaves its room, or is no longer a number. Contact with a side is a spring: what is
+ * pressed on it goes some thousandths of dx beyond, with others on its back some more. */
 static void judge(const struct sph *s, const struct body *b, struct diagnosis *d)
 {
     const int n = b->mesh ? b->mesh->nvertices : b->is->points.n;
-    const double small = 1e-6 * s->dx;
+    const double small = (b->free ? 0.1 : 1e-6) * s->dx;
     double lo[3], hi[3];
     room_of(s, lo, hi);
     for (int k = 0; k < n && !d->bad; k++) {

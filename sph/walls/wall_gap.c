@@ -113,7 +113,7 @@ static void exchange_at(const struct sph *s, struct wall_list *l, int k, int j, 
     const int n = l->first[k + 1] - l->first[k];
     const double *x = prim_line(&s->p, l->who[k]);
     double gamma = 1.0, sum[3] = {0.0, 0.0, 0.0};
-    const double *share = wall_list_shares(s, l, k, t->body, y);
+    const double *share = wall_list_shares(s, l, k, j, y);
     if (!share)
         return;
     for (int m = 0; m < n; m++)

@@ -339,29 +339,48 @@ static int owner_of(const struct walls *w, const struct wall_touch *t, int dim)
 /* Whether one is the back of the other, which lies on it. */
 static bool lies_on(const struct sph *s, const struct wall_touch *t, const struct wall_touch *o)
 {
-    const int of = owner_of(s->walls, t, s->dim), on = owner_of(s->walls, o, s->dim);
-    const double near = (walls_sealed(s, of, on) ? walls_shut(s->walls, of, on) : 0.1) * s->dx;
     double turn = 0.0;
     for (int a = 0; a < s->dim; a++)
         turn += t->n[a] * o->n[a];
-    return o->height > 0.0 && turn < -0.99 && fabs(t->height + o->height) < near;
+    if (!(o->height > 0.0 && turn < -0.99))
+        return false;
+    const int of = owner_of(s->walls, t, s->dim), on = owner_of(s->walls, o, s->dim);
+    const double near = (walls_sealed(s, of, on) ? walls_shut(s->walls, of, on) : 0.1) * s->dx;
+    return fabs(t->height + o->height) < near;
+}
+
+/* Which of those in [from, to) it lies on, counted from the first; -1: on none. */
+static int lies_on_one(const struct sph *s, const struct wall_touch *t,
+                       const struct wall_touch *from, const struct wall_touch *to)
+{
+    if (!(t->height < 0.0 && (t->is.W > 0.0 || t->joined)))
+        return -1;
+    for (const struct wall_touch *o = from; o < to; o++)
+        if (lies_on(s, t, o))
+            return (int)(o - from);
+    return -1;
 }
 
 /* A face that stands on that of another owner is seen from behind by the fluid beside it, and the
  * other on through it. Together they are nothing, so both have one owner. */
 static void own_covered(const struct sph *s, struct wall_list *l, int k)
 {
-    struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1];
+    struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1], *next;
     for (struct wall_touch *t = begin; t < end; t++) {
         t->body = owner_of(s->walls, t, s->dim);
         t->on = -1;
-        for (const struct wall_touch *o = begin; o < end && t->height < 0.0; o++)
-            if ((t->is.W > 0.0 || t->joined) && owner_of(s->walls, o, s->dim) != t->body &&
-                lies_on(s, t, o)) {
-                t->body = owner_of(s->walls, o, s->dim);
-                t->on = (int)(o - begin);
-            }
     }
+    for (struct wall_touch *run = begin; run < end; run = next) { /* of one owner */
+        for (next = run; next < end && next->body == run->body; next++)
+            ;
+        for (struct wall_touch *t = run; t < next; t++) {
+            const int before = lies_on_one(s, t, begin, run);
+            const int behind = before < 0 ? lies_on_one(s, t, next, end) : -1;
+            t->on = before >= 0 ? before : behind >= 0 ? (int)(next - begin) + behind : -1;
+        }
+    }
+    for (struct wall_touch *t = begin; t < end; t++)
+        t->body = t->on < 0 ? t->body : owner_of(s->walls, begin + t->on, s->dim);
 }
 
 void wall_list_measure(const struct sph *s, struct wall_list *l)
@@ -409,14 +428,15 @@ static bool reaches(const struct sph *s, const struct wall_list *l, const struct
                        : is_near(s->walls->segments + t->piece, x, s->R);
 }
 
-const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int body,
+const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int face,
                                const double *x)
 {
     const int n = l->first[k + 1] - l->first[k];
     const struct wall_touch *t = l->touch + l->first[k];
+    const int body = l->touch[face].body;
     bool any = false;
     for (int j = 0; j < n && !any; j++)
-        any = t[j].body != body && reaches(s, l, t + j, x);
+        any = t[j].body != body && !walls_sealed(s, body, t[j].body) && reaches(s, l, t + j, x);
     if (!any)
         return NULL;
     if (n > l->shares_capacity) {
@@ -425,7 +445,7 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
         l->shares_capacity = 2 * n;
     }
     if (s->dim == 3)
-        wall_list3_shares(s, l, k, x);
+        wall_list3_shares(s, l, k, face, x);
     for (int j = 0; j < n && s->dim == 2; j++) {
         struct wall_touch there;
         measure(s->walls->segments + t[j].piece, s->prm.wall_integrals, cut_of(l, t + j), x, s->R,

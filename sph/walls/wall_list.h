@@ -85,10 +85,10 @@ int wall_list_behind(const struct sph *s, const struct wall_list *l, int *who);
  * m^(1-dim). */
 double wall_list_weight(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                         const double *x, double R);
-/* Parts of the Shepard factor at a point x near particle k, one for each of its touches from
- * first[k] on; NULL: no face of another owner than `body' reaches there. Valid until the next
- * call. */
-const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int body,
+/* Parts of the Shepard factor at a point x of the face `face' near particle k, one for each of its
+ * touches from first[k] on; NULL: no face of another owner, not sealed with it, reaches there. Only
+ * their sum counts of the face's own owner. Valid until the next call. */
+const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, int face,
                                const double *x);
 /* Points y of the plane's part of a touch within R of x, with their shares of its weight W, which
  * sum to 1; returns how many. In 2D. */
@@ -120,7 +120,7 @@ double wall_list3_weight(const struct sph *s, const struct wall_list *l, const s
 /* Whether the touch's triangle is nearer than R, m, to x. */
 bool wall_list3_reaches(const struct sph *s, const struct wall_list *l, const struct wall_touch *t,
                         const double *x);
-void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, const double *x);
+void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, int face, const double *x);
 double wall_list3_nearest(const struct sph *s, const struct wall_list *l,
                           const struct wall_touch *t, const double *x, double *foot);
 void wall_list3_free(struct wall_list *l);

@@ -6,13 +6,16 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
+#include "wall_share.h"
 
 /* What is known of a mesh: frames of the triangles that some particle has seen. */
 struct wall_frames {
     int n, capacity;
     struct facet *facet;
-    int *triangle; /* [n] which it is */
-    int *slot;     /* [ntriangles] place in facet; -1: not seen yet */
+    int *triangle;  /* [n] which it is */
+    double *behind; /* [n] -: the kernel's part behind its owner's faces, around its middle; -1: not
+                       asked for yet */
+    int *slot;      /* [ntriangles] place in facet; -1: not seen yet */
 };
 
 static void create_frames(const struct sph *s, struct wall_list *l)
@@ -31,7 +34,7 @@ static void create_frames(const struct sph *s, struct wall_list *l)
 void wall_list3_free(struct wall_list *l)
 {
     for (int k = 0; k < l->nframes; k++)
-        FREE(l->of3[k].facet, l->of3[k].triangle, l->of3[k].slot);
+        FREE(l->of3[k].facet, l->of3[k].triangle, l->of3[k].behind, l->of3[k].slot);
     FREE(l->of3, l->found, l->near, l->rim, l->seen_from, l->piece, l->shown);
 }
 
@@ -59,10 +62,12 @@ static int frame_of(struct wall_frames *f, const struct wall_mesh *m, int triang
         const int more = 2 * f->capacity + 64;
         GROW(f->facet, f->capacity, more);
         GROW(f->triangle, f->capacity, more);
+        GROW(f->behind, f->capacity, more);
         f->capacity = more;
     }
     const int *v = m->mesh.vertex[triangle];
     f->triangle[f->n] = triangle;
+    f->behind[f->n] = -1.0;
     f->facet[f->n] = facet_of(m->mesh.x[v[0]], m->mesh.x[v[1]], m->mesh.x[v[2]]);
     return f->slot[triangle] = f->n++;
 }
@@ -266,22 +271,55 @@ bool wall_list3_reaches(const struct sph *s, const struct wall_list *l, const st
     return facet_nearest(wall_list3_facet(l, t), own, on) < s->R;
 }
 
-void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, const double *x)
+/* Whether the points of a face are all in a triangle that is small against the support, as on what
+ * is curved and finely cut: not joined with others of its plane, and nothing lies on anything
+ * there. */
+static bool is_small(const struct sph *s, const struct wall_list *l, int k, int face)
+{
+    const struct wall_touch *t = l->touch + face;
+    bool alone = wall_list3_facet(l, t)->longest < 0.5 * s->R;
+    for (int j = l->first[k]; j < l->first[k + 1] && alone; j++) {
+        const struct wall_touch *o = l->touch + j;
+        alone = o->on < 0 && !(o->joined && o->of == t->of && o->plane == t->plane);
+    }
+    return alone;
+}
+
+/* What the face's owner has behind it, of the triangle's middle, which stays the same: asked for at
+ * each point it is that of a hundred triangles, a dozen times a particle and stage. */
+static double share_behind(const struct sph *s, struct wall_list *l, const struct wall_touch *t)
+{
+    const struct facet *f = wall_list3_facet(l, t);
+    double *behind = l->of3[t->of].behind + t->piece, x[3];
+    if (*behind < 0.0) {
+        for (int a = 0; a < 3; a++)
+            x[a] = f->centre[a] - 1e-4 * s->R * f->n[a];
+        *behind = wall_share_in_frame(s, t->of, x);
+    }
+    return *behind;
+}
+
+void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, int face, const double *x)
 {
     struct facet_batch batch; /* 20 KB: not cleared */
     batch.n = 0;
     double own[3] = {0.0, 0.0, 0.0};
-    const int first = l->first[k], n = l->first[k + 1] - first;
+    const int first = l->first[k], n = l->first[k + 1] - first, body = l->touch[face].body;
+    const bool small = is_small(s, l, k, face);
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + first + j;
+        l->asked[j] = (struct wall_integrals){0};
         if (j == 0 || t->of != t[-1].of)
             wall_mesh_to_own(s->walls->meshes + t->of, x, own);
-        l->asked[j] = (struct wall_integrals){0};
+        if (small && t->body == body)
+            continue;
         facet_ask(&batch, wall_list3_facet(l, t), own, s->R, l->asked + j);
     }
     facet_finish(&batch);
     for (int j = 0; j < n; j++)
         l->share[j] = l->asked[j].gamma;
+    if (small)
+        l->share[face - first] = -share_behind(s, l, l->touch + face);
 }
 
 double wall_list3_nearest(const struct sph *s, const struct wall_list *l,

@@ -21,13 +21,13 @@ static double share_of_segments(const struct sph *s, int body, const double *x)
     return sum;
 }
 
-static double share_of_mesh(const struct wall_mesh *m, double R, const double *x)
+/* own: in the frame of the mesh. */
+static double share_of_mesh(const struct wall_mesh *m, double R, const double *own)
 {
-    double own[3], lo[3], hi[3];
+    double lo[3], hi[3];
     struct wall_integrals sum = {0};
     struct facet_batch batch; /* 20 KB: not cleared */
     batch.n = 0;
-    wall_mesh_to_own(m, x, own);
     for (int a = 0; a < 3; a++) {
         lo[a] = own[a] - R;
         hi[a] = own[a] + R;
@@ -100,11 +100,34 @@ void wall_share_weight(const struct sph *s, int body, const double *x, const dou
     }
 }
 
+static double within(double sum) { return sum < -1e-6 ? sum + 1.0 : sum; }
+
 double wall_share(const struct sph *s, int body, const double *x)
 {
-    double sum = s->dim == 2 ? share_of_segments(s, body, x) : 0.0;
-    for (int k = 0; k < s->walls->nmeshes; k++)
-        if (s->walls->meshes[k].body == body && !s->walls->meshes[k].thin)
-            sum += share_of_mesh(s->walls->meshes + k, s->R, x);
-    return sum < -1e-6 ? sum + 1.0 : sum;
+    double sum = s->dim == 2 ? share_of_segments(s, body, x) : 0.0, own[3];
+    for (int k = 0; k < s->walls->nmeshes; k++) {
+        const struct wall_mesh *m = s->walls->meshes + k;
+        if (m->body != body || m->thin)
+            continue;
+        wall_mesh_to_own(m, x, own);
+        sum += share_of_mesh(m, s->R, own);
+    }
+    return within(sum);
+}
+
+double wall_share_in_frame(const struct sph *s, int mesh, const double *own)
+{
+    const struct wall_mesh *of = s->walls->meshes + mesh;
+    double sum = 0.0, x[3], there[3];
+    if (of->body >= 0)
+        return within(share_of_mesh(of, s->R, own));
+    wall_mesh_to_world(of, own, x); /* which stands still */
+    for (int k = 0; k < s->walls->nmeshes; k++) {
+        const struct wall_mesh *m = s->walls->meshes + k;
+        if (m->body >= 0 || m->thin)
+            continue;
+        wall_mesh_to_own(m, x, there);
+        sum += share_of_mesh(m, s->R, there);
+    }
+    return within(sum);
 }

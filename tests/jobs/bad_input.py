@@ -195,6 +195,9 @@ fv:      { cells = (16, 16); };
 ''')
 for sound in 'basin', 'block', 'tank':  # or the faults below could come from something else
     holds(start('fv', sound + '.cfg', '--check') == 0, sound + '.cfg is refused')
+# outputs shorter than steps: accepted, with a word
+tells('sph', 's/every = 0.01/every = 1e-5/', 'output.every = 1e-05 s is far below a step of .* take .* s or more')
+tells('sph', 's/every = 0.01/checkpoint = 1e-5/', 'output.checkpoint = 1e-05 s is far below')
 # lengths in cm: accepted, with a word
 edit('tank.cfg', 's/gravity = (0, -9.81)/gravity = (0, -981)/')
 holds(start('fv', 'case.cfg', '--check') == 0 and told('fluid.gravity: 981 m/s^2 looks like cm/s^2') and told('run time'), 'gravity in cm/s^2')
@@ -345,6 +348,9 @@ faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"/', r'wal
 faulty('tank', 's/name = "p"/name = "t"/', r'probes.\[0\].*: t: series.csv has a column of this name', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: p is a gauge, .*give a reference', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "body.c.mass"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: summary.json will have no body.c.mass: no body', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "error.velocty_l2"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: no program reports error.velocty_l2: did you mean error.velocity_l2', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "error.x"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: no program reports error.x', 'sph', '--check')
+faulty('tank', r's/^sph:/output: { every = 1e-9; };\n&/', r'output.every: 1e-09 s makes .* snapshots', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "discharge.p.volume"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: .* no gauge of kind discharge', 'sph', '--check')
 # lines
 faulty('tank', 's/(1.2, 0.4), (1.2, 0.2)/(1.2, 0.2), (1.2, 0.4)/', r'case.cfg:8: bodies.\[0\].points: at (1, 0.3) m: crosses', 'sph')
