@@ -29,7 +29,7 @@ static const struct param rows[] = {
     PARAM(P, tol_viscous,  "-", "0.0",  0, 1,     "of the viscous solver; 0: (32/n)^2/1000, n cells a side, with imposed cells or closed sides 1e-5 at most",
           USED(NEED(PROJECTED, "newton solves for all unknowns at once: see fv.tol_newton"),
                NEED(VISCOUS, "fluid.nu = 0: there is no viscous solver")), .comparison = true),
-    PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, of a steady state 32/n^5, n cells a side, 1e-11 to 1e-6",
+    PARAM(P, tol_newton,   "-", "0.0",  0, 1,     "of newton's residual, as a velocity relative to the largest; 0: 1e-6, without a surface times (64 fv.cfl/n)^3 at most, n cells a side, down to 1e-9; of a steady state 32/n^5, 1e-11 to 1e-6",
           USED(ONLY(integrator, ONE(INTEGRATOR_NEWTON), "it needs fv.integrator = \"newton\"")), .comparison = true),
     CHOICE(P, flux, "central|upwind", "central", "newton's convection: with a small dissipation, or upwind (kappa = 1/3)",
           USED(ONLY(integrator, ONE(INTEGRATOR_NEWTON), "it needs fv.integrator = \"newton\"; rk3 and bdf2 have fv.upwind")), .comparison = true),

@@ -63,15 +63,18 @@ static void make_kinsol(struct fv *s, struct newton *w)
     SUN(KINSetNoMinEps(w->kin, SUNFALSE));
 }
 
-/* Residual that leaves an error well below that of the cells. In time 1e-6 a step is; a steady
- * residual in cells' velocities, r, leaves an error of up to r T U/h, T the time in which the flow
- * forgets (50 L/U in a cavity at Re 1000): with h^4 for the cells' error, r ~ h^5. */
+/* Residual that leaves an error well below that of the cells. In time 1e-6 a step is, which adds up
+ * over the steps; their own errors are (U dt/L)^3, so it falls with that in short steps. A
+ * surface's terms are not smooth enough for less. A steady residual in cells' velocities, r, leaves
+ * an error of up to r T U/h, T the time in which the flow forgets (50 L/U in a cavity at Re 1000);
+ * with h^4 for the cells' error, r ~ h^5. */
 static double tolerance(const struct fv *s, double all)
 {
     if (s->prm.tol_newton > 0.0)
         return s->prm.tol_newton;
-    const double side = pow(all, 1.0 / s->dim);
-    return s->prm.steady ? fmax(1e-11, fmin(1e-6, 32.0 * pow(side, -5.0))) : 1e-6;
+    const double side = pow(all, 1.0 / s->dim), step = s->prm.water ? 1.0 : s->prm.cfl / side;
+    return s->prm.steady ? fmax(1e-11, fmin(1e-6, 32.0 * pow(side, -5.0)))
+                         : fmax(1e-9, 1e-6 * fmin(1.0, pow(64.0 * step, 3.0)));
 }
 
 static int longest_row(const struct fv *s)
