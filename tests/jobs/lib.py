@@ -2,6 +2,7 @@
 the build, `root' the project. SPDX-License-Identifier: BSD-3-Clause"""
 import atexit
 import csv
+import glob
 import json
 import math
 import os
@@ -151,3 +152,73 @@ def refused(program, text, words):
     code = start(program, 'faulty.cfg', '--check', log='faulty.log')
     if code != 2 or not says(words, 'faulty.log'):
         bad('exit code %d, wanted 2 and the words: %s' % (code, words), 'faulty.log')
+def close(what, value, wanted, share, log=None):
+    """The same with a share of what is wanted."""
+    near(what, value, wanted, share * abs(wanted), log)
+
+
+def below(what, value, most, log=None):
+    """A fault if a value is above `most', or no number."""
+    if not value <= most:
+        bad('%s: %.6g, wanted at most %.6g' % (what, value, most), log)
+
+
+def scene(case, folder):
+    """The file of a case: of a folder of cases/, of a text, which becomes FOLDER.cfg, or that file itself."""
+    if '\n' in case:
+        write(folder + '.cfg', case)
+        return folder + '.cfg'
+    return case if case.endswith('.cfg') else '%s/cases/%s/case.cfg' % (root, case)
+
+
+def job(folder, case, keys='', *args, ranks='1:1:1', boxes=('sph',), ends=(0,)):
+    """A coupled job on SPH:COUPLER:FV ranks of a case (as of `scene') with `keys', as "a.b=1 c.d=2", into a folder; what it says is in
+    FOLDER.txt; boxes are its groups of sph, a program each. An exit code that is not one of `ends' is a fault."""
+    said = [scene(case, folder), '-o', folder, *args]
+    for key in keys.split():
+        said += ['-p', key]
+    of_sph, of_coupler, of_fv = ranks.split(':')
+    command = []
+    for box in boxes:
+        command += ['-np', of_sph, build + '/sph', *said, *(() if box == 'sph' else ('--as', box)), ':']
+    command += ['-np', of_coupler, build + '/coupler', *said, ':', '-np', of_fv, build + '/fv', *said]
+    code = run(*mpi, *command, log=folder + '.txt')
+    if code not in ends:
+        bad('%s ended with %d, wanted %s' % (folder, code, ' or '.join(map(str, ends))), folder + '.txt')
+
+
+def number(folder, key, program=None):
+    """The first number of that name in a summary, in whatever group; no such number or file: nan."""
+    def first(group):
+        for name, value in group.items():
+            if name == key and isinstance(value, (int, float)):
+                return value
+            found = first(value) if isinstance(value, dict) else None
+            if found is not None:
+                return found
+        return None
+
+    found = first(summary(folder, program)) if os.path.exists(folder) else None
+    return math.nan if found is None else found
+
+
+def same_bits(folder, other):
+    """A fault unless the last snapshots of two coupled jobs hold the same values."""
+    for program in 'sph', 'fv':
+        pair = [max(glob.glob('%s/%s_[0-9]*.h5' % (where, program))) for where in (folder, other)]
+        if run('h5diff', *pair, log='diff.txt') or says('not comparable', 'diff.txt'):  # which h5diff says of other numbers of particles
+            bad('%s of %s has other bits than that of %s' % (program, other, folder), 'diff.txt')
+
+
+def restarted(folder, case, keys, **how):
+    """The job that made a folder, restarted in a copy, FOLDER_again, from the point that it left on its way: a fault if it has other
+    last snapshots or another number of rows in its series."""
+    again = folder + '_again'
+    shutil.copytree(folder, again)
+    for program in 'sph', 'fv':  # those that are compared come from the restart
+        os.remove(max(glob.glob('%s/%s_[0-9]*.h5' % (again, program))))
+    job(again, case, keys, '--restart', **how)
+    same_bits(folder, again)
+    for path in glob.glob(folder + '/*series.csv'):
+        if len(open(path).readlines()) != len(open(path.replace(folder, again, 1)).readlines()):
+            bad('%s: another number of rows after a restart' % path)
