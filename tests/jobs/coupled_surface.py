@@ -3,7 +3,7 @@ any number of ranks, restart, what is refused. SPDX-License-Identifier: BSD-3-Cl
 import glob
 
 import lib
-from lib import bad, below, close, column, last, near, number, restarted, root, says, start, varied
+from lib import bad, below, close, column, last, near, number, restarted, root, says, start, told, varied
 
 lib.scratch()
 
@@ -219,8 +219,7 @@ job('own_blocks', on_blocks(own, '''{ name = "a"; cells = (44, 14); max = (4.4, 
             i_min = "overlap"; }'''), 'time.end=1 domain.max=(8,1.4) output.every=0.5', ranks='1:1:2', boxes=boxes)
 lifted('own_blocks')
 for program in boxes:
-    if not says('outline_1', 'own_blocks/%s_walls.xdmf' % program):
-        bad('snapshots of %s show no body of its own' % program)
+    told('own_blocks', 'outline_1', 'own_blocks/%s_walls.xdmf' % program)  # a body of its own
 keeps_water('own_blocks')
 
 # walls that but one of the programs has
@@ -228,12 +227,10 @@ for folder, old, new, words in (
         ('line', '(0.5, 0), (3.5, 0.5), (4, 0.5)', '(0, 0.2), (4, 0.2)', 'it lies in cells of fv.s blocks and is no side'),
         ('side', '{ points = ((0.5, 0), (3.5, 0.5), (4, 0.5)); kind = "slip"; },', '', 'its side is a wall, within sph.box')):
     job(folder, varied(bed, old, new), 'time.end=0.1 sph.dx=0.05 sph.box=((1,0),(3,1.4))', ends=(2,))
-    if not says(words, folder + '.txt'):
-        bad('not told "%s"' % words, folder + '.txt')
+    told(folder, words)
 
 # what cannot be done says so
 if start('fv', root + '/cases/standing_wave_crossing/case.cfg', '--check', '-p', 'fv.surface=no') != 2:
     bad('a surface that fv shall not have is not refused')
-if not says('both programs have the surface'):
-    bad('a surface that fv shall not have: not told why', 'out.txt')
+told('a surface that fv shall not have', 'both programs have the surface', 'out.txt')
 lib.end('%d faults' % lib.failed)

@@ -202,6 +202,12 @@ def number(folder, key, program=None):
     return math.nan if found is None else found
 
 
+def told(folder, words, log=None):
+    """A fault unless FOLDER.txt, or another log, has a line with a match of this pattern."""
+    if not says(words, log or folder + '.txt'):
+        bad('%s: not told "%s"' % (folder, words), log or folder + '.txt')
+
+
 def same_bits(folder, other):
     """A fault unless the last snapshots of two coupled jobs hold the same values."""
     for program in 'sph', 'fv':
