@@ -4,7 +4,7 @@ same as one; of a column that falls half goes through the middle; bodies take ga
 import math
 
 import lib
-from lib import bad, column, last, near, refused, run, runs, says, start, summary, varied, write
+from lib import bad, column, last, near, refused, run, run_case, says, start, summary, varied, write
 
 lib.scratch()
 
@@ -36,9 +36,9 @@ probes: ( %s, %s );
 ''' % (probes('discharge', 'flow 0.5, 0 to 0.5, 0.4', 'slant 0.4, 0 to 0.6, 0.4', 'turned 0.5, 0.4 to 0.5, 0',
               'over 0.5, 0.26 to 0.5, 0.4'),
        probes('velocity', 'in 0.5, 0.1', 'air 0.5, 0.35')), series=2)
-runs('cells', varied(channel, '{ side = "y_min"; }', '{ side = "y_min"; }, { side = "y_max"; }') + 'fv: { cells = (50, 20); };',
+run_case('cells', varied(channel, '{ side = "y_min"; }', '{ side = "y_min"; }, { side = "y_max"; }') + 'fv: { cells = (50, 20); };',
      program='fv')
-runs('grains', channel + 'sph: { dx = 0.02; c0 = 20.0; };')
+run_case('grains', channel + 'sph: { dx = 0.02; c0 = 20.0; };')
 if run(*lib.mpi, '-n', '2', lib.build + '/fv', 'cells.cfg', '-o', 'ranks', '--force', log='ranks.txt') != 0:
     bad('two ranks', 'ranks.txt')
 for case in 'cells', 'grains':
@@ -63,8 +63,8 @@ stream = scene(0.3, '''domain: { max = (2, 1); periodic = (true, true); };
 initial: { field = "uniform"; velocity = (1, 0.5); };
 probes: ( %s ); sph: { dx = 0.05; };
 ''' % probes('discharge', 'seam 0, 0 to 0, 1', 'end 2, 0 to 2, 1', 'mid 0.51, 0 to 0.51, 1', 'thin 1, 0.5 to 1, 0.52'))
-runs('stream', stream)
-runs('ends', varied(stream, '(1, 0.5); };', '(1, 0); };', ' periodic = (true, true);', '') + '''walls: (
+run_case('stream', stream)
+run_case('ends', varied(stream, '(1, 0.5); };', '(1, 0); };', ' periodic = (true, true);', '') + '''walls: (
           { side = "x_min"; kind = "inflow"; velocity = (1, 0); }, { side = "x_max"; kind = "outflow"; },
           { side = "y_min"; }, { side = "y_max"; } );''')
 for gauge in 'seam', 'end', 'mid':
@@ -83,9 +83,9 @@ shapes: ( { form = "box"; box = ((0, 0), (0.2, 0.2)); } );
 probes: ( %s );
 ''' % probes('discharge', 'flow 0.4, 0 to 0.4, 0.3'))
 cells = 'cells = (24, 18); j_min = "slip"; j_max = "slip";'
-runs('even', tank + '''fv: { cells = (48, 18); };
+run_case('even', tank + '''fv: { cells = (48, 18); };
 walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );''', program='fv')
-runs('blocks', tank + '''fv: { };
+run_case('blocks', tank + '''fv: { };
 blocks: ( { name = "a"; min = (0, 0); max = (0.4, 0.3); i_min = "slip"; i_max = "joined"; %s },
           { name = "b"; min = (0.4, 0); max = (0.8, 0.3); i_min = "joined"; i_max = "slip"; %s } );''' % (cells, cells), program='fv')
 for case in 'even', 'blocks':
@@ -112,8 +112,8 @@ blocks: ( { name = "outer"; mapping = "stretched"; min = (-6, -5); max = (6, 5);
             motion = ( { kind = "harmonic"; axis = "x"; amplitude = -0.7957747; period = 5.0; } ); } );
 probes: ( { name = "with"; kind = "velocity"; at = (0.51, 0); body = "cylinder"; } ); fv: { };
 ''', series=2)
-runs('lift', lift)
-runs('swing', swing, program='fv')
+run_case('lift', lift)
+run_case('swing', swing, program='fv')
 t, box = column('lift/series.csv', 't '), column('lift/series.csv', 'box y')
 
 
@@ -142,7 +142,7 @@ if start('fv', 'halves.cfg', '--check', log='halves.txt') != 0:
     bad('a gauge on a block that is joined to one that moves is refused', 'halves.txt')
 
 # A level gauge that a tank has left behind reads nothing, one over dry ground the height of the ground, not of the domain's end
-runs('leaves', scene(0.15, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; min = (-1, -0.3); max = (1.5, 1); };
+run_case('leaves', scene(0.15, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; min = (-1, -0.3); max = (1.5, 1); };
 shapes: ( { form = "box"; box = ((-0.5, 0.1), (0, 0.3)); } );
 blocks: ( { name = "tank"; min = (-0.5, 0.1); max = (0.5, 0.7); cells = (20, 12);
             i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip";
@@ -160,7 +160,7 @@ initial: { field = "taylor_green"; };
 probes: ( { name = "near"; at = (0.05, 0.5); }, { name = "mid"; at = (0.9, 0.5); }, { name = "far"; at = (0.4, 0.5); }%s );
 sph: { dx = 0.02;%s };
 ''')
-runs('seam', seam % (', { name = "v"; kind = "velocity"; at = (0.0, 0.25); }', ' noise = 0.0;'))
+run_case('seam', seam % (', { name = "v"; kind = "velocity"; at = (0.0, 0.25); }', ' noise = 0.0;'))
 ends_at('seam', 'v u', 0, 1e-4)
 
 

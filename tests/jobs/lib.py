@@ -114,30 +114,86 @@ def box_stl(path, low, high, without='', sense=1):
     write(path, stl.box(low, high, without, sense))
 
 
-def varied(text, *changes):
-    """The text with `old', `new', `old', `new' ... replaced in turn, each wherever it stands; what stands nowhere is an error."""
-    for old, new in zip(changes[::2], changes[1::2]):
-        assert old in text, 'no "%s" in the text to change' % old
-        text = text.replace(old, new)
-    return text
+def check(well, what, log=None):
+    """A fault unless it is well."""
+    if not well:
+        bad(what, log)
 
 
-def runs(case, text, *args, program='sph', ends=0):
-    """A run of that text, CASE.cfg, on one rank into the folder CASE; what it says is in CASE.txt; another exit code is a fault."""
-    write(case + '.cfg', text)
-    code = start(program, case + '.cfg', '-o', case, '--force', *args, log=case + '.txt')
-    if code != ends:
-        bad('%s: exit code %d instead of %d' % (case, code, ends), case + '.txt')
+# A tank of water at rest, of which scripts change groups
+TANK = '''format = 1;
+time: { end = 0.4; };
+fluid: { rho = 1000.0; gravity = (0, -9.81); };
+domain: { max = (1, 1); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+shapes: ( { form = "below"; level = 0.5; } );
+sph: { dx = 0.025; };
+output: { snapshots = false; };
+'''
+
+
+def changed(case, **groups):
+    """The case (text) with other contents of whole groups, which begin a line; a group that it lacks is added."""
+    for group, contents in groups.items():
+        ends = '()' if group in ('walls', 'shapes', 'bodies', 'probes') else '{}'
+        line = '%s: %s %s %s;\n' % (group, ends[0], contents, ends[1])
+        case, known = re.subn(r'^%s *:.*?(?=^\w+ *[:=]|\Z)' % group, lambda _: line, case, flags=re.M | re.S)
+        case += '' if known else line
+    return case
+
+
+def sides(names, kind='slip'):
+    """The elements of walls for these sides of the domain."""
+    return ', '.join('{ side = "%s"; kind = "%s"; }' % (side, kind) for side in names.split())
+
+
+def run_case(name, case=None, *args, program='sph', ranks=1, code=0, words=None):
+    """Runs NAME.cfg, written first if there is a text, into the folder NAME. A fault unless it ends with this code and a line of what
+    it says, in NAME.txt, has a match of the pattern."""
+    if case:
+        write(name + '.cfg', case)
+    log, rest = name + '.txt', [name + '.cfg', '-o', name, *([] if '--restart' in args else ['--force']), *args]
+    found = start(program, *rest, log=log) if ranks == 1 else run(*mpi, '-np', str(ranks), os.path.join(build, program), *rest, log=log)
+    what = '%s on %d rank(s)' % (' '.join([name, *args]), ranks)
+    check(found == code, '%s: exit code %d instead of %d' % (what, found, code), log)
+    check(words is None or says(words, log), '%s: not told "%s"' % (what, words), log)
+
+
+def mean(folder, title, after):
+    """Of the lines later than `after' s."""
+    values = [value for t, value in zip(column(folder, 't ['), column(folder, title)) if t > after]
+    return sum(values) / len(values)
 
 
 def column(path, title):
-    """The values of the first column of a CSV file whose title begins so; no such column or file: empty."""
+    """The values of the first column whose title begins so, of a CSV file or of the series of a run's folder; none: empty."""
+    if os.path.isdir(path):
+        path += '/series.csv'
     whole = series(path) if os.path.exists(path) else {}
     return next((whole[name] for name in whole if name.startswith(title)), [])
 
 
 def last(path, title):
     return (column(path, title) or [math.nan])[-1]
+
+
+def number(folder, key, program=None):
+    """A number of a summary by its keys, force.x, or the first of that name in whatever group; none, or no file: nan."""
+    def first(group, name, *inner):
+        if name in group:
+            return first(group[name], *inner) if inner else group[name]
+        return next((found for each in group.values() if isinstance(each, dict) for found in [first(each, name, *inner)] if found is not None), None)
+
+    found = first(summary(folder, program), *key.split('.')) if os.path.exists(folder) else None
+    return found if isinstance(found, (int, float)) else math.nan
+
+
+def varied(text, *changes):
+    """The text with `old', `new', `old', `new' ... replaced in turn, each wherever it stands; what stands nowhere is an error."""
+    for old, new in zip(changes[::2], changes[1::2]):
+        assert old in text, 'no "%s" in the text to change' % old
+        text = text.replace(old, new)
+    return text
 
 
 def near(what, value, wanted, most, log=None):
@@ -152,6 +208,8 @@ def refused(program, text, words):
     code = start(program, 'faulty.cfg', '--check', log='faulty.log')
     if code != 2 or not says(words, 'faulty.log'):
         bad('exit code %d, wanted 2 and the words: %s' % (code, words), 'faulty.log')
+
+
 def close(what, value, wanted, share, log=None):
     """The same with a share of what is wanted."""
     near(what, value, wanted, share * abs(wanted), log)
@@ -185,21 +243,6 @@ def job(folder, case, keys='', *args, ranks='1:1:1', boxes=('sph',), ends=(0,)):
     code = run(*mpi, *command, log=folder + '.txt')
     if code not in ends:
         bad('%s ended with %d, wanted %s' % (folder, code, ' or '.join(map(str, ends))), folder + '.txt')
-
-
-def number(folder, key, program=None):
-    """The first number of that name in a summary, in whatever group; no such number or file: nan."""
-    def first(group):
-        for name, value in group.items():
-            if name == key and isinstance(value, (int, float)):
-                return value
-            found = first(value) if isinstance(value, dict) else None
-            if found is not None:
-                return found
-        return None
-
-    found = first(summary(folder, program)) if os.path.exists(folder) else None
-    return math.nan if found is None else found
 
 
 def told(folder, words, log=None):

@@ -3,7 +3,7 @@ import math
 import shutil
 
 import lib
-from lib import bad, column, last, near, runs, says, summary, varied, write
+from lib import bad, column, last, near, run_case, says, summary, varied, write
 
 lib.scratch()
 
@@ -29,11 +29,11 @@ couette = scene(2.5, 0.05, '''fluid: { nu = 0.05; }; domain: { min = (-1.1, -1.1
 walls: ( { closed = true; kind = "no_slip"; points = (%s); } );
 bodies: ( { name = "inner"; kind = "no_slip"; spin = 1; points = (%s); } );
 ''' % (ring(64, 1, 1), ring(32, 0.5, -1)))
-runs('couette', couette)
+run_case('couette', couette)
 ends_at('torque of Couette flow, N', 'couette', 'inner moment', -209.4, 10)
 # and of one that is free: it runs down by the torque over its inertia; from 2 s on all layers go with it, whose inertia is a
 # tenth of its own
-runs('runs_down', varied(couette, 'spin = 1;', 'spin = 1; free = true; mass = 1000; inertia = 2000; lock = "x y";',
+run_case('runs_down', varied(couette, 'spin = 1;', 'spin = 1; free = true; mass = 1000; inertia = 2000; lock = "x y";',
                          'end = 2.5', 'end = 5', 'dx = 0.05', 'dx = 0.0625'))
 turns = list(zip(column('runs_down/series.csv', 't '), column('runs_down/series.csv', 'inner spin')))
 (t0, spin0), (t1, spin1) = next(row for row in turns if row[0] >= 2), turns[-1]
@@ -47,11 +47,11 @@ walls: ( { points = ((0, 1.8), (0, 0), (1, 0), (1, 0.3), (2, 0.3), (3, 0.8), (3.
 bodies: ( { name = "sill"; points = ((0.3, 0.4), (0.3, 0.6), (0.7, 0.6), (0.7, 0.4)); } );
 shapes: ( { box = ((0, 0), (3.5, 1.2)); } ); probes: ( %s );
 ''' % ', '.join('{ name = "L%d"; kind = "level"; at = (%s); }' % place for place in enumerate(gauges, 1)))
-runs('levels', levels)
+run_case('levels', levels)
 for k in range(1, 11):
     ends_at('level gauge %d, m' % k, 'levels', 'L%d ' % k, 1.2, 0.05)
 # a dry block does not count, and what stands on it does: 0.3 m of water below it, 0.2 m on a table beside
-runs('dry', varied(levels, 'box = ((0, 0), (3.5, 1.2))', 'box = ((0, 0), (0.95, 0.35)); }, { box = ((1, 0.3), (2, 0.5))'))
+run_case('dry', varied(levels, 'box = ((0, 0), (3.5, 1.2))', 'box = ((0, 0), (0.95, 0.35)); }, { box = ((1, 0.3), (2, 0.5))'))
 for gauge, level in ('L3 ', 0.35), ('L7 ', 0.5):
     near('level of two waters, m', column('dry/series.csv', gauge)[0], level, 0.05, 'dry.txt')
 
@@ -60,22 +60,22 @@ for gauge, level in ('L3 ', 0.35), ('L7 ', 0.5):
 table = scene(0.9, 0.025, '''fluid: { gravity = (0, -9.81); }; domain: { min = (-1.5, -1); max = (2, 1.5); };
 walls: ( { points = ((-0.5, 0), (1, 0)); } ); shapes: ( { box = ((0, 0), (0.4, 0.5)); } );
 ''')
-runs('table', table)
+run_case('table', table)
 for line in open('table.txt'):
     if ' of them behind walls' in line and int(line.split(' of them behind')[0].split()[-1]) > 16:
         bad('a twentieth of the water and more comes behind the table', 'table.txt')
 if says('^warning(?!.*left the region)', 'table.txt'):
     bad('the table warns', 'table.txt')
-runs('slot', varied(table, '(1, 0)', '(0.3, 0)'), ends=2)
+run_case('slot', varied(table, '(1, 0)', '(0.3, 0)'), code=2)
 if not says(r'slot.cfg:3: walls.\[0\].points: the line has water at its end', 'slot.txt'):
     bad('a line that ends in water is not refused', 'slot.txt')
-runs('faces', varied(table, 'end = 0.9', 'end = 0.1', '(-0.5, 0), (1, 0));',
+run_case('faces', varied(table, 'end = 0.9', 'end = 0.1', '(-0.5, 0), (1, 0));',
                      '(-0.5, 0), (-0.5, -0.1), (0.3, -0.1), (0.3, 0)); closed = true;'))
 
 # A channel that a line narrows to a half from the inlet to the outlet: p falls by 3/2 rho U^2 = 1500 Pa (Bernoulli)
 # and what a contraction loses, 0 to 0.15 times rho (2 U)^2/2 (Idelchik). The line goes on beyond both as a side does: nobody
 # comes round its ends.
-runs('narrows', scene(5, 0.05, '''domain: { max = (4, 1); }; initial: { field = "uniform"; velocity = (1, 0); };
+run_case('narrows', scene(5, 0.05, '''domain: { max = (4, 1); }; initial: { field = "uniform"; velocity = (1, 0); };
 walls: ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; },
            { points = ((4, 0.5), (2.4, 0.5), (1.6, 1), (0, 1)); } );
 probes: ( { name = "wide"; at = (0.7, 0.5); }, { name = "narrow"; at = (3.2, 0.25); } );
@@ -94,7 +94,7 @@ walls: ( { side = "x_min"; kind = "inflow"; velocity = (1, 0, 0); }, { side = "x
            { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; },
            { side = "z_min"; kind = "no_slip"; }, { side = "z_max"; kind = "no_slip"; } );
 ''')
-runs('duct', duct)
+run_case('duct', duct)
 near('particles of a duct that come through its walls', summary('duct')['particles_returned'], 0, 5, 'duct.txt')
 
 # A round pipe of triangles through both open sides: the inlet bears nobody beside it, where 125 were lost at once
@@ -104,16 +104,16 @@ corners = ['v %g %g %g\n' % (-0.5 + 2.5 * i / m, 0.25 + 0.25 * math.cos(a), 0.25
            for i in range(m + 1) for a in angles]
 quads = [(i * n + k + 1, i * n + (k + 1) % n + 1) for i in range(m) for k in range(n)]
 write('pipe.obj', ''.join(corners + ['f %d %d %d\nf %d %d %d\n' % (a, b, b + n, a, b + n, a + n) for a, b in quads]))
-runs('pipe', varied(duct[:duct.index('           { side = "y_min"')], 'end = 0.6', 'end = 0.15', 'max = (1.25, 0.5, 0.5)',
+run_case('pipe', varied(duct[:duct.index('           { side = "y_min"')], 'end = 0.6', 'end = 0.15', 'max = (1.25, 0.5, 0.5)',
                     'min = (0, -0.0625, -0.0625); max = (1.5, 0.5625, 0.5625)') + '{ mesh = "pipe.obj"; kind = "no_slip"; } );\n')
 near('particles lost from a pipe', summary('pipe')['particles_lost'], 0, 0, 'pipe.txt')
 near('particles that a pipe returned', summary('pipe')['particles_returned'], 0, 9, 'pipe.txt')
 ends_at('water in a pipe, kg', 'pipe', 'mass', 1000 * 1.5 * 12 * 0.0625 * math.sin(math.pi / 12), 9)
 
 # A tank that the domain cuts off is refused at each of the sides that cut it
-runs('cut', scene(0.1, 0.05, '''domain: { min = (-1.2, -1.2); max = (1.2, 1.4); };
+run_case('cut', scene(0.1, 0.05, '''domain: { min = (-1.2, -1.2); max = (1.2, 1.4); };
 walls: ( { closed = true; points = ((-0.366, -1.366), (1.366, -0.366), (0.366, 1.366), (-1.366, 0.366)); } );
-'''), ends=2)
+'''), code=2)
 # So is a channel of open lines that run the wrong way, between an inlet and an outlet: fluid at bare sides (it diverged)
 line = '(0, 0.2), (0.4, 0.2), (0.4, 0.6), (1.2, 0.6)', '(1.2, 0.3), (0.7, 0.3), (0.7, 0), (0, 0)'
 back = '(1.2, 0.6), (0.4, 0.6), (0.4, 0.2), (0, 0.2)', '(0, 0), (0.7, 0), (0.7, 0.3), (1.2, 0.3)'
@@ -121,8 +121,8 @@ bare = scene(0.05, 0.025, '''domain: { max = (1.2, 0.7); };
 walls: ( { side = "x_min"; kind = "inflow"; velocity = (0.5, 0); }, { side = "x_max"; kind = "outflow"; },
           { points = (%s); }, { points = (%s); } );
 ''')
-runs('bare', bare % line, ends=2)
-runs('right', bare % back)
+run_case('bare', bare % line, code=2)
+run_case('right', bare % back)
 for case, words, sides in ('cut', 'which is open, cuts the tank at', 3), ('bare', 'which is open, has fluid at', 2):
     if sum(words in line for line in open(case + '.txt')) != sides:
         bad('%s: not told at %d sides: %s' % (case, sides, words), case + '.txt')
@@ -134,8 +134,8 @@ walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; },
           { points = ((0.3, 0.6), (0.3, 0.2), (0.46, 0.2), (0.46, 0.6)); } );
 shapes: ( { form = "below"; level = 0.4; } );
 ''')
-runs('baffle', baffle)
-runs('channel', varied(baffle, '(0.3, 0.2), (0.46, 0.2), (0.46, 0.6)', '(0.3, 0.05), (0.6, 0.05), (0.62, 0.6)', '(0.3, 0.6)', '(0.1, 0.6)'))
+run_case('baffle', baffle)
+run_case('channel', varied(baffle, '(0.3, 0.2), (0.46, 0.2), (0.46, 0.6)', '(0.3, 0.05), (0.6, 0.05), (0.62, 0.6)', '(0.3, 0.6)', '(0.1, 0.6)'))
 ends_at('water around a baffle, kg', 'baffle', 'mass', 368, 4)
 
 # Water at rest, a box through its surface: what the law of shifting carried across the switch turned the water
@@ -144,7 +144,7 @@ rest = scene(2.5, 0.025, '''fluid: { gravity = (0, -9.81); }; domain: { max = (0
 walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "below"; level = 0.25; } );
 apr: { regions = ( { min = (0.25, 0); max = (0.6, 0.4); } ); };
 ''')
-runs('rest', rest)
+run_case('rest', rest)
 if says('^warning', 'rest.txt'):
     bad('water at rest warns', 'rest.txt')
 if not 0 < summary('rest')['max_mach'] < 1e-3:
@@ -156,8 +156,8 @@ def with_levels(how):
     return varied(rest[:rest.index('regions')], 'end = 2.5', 'end = 0.02') + how + '; };'
 
 
-runs('thin', with_levels('regions = ( { shape = "sphere"; centre = (-0.3, -0.3); radius = 0.5; } )'))
-runs('poor', with_levels('levels = 1; particles = 300; criteria = ( { kind = "surface"; distance = 0; } )'))
+run_case('thin', with_levels('regions = ( { shape = "sphere"; centre = (-0.3, -0.3); radius = 0.5; } )'))
+run_case('poor', with_levels('levels = 1; particles = 300; criteria = ( { kind = "surface"; distance = 0; } )'))
 for case, words in (('baffle', 'wall 4: its points had the fluid on their right: turned'),
                     ('channel', 'warning: lines among the walls leave out 6[0-9] % of the water'),
                     ('thin', '^warning: level 1: all fluid in its regions lies within R'),
@@ -179,10 +179,10 @@ def mean(case, until=math.inf):
 sheet = scene(2, 0.0125, '''fluid: { nu = 0.05; gravity = (0, -9.81); }; domain: { max = (0.2, 0.2); periodic = (true, false); };
 shapes: ( { box = ((0, 0), (0.2, 0.1)); velocity = (1, 0); } ); walls: ( { side = "y_min"; friction = 0.05; } );
 ''')
-runs('sheet', sheet)
+run_case('sheet', sheet)
 near('momentum of a sheet on a rough floor', summary('sheet')['momentum']['defect'], 0, 1e-10, 'sheet.txt')
-runs('incline', varied(sheet, 'gravity = (0, -9.81)', 'gravity = (0.5, -9.81)', 'end = 2', 'end = 3'))
-runs('sheet_3d', varied(sheet, ', -9.81)', ', 0, -9.81)', '(0.2, 0.2)', '(0.2, 0.2, 0.15)', '(true, false)', '(true, true, false)',
+run_case('incline', varied(sheet, 'gravity = (0, -9.81)', 'gravity = (0.5, -9.81)', 'end = 2', 'end = 3'))
+run_case('sheet_3d', varied(sheet, ', -9.81)', ', 0, -9.81)', '(0.2, 0.2)', '(0.2, 0.2, 0.15)', '(true, false)', '(true, true, false)',
                         '((0, 0), (0.2, 0.1))', '((0, 0, 0), (0.2, 0.2, 0.1))', '(1, 0)', '(1, 0, 0)', '"y_min"', '"z_min"',
                         'end = 2', 'end = 0.5', 'domain: {', 'domain: { dim = 3;', 'dx = 0.0125', 'dx = 0.02'))
 for case, u, most in ('sheet', 0.5, 0.025), ('incline', 1, 0.05), ('sheet_3d', 0.8, 0.025):
@@ -195,20 +195,20 @@ poiseuille = scene(3, 0.002, '''fluid: { nu = 1e-4; }; domain: { max = (0.08, 0.
 walls: ( { side = "x_min"; kind = "outflow"; pressure = 10; }, { side = "x_max"; kind = "outflow"; pressure = 0; },
           { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; } );
 ''')
-runs('poiseuille', poiseuille)
+run_case('poiseuille', poiseuille)
 through = mean('poiseuille')
 near('flow between outlets, m/s', through, 0.041667, 0.0009, 'poiseuille.txt')
 for case, changes in (('added', ('pressure = 10', 'pressure = 100010', 'pressure = 0', 'pressure = 100000')),
                       ('forced', ('pressure = 10', 'pressure = 0', 'nu = 1e-4;', 'nu = 1e-4; gravity = (0.125, 0);')),
                       ('uphill', ('pressure = 10', 'pressure = 794.8', 'nu = 1e-4;', 'nu = 1e-4; gravity = (-9.81, 0);'))):
-    runs(case, varied(poiseuille, 'end = 3', 'end = 1.5', *changes))
+    run_case(case, varied(poiseuille, 'end = 3', 'end = 1.5', *changes))
     wanted = mean('poiseuille', until=1.5)
     near('the same flow, %s, m/s' % case, mean(case), wanted, 0.01 * wanted, case + '.txt')
 blocks = varied(poiseuille, '0.08, 0.02', '0.1, 0.04', 'end = 3', 'end = 0.05', 'pressure = 10', 'pressure = 1000', 'pressure = 0',
                 'pressure = 1000') + '''bodies: ( { name = "sill"; points = ((0.045, 0), (0.055, 0), (0.055, 0.01), (0.045, 0.01)); },
           { name = "free"; points = ((0.04, 0.02), (0.05, 0.02), (0.05, 0.03), (0.04, 0.03)); } );\n'''
-runs('blocks', blocks)
-runs('hanging', varied(blocks, '1000; }, { side = "x_max"', '981; }, { side = "x_max"', 'pressure = 1000', 'pressure = 0',
+run_case('blocks', blocks)
+run_case('hanging', varied(blocks, '1000; }, { side = "x_max"', '981; }, { side = "x_max"', 'pressure = 1000', 'pressure = 0',
                        'nu = 1e-4;', 'nu = 1e-4; gravity = (-9.81, 0);'))
 ends_at('1000 Pa press a sill 1 cm long, N/m', 'blocks', 'sill force y', -10, 0.3)
 ends_at('1000 Pa press a block, N/m', 'blocks', 'free force y', 0, 0.3)
@@ -219,8 +219,8 @@ ends_at('buoyancy between outlets, N/m', 'hanging', 'free force x', 0.981, 0.03)
 shutil.copy(lib.root + '/cases/apr_column/wall.csv', '.')
 column_case = open(lib.root + '/cases/apr_column/case.cfg').read()
 short = '-p', 'time.end=0.1', '-p', 'output.snapshots=false'
-runs('fine', column_case, *short, '-p', 'sph.dx=0.4', '-p', 'apr.levels=0', '-p', 'apr.regions=()', ends=1)
-runs('refined', column_case, *short, '-p', 'sph.dx=0.8', '-p', 'apr.levels=1', '-p', 'apr.regions=({min=(-9.6,0);max=(0,12);})', ends=1)
+run_case('fine', column_case, *short, '-p', 'sph.dx=0.4', '-p', 'apr.levels=0', '-p', 'apr.regions=()', code=1)
+run_case('refined', column_case, *short, '-p', 'sph.dx=0.8', '-p', 'apr.levels=1', '-p', 'apr.regions=({min=(-9.6,0);max=(0,12);})', code=1)
 
 
 def impulse(case, gauge):

@@ -1,0 +1,203 @@
+"""Bodies as a case has them: forces where a body meets a wall, contact, free bodies over a restart and on two ranks.
+SPDX-License-Identifier: BSD-3-Clause"""
+import math
+
+import lib
+from lib import TANK, box_stl, changed, check, column, last, mean, number, run_case, sides, write
+
+lib.scratch()
+
+
+def points(left, low, right, high):
+    """A rectangle, its corners from the lower left one clockwise."""
+    return 'points = ((%g, %g), (%g, %g), (%g, %g), (%g, %g));' % (left, low, left, high, right, high, right, low)
+
+
+def within(name, value, wanted, relative):
+    check(abs(value / wanted - 1) < relative, '%s: %g instead of %g' % (name, value, wanted))
+
+
+# A block that stands on the floor, no water under it: submerged it bears what is above it, 882.9 N/m; piercing the
+# surface nothing, where shares by gamma alone gave it 207 N/m.
+block = changed(TANK, time='end = 0.6;', initial='field = "rest"; U = 2.21;', sph='dx = 0.025; c0 = 25.0;',
+                bodies='{ name = "b"; %s }' % points(0.3, 0, 0.6, 0.2))
+run_case('low', block)
+within('submerged block', number('low', 'force.y'), -882.9, 0.03)
+run_case('high', block.replace('0.2)', '0.9)'))
+check(abs(number('high', 'force.y')) < 30, 'block through the surface: %g N/m instead of 0' % number('high', 'force.y'))
+
+# Archimedes in gaps of 1.5 dx: a square of 0.2 m over the floor, lift 392.4 N/m; and beside a second one, no force to
+# the side beyond 2 % of p A on the near face (491 N/m). Three owners in one corner are an open case.
+run_case('gap', changed(TANK, bodies='{ name = "b"; %s }' % points(0.4, 0.0375, 0.6, 0.2375)))
+run_case('two', changed(TANK, bodies='{ name = "b"; %s }, { name = "c"; %s }'
+                        % (points(0.4, 0.15, 0.6, 0.35), points(0.6375, 0.15, 0.8375, 0.35))))
+within('square over the floor: lift', number('gap', 'force.y'), 392.4, 0.03)
+check(abs(number('two', 'force.x')) < 0.02 * 491, 'square beside another: %g N/m to the side' % number('two', 'force.x'))
+check(number('two', 'momentum.defect') < 1e-12, 'momentum of fluid, two bodies and walls: %g' % number('two', 'momentum.defect'))
+
+
+# A square wherever it stands along a period, at any fraction of dx and 0.1 dx from the periodic side: Archimedes and
+# no force to the side by both rules, nothing put back; and a cube in the corner of two periods, 78.5 N.
+def stands(name, upwards, lift, allowed_across):
+    within(name + ': lift', number(name, 'force.' + upwards), lift, 0.03)
+    for rule in 'x', 'average_x':
+        across = number(name, 'force.' + rule)
+        check(abs(across) < allowed_across, '%s: %s of %g N to the side' % (name, rule, across))
+    check(number(name, 'particles_returned') == 0, name + ': particles put back')
+    check(number(name, 'momentum.defect') < 1e-12, '%s: momentum off by %g' % (name, number(name, 'momentum.defect')))
+
+
+period = changed(TANK, time='end = 0.3;', domain='max = (1, 0.6); periodic = (true, false);', walls=sides('y_min'))
+for left in 0.0025, 0.0125, 0.79:
+    name = 'period_%g' % left
+    run_case(name, changed(period, bodies='{ name = "b"; %s }' % points(left, 0.15, left + 0.2, 0.35)))
+    stands(name, 'y', 392.4, 9.8)
+    # the force acts at the middle of the square, not at that of its image
+    arm = last(name, 'b moment') / last(name, 'b force y') - left - 0.1
+    check(abs(arm) < 0.005, '%s: the force acts %g m beside the middle of the square' % (name, arm))
+box_stl('corner.stl', (0.025, 0.025, 0.15), (0.225, 0.225, 0.35))
+run_case('corner', changed(TANK, time='end = 0.2;', fluid='gravity = (0, 0, -9.81);', walls=sides('z_min'), sph='dx = 0.05;',
+                           domain='dim = 3; max = (0.7, 0.7, 0.6); periodic = (true, true, false);',
+                           bodies='{ name = "b"; mesh = "corner.stl"; }'))
+stands('corner', 'z', 78.48, 1.6)
+
+
+def rebound(name, height, speed, rest, fall):
+    """What a fall of so many m onto a place at rest brings back, of e^2 of it."""
+    after = [(y, v) for y, v in zip(column(name, height), column(name, speed))]
+    first = next(k for k, (_, v) in enumerate(after) if v > 0)
+    up = (max(y for y, _ in after[first:]) - rest) / fall / 0.36
+    check(0.88 < up < 1.08, '%s: rebound of %g times the wanted height' % (name, up))
+
+
+# Dropped by 0.75 m on a dry floor (a spacing and a half above it): up again to e^2 of that.
+EACH_STEP = 'series = 1; snapshots = false;'
+drop = changed(TANK, time='end = 0.8;', domain='max = (3, 2);', initial='field = "rest"; U = 1.0;', output=EACH_STEP,
+               walls=sides('x_min x_max y_min') + ', { points = ((0.8, 0), (0.8, 0.4), (0.5, 0.4), (0.5, 0)); }',
+               shapes='{ form = "box"; box = ((0, 0), (0.5, 0.2)); }',
+               bodies='''{ name = "ball"; free = true; density = 2000.0; contact = { restitution = 0.6; };
+    points = ((1.5, 0.825), (1.3, 1.025), (1.5, 1.225), (1.7, 1.025)); }''')
+for c0 in 40, 47:
+    run_case('drop%d' % c0, changed(drop, sph='dx = 0.05; c0 = %d.0;' % c0))
+    rebound('drop%d' % c0, 'ball y ', 'ball v ', 0.275, 0.75)
+
+
+def restarted(name, case, until):
+    """A run in two parts, in NAME_parts, ends as in one."""
+    run_case(name, case)
+    run_case(name + '_parts', case, '-p', 'time.end=%g' % until)
+    run_case(name + '_parts', None, '--restart')
+    ends = [open(folder + '/series.csv').readlines()[-1] for folder in (name, name + '_parts')]
+    check(ends[0] == ends[1], '%s: the run after a restart is another one:\n%s%s' % (name, *ends))
+
+
+# A square afloat on two lines, beside a piston: in two parts, and on two ranks.
+afloat = changed(TANK, time='end = 0.3;', domain='min = (-0.3, 0); max = (1.5, 1);', initial='field = "rest"; U = 1.0;',
+                 walls=sides('x_max y_min'), shapes='{ form = "box"; box = ((0, 0), (1.5, 0.5)); }', sph='dx = 0.04;',
+                 output=EACH_STEP + ' checkpoint = 0.15;',
+                 bodies='''{ name = "box"; free = true; density = 600.0; velocity = (0.3, 0.0); spin = 1.0;
+    points = ((0.6, 0.4), (0.65, 0.65), (0.9, 0.6), (0.85, 0.35));
+    lines = ( { from = (0.6, 0.4); to = (0.3, 0.0); stiffness = 500.0; pull_only = true; },
+              { from = (0.85, 0.35); to = (1.2, 0.0); stiffness = 500.0; damping = 5.0; } ); },
+    { name = "piston"; points = ((-0.2, 0), (-0.2, 0.9), (0, 0.9), (0, 0));
+      motion = ( { kind = "harmonic"; axis = "x"; amplitude = -0.02; period = 0.5; ramp = 0.2; } ); }''')
+restarted('float', afloat, 0.15)
+run_case('shown', afloat, '-p', 'time.end=0.02', '-p', 'output.snapshots=true')
+check(open('shown/sph_walls.xdmf').read().count('outline_1') == 2, 'snapshots show no bodies')
+run_case('ranks', afloat, ranks=2)
+for key in 'x', 'y', 'angle':
+    one, two = (number(name, 'body.box.' + key) for name in ('float', 'ranks'))
+    check(abs(one - two) < 1e-6, '%s of the box: %g on one rank, %g on two' % (key, one, two))
+check(number('float', 'momentum.defect') < 1e-10, 'momentum off by %g' % number('float', 'momentum.defect'))
+
+# 2 % of the water's density, under water: the step is the body's, and the run is sound.
+light = afloat
+for old, new in ('density = 600.0; velocity = (0.3, 0.0); spin = 1.0;', 'density = 20.0;'), ('damping = 5.0', 'damping = 1.0'), \
+        ('from = (0.6, 0.4)', 'from = (0.6, 0.15)'), ('from = (0.85, 0.35)', 'from = (0.9, 0.15)'), \
+        ('stiffness = 500.0', 'stiffness = 50.0'), \
+        ('points = ((0.6, 0.4), (0.65, 0.65), (0.9, 0.6), (0.85, 0.35));', points(0.6, 0.15, 0.9, 0.35)):
+    light = light.replace(old, new)
+run_case('light', changed(light, time='end = 0.15;', output=EACH_STEP))
+gain, step = number('light', 'watch.energy_gain'), max(column('light', 'dt')) * number('light', 'body.box.stopping_rate')
+check(gain < 0.01 and 1.5 < step <= 2.0001, 'light body: gain %g, dt %g of its stopping time' % (gain, step))
+
+# A body held, then let go, that particles hit, in a scheme that shares mass out over those near walls: the first list after
+# a restart reaches as far as it would have, and the watch goes on counting who was put back.
+restarted('held', changed(TANK, time='end = 0.2;', domain='min = (-1, -0.5); max = (1, 0.5);', shapes='{ form = "below"; level = 0; }',
+                          sph='dx = 0.025; scheme = "riemann_ale";', output=EACH_STEP + ' checkpoint = 0.12;',
+                          bodies='''{ name = "box"; free = true; density = 1500; release = 0.02;
+    points = ((-0.3, -0.25), (-0.4, 0.1), (0.2, 0.25), (0.3, -0.1)); }'''), 0.12)
+check(number('held', 'particles_returned') == number('held_parts', 'particles_returned'), 'particles put back are forgotten over a restart')
+
+# An octahedron of triangles: dropped on a dry floor, and afloat over a restart.
+write('octa.obj', ''.join('v %g %g %g\n' % tuple(0.2 * sign * (axis == k) for k in range(3)) for axis in range(3) for sign in (1, -1)) +
+      ''.join('f %s\n' % face for face in ('1 3 5', '3 2 5', '2 4 5', '4 1 5', '3 1 6', '2 3 6', '4 2 6', '1 4 6')))
+octa = changed(TANK, time='end = 0.06;', fluid='gravity = (0, 0, -9.81);',
+               domain='dim = 3; min = (-0.4, -0.4, -0.4); max = (0.4, 0.4, 0.4);', initial='field = "rest"; U = 1.0;',
+               walls=sides('x_min x_max y_min y_max z_min'), shapes='{ form = "below"; level = 0.0; }',
+               bodies='{ name = "octa"; free = true; density = 600.0; mesh = "octa.obj"; rotate = (20, 0, 0); spin = (0, 2, 0); }',
+               sph='dx = 0.05; R_dx = 2.5; walls = "nfm";', output=EACH_STEP + ' checkpoint = 0.03;')
+restarted('octa', octa, 0.03)
+check(number('octa', 'momentum.defect') < 1e-10, 'momentum in 3D off by %g' % number('octa', 'momentum.defect'))
+mass = number('octa', 'body.octa.mass')
+check(abs(mass - 600 * 4 / 3 * 0.008) < 1e-5, 'mass of the octahedron: %g kg' % mass)
+run_case('fall', changed(octa, time='end = 0.5;', shapes='{ form = "box"; box = ((-0.4, -0.4, -0.4), (-0.25, 0.4, -0.2)); }',
+                         output=EACH_STEP, sph='dx = 0.05; R_dx = 2.5; c0 = 30.0; walls = "nfm";',
+                         bodies='''{ name = "octa"; free = true; density = 2000.0; translate = (0.1, 0, 0.15);
+    contact = { restitution = 0.6; }; mesh = "octa.obj"; }'''))
+rebound('fall', 'octa z ', 'octa w ', -0.125, 0.275)
+
+# A gate that stands on a point, hinged there on the floor, between two levels: a spring bears
+# rho g (h1^3 - h2^3)/6 = 99.7 N and what acts on the slopes of its foot, rho g (h1 - h2) 0.15^2/18 = 1.2 N
+GATE = '''{ name = "gate"; %s free = true; density = 500;
+    hinge = { at = (0.6, 0); stiffness = 5e4; damping = 2000; }; }'''
+gate = changed(TANK, domain='max = (1.2, 0.8);',
+               shapes='{ form = "box"; box = ((0, 0), (0.6, 0.5)); }, { form = "box"; box = ((0.6, 0), (1.2, 0.4)); }',
+               bodies=GATE % 'points = ((0.6, 0), (0.55, 0.15), (0.55, 0.7), (0.65, 0.7), (0.65, 0.15));')
+run_case('gate', gate)
+spring = -5e4 * mean('gate', 'gate angle', 0.2)
+check(95 < spring < 107, 'the spring of a gate bears %g instead of 101 N' % spring)
+run_case('foot', changed(gate, bodies=GATE % points(0.55, 0, 0.65, 0.7)), '--check', code=2,
+         words='starts in contact with wall 3.*let it stand on a point there')
+
+# What stands on the floor, on the lid of a tank where gravity points up, or lies beside a wall from the start bears its weight
+# less its buoyancy (3 %), where no particle fits below it; a light one comes up (water has to seep
+# below it first) and floats by its density within dx
+BLOCK = '{ name = "block"; free = true; density = %g; %s }'
+under = changed(TANK, time='end = 1;', bodies=BLOCK % (2000, points(0.4, 0, 0.6, 0.2)))
+shallow = changed(under, shapes='{ form = "below"; level = 0.1; }')
+hangs = changed(under, fluid='gravity = (0, 1.62);', domain='min = (0, -0.8); max = (1, 0);', walls=sides('x_min x_max y_max'),
+                bodies=BLOCK % (2000, points(0.4, -0.2, 0.6, 0)))
+for name, wanted, case in ('under', 392.4, under), ('shallow', 588.6, shallow), ('hangs', 64.8, hangs):
+    run_case(name, case)
+    within('what bears a block, ' + name, mean(name, 'block contact', 0.7), wanted, 0.03)
+run_case('rises', changed(TANK, time='end = 2.6;', domain='min = (0.1, 0); max = (0.9, 0.6);',
+                          shapes='{ form = "below"; level = 0.3; }', sph='dx = 0.02;',
+                          bodies=BLOCK % (500, points(0.35, 0, 0.65, 0.1))))
+draught = 0.3 - mean('rises', 'block y ', 1.7)
+check(abs(draught - 0.01875) < 0.02, 'the middle of a light block lies %g m under the first level instead of 0.01875' % draught)
+
+# A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
+# round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
+FREE = 'free = true; density = 1000; contact = { restitution = %g; friction = 0.2; gap = %g; };'
+ON_SLOPE = 'points = ((1.4355127, 1.25433013), (1.5355127, 1.42753521), (1.88192286, 1.22753521), (1.78192286, 1.05433013));'
+
+
+def sliding(line='(1, 1.5), (4.46410162, -0.5)', body=FREE % (0.01, 0.5) + ON_SLOPE):
+    return changed(TANK, time='end = 0.6;', domain='min = (0, -1); max = (5, 2.5);', shapes='{ form = "box"; box = ((0, -1), (5, -0.8)); }',
+                   walls=sides('x_min x_max y_min') + ', { points = (%s); }' % line, bodies='{ name = "block"; %s }' % body,
+                   sph='dx = 0.05;', output=EACH_STEP)
+
+
+run_case('slope', sliding())
+t, u = column('slope', 't ['), column('slope', 'block u ')
+first, then = (next(k for k, s in enumerate(t) if s > after) for after in (0.2, 0.5))
+within('a block slides (m/s^2)', (u[then] - u[first]) / math.cos(math.radians(30)) / (t[then] - t[first]), 3.2059, 0.01)
+behind = r'bodies.\[0\]: body 1 \(block\) stands behind wall 4, an open line'
+low = points(0.4, -0.9, 0.6, -0.7)  # its corners are nearer to the floor than to the line
+run_case('back', sliding('(4.46410162, -0.5), (1, 1.5)'), '--check', code=2, words=behind)
+run_case('shut', sliding('(0, 2.2), (4.4, -1)', FREE % (0.01, 0.5) + low), '--check', code=2, words=behind)
+run_case('still', sliding('(0, 2.2), (4.4, -1)', low), '--check', code=2, words=behind)
+run_case('through', sliding(body=FREE % (0.5, 0.1) + points(1.5, 1.6, 1.7, 1.8)), '--check', code=2,
+         words=r'bodies.\[0\].contact: contact.gap of 0.1 sph.dx is 0.005 m, and a body that falls')
+lib.end('%d faults' % lib.failed)
