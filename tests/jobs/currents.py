@@ -4,7 +4,7 @@ import cmath
 import math
 import re
 
-import lib
+from lib import bad, column, name as job, near, says, series, start, write
 
 DEPTH = 0.16  # m; kh 1 with waves of 1 m
 HARMONIC = 0.0147448  # m, the first of that wave of 0.03 m (Fourier sum of common/waves/steady.h)
@@ -21,7 +21,7 @@ class Waves:
     (kg)."""
 
     def __init__(self, path, T, periods):
-        self.columns, t = lib.series(path), lib.column(path, 't ')
+        self.columns, t = series(path), column(path, 't ')
         self.steps = [k for k in range(1, len(t)) if t[k - 1] >= t[-1] - periods * T]
         self.t, turns = t, [cmath.exp(2j * math.pi * now / T) for now in t]
         titles = [title for title in self.columns if re.match(r'g\d ', title)]
@@ -46,16 +46,16 @@ class Waves:
     def judge(self, case, **wanted):
         """What is wanted of a figure, and how far from it is right."""
         found = ['%s %.6g (%.6g)' % (what, getattr(self, what), value) for what, (value, _) in wanted.items()]
-        print('%s: %s: %s' % (lib.name, case, ', '.join(found)))
+        print('%s: %s: %s' % (job, case, ', '.join(found)))
         for what, (value, most) in wanted.items():
-            lib.near('%s: %s' % (case, what), getattr(self, what), value, most, case + '.txt')
+            near('%s: %s' % (case, what), getattr(self, what), value, most, case + '.txt')
 
 
 def below_troughs(program, case, text, *words):
     """The mean velocity that --check tells, m/s, along with these words."""
-    lib.write(case + '.cfg', text)
+    write(case + '.cfg', text)
     told = case + '.told'
-    if lib.start(program, case + '.cfg', '--check', log=told) != 0 or not all(lib.says(each, told) for each in words):
-        lib.bad('--check: not told %s' % (words,), told)
+    if start(program, case + '.cfg', '--check', log=told) != 0 or not all(says(each, told) for each in words):
+        bad('--check: not told %s' % (words,), told)
     found = re.search('mean velocity below the troughs ([-0-9.]+) m', open(told).read())
     return float(found[1]) if found else math.nan
