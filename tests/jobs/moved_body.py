@@ -1,0 +1,83 @@
+"""A program of its own moves a body of sph (motion of kind partner): coupler/examples/spring.c, a cylinder on a spring in a round tank
+of water. Its period is that of its mass and of the water's that theory adds, heavy or lighter than that water; beside fv it goes as
+the free body on the same spring that sph has itself. What cannot be is refused, and a program that never starts MPI ends the job.
+SPDX-License-Identifier: BSD-3-Clause"""
+import re
+import subprocess
+import time
+
+import lib
+from lib import bad, below, build, close, column, job, last, refused_by, root, run, start, told
+
+lib.scratch()
+launcher, tank = root + '/cases/run', root + '/coupler/examples/spring.cfg'
+
+
+def command(folder, case, of, keys, ranks='1'):
+    """A job with the spring, `of' the body's name, mass, stiffness, stretch and a mass that it adds to its own in the iteration."""
+    words = [word for key in keys.split() for word in ('-p', key)]
+    return [launcher, case, '-n', ranks, '-o', folder, '--force', *words, '--with', '%s/examples/spring %s %s' % (build, folder, of)]
+
+
+def spring(folder, case, of, keys='', ranks='1', ends=(0,)):
+    code = run(*command(folder, case, of, keys, ranks), log=folder + '.txt')
+    if code not in ends:
+        bad('%s: exit code %d' % (folder, code), folder + '.txt')
+
+
+def period(log, middle):
+    """Twice the mean time between crossings of the middle, of lines "t, x, v, force"."""
+    rows = [tuple(map(float, m.groups())) for m in re.finditer(r'^([\d.e-]+), ([\d.e-]+), [^,]+, [^,]+$', open(log).read(), re.M)]
+    crossed = [s + (t - s) * (x - middle) / (x - y) for (s, x), (t, y) in zip(rows, rows[1:]) if (x - middle) * (y - middle) < 0]
+    return 2 * (crossed[-1] - crossed[0]) / (len(crossed) - 1) if len(crossed) > 1 else float('nan')
+
+
+# whoever reads what a job of a moment says does not wait for what watches it
+began = time.time()
+subprocess.run(command('brief', tank, 'cylinder 200 14745 0.02 173', 'time.end=0.02'), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+               timeout=300)
+below('a job of a moment with another program: s', time.time() - began, 30)
+# pi a^2 rho (b^2 + a^2)/(b^2 - a^2) = 173.5 kg/m: with 200 kg and 14 745 N/m a period of 1 s, with 50 kg 8823 N/m. Sound
+# crosses the tank in a tenth of it, so that a second order of that, 1 %, is left, and one for 8 particles in a radius
+for of in '200 14745', '50 8823':
+    folder = 'swing' + of.split()[0]
+    spring(folder, tank, 'cylinder %s 0.02 173' % of, 'time.end=0.9 output.every=0.3')
+    close(folder + ': period, with the added mass of theory', period(folder + '.txt', 0.02), 1, 0.02)
+    print('%s: period %.5g s' % (folder, period(folder + '.txt', 0.02)))
+# on two ranks of sph the same
+spring('ranks', tank, 'cylinder 200 14745 0.02 173', 'time.end=0.3', '2')
+t, x = (column('swing200/sph-series.csv', title) for title in ('t', 'cylinder x'))
+close('two ranks: motion', last('ranks/sph-series.csv', 'cylinder x'), next(x for t, x in zip(t, x) if t > 0.3 - 1e-9), 1e-6)
+# beside fv; the free body of sph has the same mass, and a line that pulls to the same place with the same stiffness
+beside = '''format = 1;
+time:    { end = 0.5; };
+fluid:   { rho = 1000.0; nu = 0.001; };
+domain:  { dim = 2; min = (-1, -1); max = (1, 1); };
+initial: { field = "rest"; U = 0.2; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+bodies:  ( { name = "box"; points = ((-0.1, -0.1), (-0.1, 0.1), (0.1, 0.1), (0.1, -0.1)); motion = ( { kind = "partner"; } ); } );
+sph:     { dx = 0.025; c0 = 10.0; box = ((-0.7, -0.7), (0.7, 0.7)); };
+fv:      { cells = (32, 32); };
+output:  { every = 0.25; series = 5; snapshots = false; };
+'''
+case, of = lib.scene(beside, 'moved'), 'box 80 6000 0.02 60'
+spring('beside', case, of, 'coupling.memory=9', '1:1:1', (0, 1))
+job('free', re.sub('motion = .*', '''free = true; mass = 80; inertia = 1; lock = "y rz";
+             lines = ( { from = (0, 0); to = (0.92, 0); stiffness = 6000; length = 0.9; } ); } );''', beside), ends=(0, 1))
+close('moved by a partner, or free: place', *(last(folder + '/sph-series.csv', 'box x') for folder in ('beside', 'free')), 0.02)
+# coupling steps that another program shortens want more smoothing: told, with what it takes
+spring('short', case, of, 'time.end=0.05', '1:1:1', (0, 1))
+told('short', 'another program wishes coupling steps of .*coupling.memory = ')
+
+# refused
+if start('sph', tank, '-o', 'alone', '--force', log='alone.txt') == 0:
+    bad('a body that a partner moves runs without one')
+told('alone', r'bodies.\[0\].motion: a partner is to move body .cylinder., but no other program')
+refused_by('sph', beside, 'motion = ', 'free = true; mass = 80; inertia = 1; motion = ', 'a partner moves all of a body, forces move this')
+spring('other', tank, 'cylnder 200 14745 0.02 173', ends=(2,))
+told('other', 'field cylinder.motion: sph takes it, but nobody gives it')
+code = run(launcher, tank, '-n', '1', '-o', 'never', '--deadline', '3', '--with', 'true', log='never.txt', most=60)
+if not 0 < code < 124:
+    bad('a program without MPI: exit code %d' % code, 'never.txt')
+told('never', 'has not called MPI_Init within 3 s')
+lib.end('%d faults' % lib.failed)
