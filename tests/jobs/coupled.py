@@ -8,14 +8,14 @@ import subprocess
 import time
 
 import lib
-from lib import bad, below, close, column, job, last, near, figure, restarted, root, same_bits, says, told, varied
+from lib import bad, below, close, column, job, last, near, number, restarted, root, same_bits, says, told, varied
 
 lib.scratch()
 vortices = open(root + '/cases/taylor_green/case.cfg').read()
 
 
 def error(folder, program=None):
-    return figure(folder, 'velocity_l2', program)
+    return number(folder, 'velocity_l2', program)
 
 
 def error_below(folder, most, program=None):
@@ -27,14 +27,14 @@ def same_error(folder, other, share):
 
 
 def overlap_below(folder, most, what='velocity'):
-    below('%s: %s of the programs apart' % (folder, what), figure(folder, 'overlap_' + what), most)
+    below('%s: %s of the programs apart' % (folder, what), number(folder, 'overlap_' + what), most)
 
 
 small = 'sph.dx=0.0125 fv.cells=(24,24) time.end=0.24 output.every=0.12 '
 job('one', 'taylor_green', small)
 error_below('one', 0.03)
 # a job of seconds, starts included, which differ from machine to machine; README has the share of real ones
-below("the coupler's share of the processor time", figure('one', 'coupler_share'), 0.5)
+below("the coupler's share of the processor time", number('one', 'coupler_share'), 0.5)
 coarse = 'sph.dx=0.02 fv.cells=(16,16) time.end=0.12 output.every=0.12 '
 job('coarse', 'taylor_green', coarse)
 job('coupler3', 'taylor_green', coarse, ranks='1:3:1')
@@ -46,7 +46,7 @@ same_error('sph3', 'coarse', 1e-6)
 job('mm', 'taylor_green', coarse + 'fluid.rho=1000 domain.max=(1000,1000) initial.U=1000 initial.L=1000 fluid.nu=5000 sph.dx=20 '
     'sph.free=((300,300),(700,700)) coupling.overlap=100')
 for what in 'velocity_l2', 'velocity_linf', 'pressure_rms', 'pressure_l2':
-    close('water, mm: ' + what, figure('mm', what), figure('coarse', what), 1e-6)
+    close('water, mm: ' + what, number('mm', what), number('coarse', what), 1e-6)
 
 # a carried flow, windows and memory as the flow wants them: at least as good as the flow at rest
 for folder, velocity in ('still', '(0.0,0.0)'), ('carried', '(0.8,0.6)'):
@@ -145,8 +145,8 @@ sph:     { dx = 0.04; c0 = 10.0; transport = "none"; box = ((1.2, 0), (2.8, 1.4)
 fv:      { cells = (80, 28); };
 output:  { snapshots = false; };
 ''')
-below('moving box under a surface: water missing', figure('sails', 'water_missing', 'fv'), 1e-4)
-below('moving box under a surface: gap of the levels in dx', figure('sails', 'level_gap', 'sph'), 0.05)
+below('moving box under a surface: water missing', number('sails', 'water_missing', 'fv'), 1e-4)
+below('moving box under a surface: gap of the levels in dx', number('sails', 'level_gap', 'sph'), 0.05)
 
 # fv on two blocks that overlap within the box that sph gives: error, ranks, restart
 two_blocks = root + '/cases/taylor_green/blocks.cfg'
@@ -185,7 +185,7 @@ if 'growth' in open('below/fv-series.csv').readline():
 wave = 'fv.cells=(16,20) '
 job('wave', 'standing_wave', wave + 'time.end=3', ends=(0, 1))
 error_below('wave', 0.04)
-below('standing wave: mass off by', figure('wave', 'mass_fluctuation'), 0.001)
+below('standing wave: mass off by', number('wave', 'mass_fluctuation'), 0.001)
 wave += 'time.end=0.5 output.every=0.25 output.checkpoint=0.26 '
 job('wave1', 'standing_wave', wave, ends=(0, 1))
 job('wave2', 'standing_wave', wave, ranks='2:2:2', ends=(0, 1))
@@ -212,7 +212,7 @@ for folder in 'poiseuille', 'couette':
 for every in 0.0317, 0.0071:
     job('outputs', 'taylor_green', 'sph.dx=0.025 fv.cells=(16,16) coupling.steps=0 coupling.overlap=0.08 time.end=0.1 '
         'output.snapshots=false output.every=%g' % every, '--force')
-    below('outputs every %g s: coupling steps, 4 without outputs' % every, figure('outputs', 'windows'), 4 + int(0.1 / every) + 1)
+    below('outputs every %g s: coupling steps, 4 without outputs' % every, number('outputs', 'windows'), 4 + int(0.1 / every) + 1)
 
 # a band that a shape sets in motion crosses SPH's box: both programs have it. The energy is that of the heat equation, 0.4051 J
 shear = '''format = 1;
@@ -253,7 +253,7 @@ if 'overlap_pressure' not in open('rest/sph-summary.json').read():
 # a wide flat basin of much added mass below a dam: stable as chosen, stopped in time where the memory is too short
 flat = basin % (2, '{ box = ((0, 0), (0.6, 0.7)); }, { box = ((0.6, 0), (2, 0.6)); }', 0.02, 0.1, 2, '64, 40')
 job('flat', flat, 'time.end=0.3')
-below('flat basin: pressures of the programs apart, in rho g H', figure('flat', 'overlap_pressure', 'sph'), 0.1)
+below('flat basin: pressures of the programs apart, in rho g H', number('flat', 'overlap_pressure', 'sph'), 0.1)
 job('torn', flat, 'time.end=0.5 coupling.steps=6 coupling.memory=8', ends=(3,))
 told('torn', 'pressures of sph and fv where both are free')
 told('torn', 'likely .*set coupling.steps and coupling.memory to 0')
@@ -289,7 +289,7 @@ told('sinks', 'diverged .*free surface lies in the transition')
 cube = 'sph.dx=0.041666666666666667 fv.cells=(16,16,16) output.every=0.02 output.snapshots=false output.series=1 '
 job('cube', 'beltrami', cube + 'time.end=0.1')
 error_below('cube', 0.002)
-below('beltrami: mass off by', figure('cube', 'mass_fluctuation'), 0.005)
+below('beltrami: mass off by', number('cube', 'mass_fluctuation'), 0.005)
 job('cube2', 'beltrami', cube + 'time.end=0.02', ranks='2:2:2')
 for series in '/sph-series.csv', '/fv-series.csv':
     then = next(k for k, t in enumerate(column('cube' + series, 't')) if t > 0.02 - 1e-9)
@@ -299,7 +299,7 @@ for series in '/sph-series.csv', '/fv-series.csv':
 # a free surface in three dimensions, slip sides
 job('crossed', 'standing_wave_3d', 'fv.cells=(16,10,16) output.every=0 time.end=0.6', ends=(0, 1))
 error_below('crossed', 0.08)
-below('standing wave in 3D: mass off by', figure('crossed', 'mass_fluctuation'), 0.001)
+below('standing wave in 3D: mass off by', number('crossed', 'mass_fluctuation'), 0.001)
 
 
 def under_way(folder):

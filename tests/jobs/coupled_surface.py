@@ -3,7 +3,7 @@ any number of ranks, restart, what is refused. SPDX-License-Identifier: BSD-3-Cl
 import glob
 
 import lib
-from lib import bad, below, close, column, last, near, figure, restarted, root, says, start, told, varied
+from lib import bad, below, close, column, last, near, number, restarted, root, says, start, told, varied
 
 lib.scratch()
 
@@ -14,13 +14,13 @@ def job(folder, case, keys='', ends=(0, 1), **how):
 
 
 def at_rest(folder):
-    below(folder + ': Mach in water at rest', figure(folder, 'max_mach'), 2e-3)
+    below(folder + ': Mach in water at rest', number(folder, 'max_mach'), 2e-3)
     keeps_water(folder)
-    below(folder + ': gap of the levels in dx', figure(folder, 'level_gap'), 0.1)
+    below(folder + ': gap of the levels in dx', number(folder, 'level_gap'), 0.1)
 
 
 def keeps_water(folder, most=1e-3):
-    below(folder + ': share of the water that is missing', figure(folder, 'water_missing'), most)
+    below(folder + ': share of the water that is missing', number(folder, 'water_missing'), most)
 
 
 def gauge(folder, program, name, wanted):
@@ -53,7 +53,7 @@ job('thick', water, 'time.end=1 output.snapshots=false domain.dim=3 domain.max=(
 for folder in 'right', 'strip', 'off', 'thick':
     at_rest(folder)
     # the partner's pressures are its particles': no odd-even waves of fv's (0.215, a warning, where they were counted)
-    below(folder + ': odd-even waves of pressure in water at rest', figure(folder, 'odd_even_pressure'), 0.1)
+    below(folder + ': odd-even waves of pressure in water at rest', number(folder, 'odd_even_pressure'), 0.1)
 
 # a tank as narrow as two supports: an imposed cell has images beyond both of its sides; 3D, gravity along -y
 job('narrow', '''format = 1;
@@ -68,7 +68,7 @@ fv:      { cells = (20, 16, 4); };
 output:  { snapshots = false; };
 ''', ends=(0,))
 keeps_water('narrow')
-below('narrow: gap of the levels in dx', figure('narrow', 'level_gap'), 0.1)
+below('narrow: gap of the levels in dx', number('narrow', 'level_gap'), 0.1)
 
 # a gauge is read by the program in whose part it lies, and by that alone; levels within dx/10 (particles that began on
 # the rows of their lattice had theirs at 1.0)
@@ -115,7 +115,7 @@ probes:  ( { name = "a"; kind = "level"; at = (2, 0); }, { name = "b"; kind = "l
 wide = 'fv.cells=(80,14) domain.max=(8,1.4) output.snapshots=false '
 boxes = 'sph', 'sph_right'
 job('two', two, wide + 'time.end=1.5', boxes=boxes)
-below('two: Mach in water at rest', figure('two', 'max_mach'), 2e-3)
+below('two: Mach in water at rest', number('two', 'max_mach'), 2e-3)
 keeps_water('two')
 for program, name in ('sph', 'a'), ('fv', 'b'), ('sph_right', 'c'):
     gauge('two', program, name, 1.0)
@@ -137,15 +137,15 @@ wave = ('time.end=0.5 output.every=0.25 output.checkpoint=0.26 sph.dx=0.05 fv.ce
         'coupling.transition=0.25 coupling.buffer=0.25 coupling.overlap=0.25 ')
 job('wave', 'standing_wave_crossing', wave)
 job('wave2', 'standing_wave_crossing', wave, ranks='2:2:2')
-below('wave: velocity error', figure('wave', 'velocity_l2'), 0.06)
+below('wave: velocity error', number('wave', 'velocity_l2'), 0.06)
 keeps_water('wave')
-close('wave on 2:2:2: velocity error, on one rank each', figure('wave2', 'velocity_l2'), figure('wave', 'velocity_l2'), 1e-6)
+close('wave on 2:2:2: velocity error, on one rank each', number('wave2', 'velocity_l2'), number('wave', 'velocity_l2'), 1e-6)
 restarted('wave', 'standing_wave_crossing', wave, ends=(0, 1))
 # what is left is divided anew where the end and the outputs are others now: outputs come at their times
 job('other', 'standing_wave_crossing', wave + 'time.end=0.25 output.checkpoint=0.25')
 lib.job('other', 'standing_wave_crossing', wave + 'time.end=0.45 output.every=0.1', '--restart', ends=(0, 1))
 near('another end', last('other/series.csv', 't'), 0.45, 1e-9 * 0.45)
-below('another end: velocity error', figure('other', 'velocity_l2'), 0.06)
+below('another end: velocity error', number('other', 'velocity_l2'), 0.06)
 for program in 'sph', 'fv':
     snapshots = glob.glob('other/%s_0*.h5' % program)  # 0, 0.25, 0.3, 0.4, 0.45
     if len(snapshots) != 5:
@@ -163,8 +163,8 @@ sph:     { dx = 0.025; free = ((0, 0), (2, 0.3)); };
 fv:      { cells = (40, 20); };
 output:  { snapshots = false; };
 ''')
-below('cup: velocity error of U', figure('cup', 'velocity_linf'), 0.1)
-below('cup: velocities of the programs apart', figure('cup', 'overlap_velocity'), 0.05)
+below('cup: velocity error of U', number('cup', 'velocity_linf'), 0.1)
+below('cup: velocities of the programs apart', number('cup', 'overlap_velocity'), 0.05)
 
 # oil on a slope in a period: gravity's part along it drives, and the level does not lean
 job('film', '''format = 1;
@@ -178,7 +178,7 @@ sph:     { dx = 0.02; free = ((0.3, 0), (0.7, 0.3)); };
 fv:      { cells = (32, 12); };
 output:  { snapshots = false; };
 ''')
-below('film: gap of the levels in dx', figure('film', 'level_gap'), 0.02)
+below('film: gap of the levels in dx', number('film', 'level_gap'), 0.02)
 keeps_water('film', 1e-4)
 
 

@@ -4,7 +4,7 @@ The case that a run writes down is that case. SPDX-License-Identifier: BSD-3-Cla
 import re
 
 import lib
-from lib import bad, below, close, column, figure, last, near, refused_by, says, start, told, varied
+from lib import bad, below, close, column, number, last, near, refused_by, says, start, told, varied
 
 lib.scratch()
 dam = '{ form = "box"; box = ((0, 0), (0.5, 0.4)); }'
@@ -44,13 +44,13 @@ for program, folder, case in ('fv', 'dry_fv', dry), ('sph', 'dry_sph', dry_sph),
     go(program, folder, case)
     told(folder, 'x_max: nothing stands there at the start')
     # m^2 past the gauge; 5 %: half a row of particles in a tongue of ten
-    close(folder + ': what passed, without the end', figure(folder, 'forward'), figure('long', 'forward'), 0.05)
+    close(folder + ': what passed, without the end', number(folder, 'forward'), number('long', 'forward'), 0.05)
 close('left in the domain, in fv and in sph', last('dry_fv/series.csv', 'volume ['), last('dry_sph/series.csv', 'mass') / 1000, 0.05)
-near('sph: water that fell out and is not told', figure('dry_sph', 'budget'), 0, 1e-9)
-below('sph: particles that fell out and count as lost', figure('dry_sph', 'particles_lost'), 0)
+near('sph: water that fell out and is not told', number('dry_sph', 'budget'), 0, 1e-9)
+below('sph: particles that fell out and count as lost', number('dry_sph', 'particles_lost'), 0)
 # with levels, whose guards leave beside what they stand for
 go('sph', 'levels', dry_sph, 'sph.dx=0.04 apr.regions=({min=(0.6,-1);max=(2,0.3);})', warned=True)
-near('levels: water that fell out and is not told', figure('levels', 'budget'), 0, 0.02)
+near('levels: water that fell out and is not told', number('levels', 'budget'), 0, 0.02)
 # restart bit for bit, with what has fallen
 go('sph', 'parts', dry_sph, 'time.end=0.5 output.checkpoint=0.5')
 go('sph', 'parts', dry_sph, 'output.checkpoint=0.5', '--restart')

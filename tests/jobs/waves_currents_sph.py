@@ -5,7 +5,7 @@ import sys
 
 import lib
 from currents import DEPTH, HARMONIC, Waves, below_troughs, gauges
-from lib import bad, last, near, refused, run, runs, start, summary, varied, write
+from lib import bad, last, near, refused, run, run_case, start, summary, varied, write
 
 lib.scratch()
 
@@ -30,17 +30,17 @@ for case, U, end, T, periods in [('with', 0.3, 3.95, 0.7159, 2)] + [('against', 
     text = scene(U, end, '3.4, 0.25', 1, 1.7, gauges(1.1, 0.16) + section, 'sph: { dx = 0.0125; };')
     low = below_troughs('sph', case, text, 'on a current of %g m/s: period' % U,
                         'behind the zones before open sides: the waves on their current')
-    runs(case, text)
+    run_case(case, text)
     Waves(case + '/series.csv', T, periods).judge(case, harmonic=(HARMONIC, 0.05 * HARMONIC), length=(1, 0.01), low=(low, abs(0.05 * low)),
                                                   through=(U * DEPTH, abs(0.01 * U * DEPTH)), level=(DEPTH, 0.0015), water=(544, 5.44))
     near(case + ': particles lost', summary(case)['particles_lost'], 0, 0)
 # whole rows start 6 % below the level that the zones know: the water rises to it, 160 kg for each metre, and its own weight's 1.1 kg
-runs('rises', varied(scene(0.3, 6, '2.2, 0.25', 0.7, 1.1, '', 'sph: { dx = 0.025; };'), 'height = 0.03', 'height = 0.01'))
+run_case('rises', varied(scene(0.3, 6, '2.2, 0.25', 0.7, 1.1, '', 'sph: { dx = 0.025; };'), 'height = 0.03', 'height = 0.01'))
 near('kg that the water has risen to from 330', last('rises/series.csv', 'mass'), 353.1, 3.531, 'rises.txt')
 # a restart, two ranks; coarse
 coarse = scene(0.3, 0.4, '3, 0.25', 1, 1.7, '', 'sph: { dx = 0.025; };')
-runs('whole', coarse)
-runs('part', coarse, '-p', 'time.end=0.2')
+run_case('whole', coarse)
+run_case('part', coarse, '-p', 'time.end=0.2')
 if start('sph', 'part.cfg', '-o', 'part', '--restart', log='part.txt') != 0:
     bad('restart on a current', 'part.txt')
 if open('whole/series.csv').readlines()[-1] != open('part/series.csv').readlines()[-1]:
