@@ -87,7 +87,7 @@ bool grid_is_given(const struct grid *g, int64_t c);
 static inline double grid_height(const struct grid *g, int64_t c, int a)
 {
     if (g->mesh)
-        return g->mesh->V[c] / g->mesh->S[a][a][c];
+        return g->mesh->V[c] / grid_face_area(g, c, a);
     return block_size(g->even, a, a == 1 && g->even->rows ? block_row(g->even, c) : 0);
 }
 /* Factor that makes a flow in m^dim/s of U of the lower face along a: U of uniform cells is a

@@ -14,7 +14,7 @@
 #include "mesh_view.h"
 #include "plane.h"
 
-/* 1: some part of this rank has cells that are not upright. */
+/* Some part of any rank has cells that are not upright. Collective. */
 static bool any_curved(const struct mesh *m)
 {
     bool curved = false;
@@ -24,24 +24,59 @@ static bool any_curved(const struct mesh *m)
     return curved;
 }
 
-/* Why a scene cannot have shares, for the log; NULL: it can, cells are axis-aligned, at rest and do
- * not overlap. m: blocks, NULL: uniform cells; least: smallest size of a cell, m. Creeping water
- * cannot: it breaks nothing off, and what the shares make rough in phi grows at steps of its
- * viscosity. Collective. */
+/* Whether the lower face of cell c along a leans by more than 0.01 against that of the first. */
+static bool is_bent(const struct mesh *m, int a, int64_t first, int64_t c)
+{
+    double s[3] = {0.0, 0.0, 0.0}, t[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < m->dim; k++) {
+        s[k] = m->S[a][k][first];
+        t[k] = m->S[a][k][c];
+    }
+    return vec3_dot(s, t) < (1.0 - 0.5e-4) * vec3_length(s) * vec3_length(t);
+}
+
+/* Whether index lines of some part of any rank are not straight and parallel. Collective. */
+static bool any_bent(const struct mesh *m)
+{
+    bool bent = false;
+    for (const struct part *p = m->part; p < m->part + m->nparts; p++)
+        PART_ROWS (p, no_layers, no_layers, c, n)
+            for (int64_t i = c; i < c + n && p->kind == PART_CURVED && !bent; i++)
+                for (int a = 0; a < m->dim; a++)
+                    bent = bent || is_bent(m, a, part_at(p, 0, 0, 0), i);
+    MPI_Allreduce(MPI_IN_PLACE, &bent, 1, MPI_C_BOOL, MPI_LOR, m->comm);
+    return bent;
+}
+
+/* Whether indices change where blocks join: planes of a neighbour's cells stand in its own. */
+static bool any_turned(const struct mesh *m)
+{
+    bool turned = false;
+    for (int k = 0; k < m->nblocks; k++)
+        for (int side = 0; side < 2 * m->dim; side++) {
+            const struct mesh_join *j = m->block[k].join + side;
+            for (int a = 0; a < m->dim && j->block >= 0; a++)
+                turned = turned || j->axis[a] != a || j->sign[a] < 0;
+        }
+    return turned;
+}
+
+/* Why a scene cannot have shares, for the log; NULL: it can. m: blocks, NULL: uniform cells; least:
+ * smallest size of a cell, m. Where index lines are bent, a film one cell thick along a wall gains
+ * energy without end. Creeping water breaks nothing off, and what the shares make rough in phi
+ * grows at steps of its viscosity. Collective. */
 static const char *obstacle(const struct run *r, const struct mesh *m, double least)
 {
     const struct gravity split = still_split(&r->scene);
     const double *still = split.hydrostatic;
     if (r->crossed)
         return "a partner has part of the water";
-    if (m && m->moves)
-        return "blocks move";
     if (m && m->has_fringe)
         return "blocks overlap";
-    if (m && any_curved(m))
-        return "cells are not upright, or change their size where blocks join";
-    if (still_is_inclined(still))
-        return "gravity leans against the lines of the cells";
+    if (m && any_bent(m))
+        return "lines of cells are bent";
+    if (m && any_turned(m))
+        return "blocks are joined whose indices run different ways";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;
     if (falls && still_creep(still, r->scene.fluid.nu, least) > STILL_CREEPS)
         return "the water creeps: nu/(h sqrt(g h)) is above 10";
@@ -66,6 +101,44 @@ bool fraction_wanted(const struct fv *s)
     return s->prm.volume != VOLUME_SHIFT && !obstacle(s->run, s->m, s->surface->least);
 }
 
+/* Of the cells of a curved part, whose spacing is that of its middle; the tensor K of mesh_view.h
+ * is that of cells alone. */
+static void measure_curved(const struct fv *s, struct fraction *f, const struct part *p)
+{
+    const double *size = s->surface->mesh->size[p - s->grid.part];
+    PART_ROWS (p, no_layers, no_layers, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            double K[3][3];
+            surface_mesh_metric(s, i, K);
+            for (int a = 0; a < s->dim; a++) {
+                f->height[a][i] = size[a] / sqrt(K[a][a]);
+                for (int b = a + 1; b < s->dim; b++)
+                    f->cosine[a][b][i] = K[a][b] / sqrt(K[a][a] * K[b][b]);
+            }
+        }
+}
+
+/* Spacing and angles of the cells of blocks. Collective. */
+static void measure_cells(const struct fv *s, struct fraction *f)
+{
+    double *fields[6];
+    int nf = 0;
+    for (int a = 0; a < s->dim; a++) {
+        fields[nf++] = f->height[a] = NEW(double, s->size);
+        for (int64_t c = 0; c < s->size; c++)
+            f->height[a][c] = grid_height(&s->grid, c, a);
+    }
+    if (!any_curved(s->m))
+        return;
+    for (int a = 0; a < s->dim; a++)
+        for (int b = a + 1; b < s->dim; b++)
+            fields[nf++] = f->cosine[a][b] = NEW(double, s->size);
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
+        if (p->kind == PART_CURVED)
+            measure_curved(s, f, p);
+    grid_halo(&s->grid, nf, fields);
+}
+
 static struct fraction *create(const struct fv *s)
 {
     struct fraction *f = NEW(struct fraction, 1);
@@ -85,6 +158,8 @@ static struct fraction *create(const struct fv *s)
         for (int64_t c = 0; c < s->size; c++)
             f->area[a][c] = f->volume[c] / grid_height(&s->grid, c, a);
     }
+    if (s->m)
+        measure_cells(s, f);
     return f;
 }
 
@@ -95,7 +170,7 @@ void fraction_free(struct fraction **fp)
         return;
     FREE(f->C, f->layer, f->alpha, f->volume, f->flux, f->work, f->next);
     for (int a = 0; a < 3; a++)
-        FREE(f->n[a], f->flow[a], f->area[a]);
+        FREE(f->n[a], f->flow[a], f->area[a], f->height[a], f->cosine[a][1], f->cosine[a][2]);
     FREE(f->air, f->smooth, f);
     *fp = NULL;
 }
@@ -225,22 +300,31 @@ bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
-        const double h = grid_height(&s->grid, c, a);
-        const double over =
-            0.5 * (grid_height(&s->grid, c - d, a) + grid_height(&s->grid, c + d, a)) + h;
+        const double h = fraction_height(s, c, a),
+                     over = 0.5 * (fraction_height(s, c - d, a) + fraction_height(s, c + d, a)) + h;
         n[a] = -(beside(s, p, c, a, d) - beside(s, p, c, a, -d)) * h / over;
         sum += fabs(n[a]);
     }
     return sum > 1e-12;
 }
 
+/* Of the level over cell c, as differences per cell. */
+static void lie_level(const struct fv *s, int64_t c, double *n)
+{
+    for (int a = 0; a < s->dim; a++) {
+        double S[3] = {0.0, 0.0, 0.0};
+        grid_face_vector(&s->grid, c, a, S);
+        n[a] = s->surface->g > 0.0 ? -vec3_dot(S, s->gravity.hydrostatic) : a == s->dim - 1;
+        n[a] *= fraction_height(s, c, a) / vec3_length(S);
+    }
+}
+
 static void set_plane(const struct fv *s, const struct part *p, int64_t c)
 {
     struct fraction *f = s->surface->fraction;
     double n[3] = {0.0, 0.0, 0.0};
-    if (!fraction_normal(s, p, c, n)) /* as water lies */
-        for (int a = 0; a < s->dim; a++)
-            n[a] = s->surface->g > 0.0 ? -s->gravity.hydrostatic[a] : a == s->dim - 1;
+    if (!fraction_normal(s, p, c, n))
+        lie_level(s, c, n);
     for (int a = 0; a < s->dim; a++)
         f->n[a][c] = n[a];
     f->alpha[c] = plane_alpha(s->dim, n, f->C[c]);
@@ -395,8 +479,7 @@ static void balance(struct fv *s)
 void fraction_advance(struct fv *s, double dt, int n)
 {
     struct fraction *f = s->surface->fraction;
-    if (!f->has_flows)
-        fraction_set_flows(s);
+    fraction_set_flows(s);
     f->has_flows = false;
     f->entered = 0.0;
     f->excess = excess_of(s, dt);

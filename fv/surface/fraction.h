@@ -2,12 +2,14 @@
  * projection's own fluxes, so that water is conserved; phi, which is smooth, is corrected towards C
  * instead of being shifted as a whole. Calm water, all of whose surface phi resolves, needs no
  * shares: there phi is the better one, and loses little. On uniform cells, layers of unequal
- * height, and joined blocks of axis-aligned cells at rest.
+ * height, and joined blocks whose lines of cells are straight, which may lean and move: shares and
+ * planes are those of a cube in the indices of the cell, volumes are its own.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_FRACTION_H
 #define FV_FRACTION_H
 
 #include "../fv.h"
+#include "levelset.h"
 
 /* A cell of air beside the water whose divergence is removed by a potential: fraction_flow.c. */
 struct air_cell {
@@ -28,6 +30,10 @@ struct fraction {
     double *flow[3]; /* m^dim/s: volume through the lower face of each cell */
     bool has_flows;  /* for the next advance: U is that of the last one, as around a step's end */
     double *volume;  /* m^dim: of cells, ghosts included */
+    /* Blocks, ghosts included: spacing along the indices, m; cosines of the angles between the
+     * gradients of two indices, a < b, where some cells lean. NULL: uniform cells or layers; all
+     * cosines are 0. */
+    double *height[3], *cosine[3][3];
     double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;
     int64_t nair, air_room;
@@ -62,7 +68,8 @@ void fraction_forget_flows(const struct fv *s);
 void fraction_advance(struct fv *s, double dt, int n);
 /* Volume of water, m^dim, over all ranks. Collective. */
 double fraction_volume(const struct fv *s);
-/* fraction_flow.c: sets flow from U. */
+/* fraction_flow.c: sets flow from U, relative to faces that move; for blocks that move before they
+ * are put elsewhere, where the divergence of U is not 0. Nothing if it is there. */
 void fraction_set_flows(struct fv *s);
 /* fraction_bounds.c: moves what cells have beyond 1 or below 0 to cells around. Collective. */
 void fraction_bound(struct fv *s);
@@ -73,6 +80,12 @@ bool fraction_is_calm(const struct fv *s);
 /* Normal of the plane in cell c of part p by differences of C, not normalised; false: there is
  * none. */
 bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double *n);
+/* m: spacing of the cells along index a at place c. */
+static inline double fraction_height(const struct fv *s, int64_t c, int a)
+{
+    const double *height = s->surface->fraction->height[a];
+    return height ? height[c] : grid_height(&s->grid, c, a);
+}
 /* Whether a cell holds both water and air. */
 static inline bool fraction_is_mixed(double C) { return C > 0.0 && C < 1.0; }
 

@@ -34,8 +34,8 @@ static bool is_free(const struct fv *s, int64_t c, int64_t d)
 /* m^(dim-2): area of the lower face over the distance of the centres. */
 static double conductance(const struct fv *s, int64_t c, int64_t d, int a)
 {
-    const double h = grid_height(&s->grid, c, a);
-    return s->surface->fraction->volume[c] / h / (0.5 * (h + grid_height(&s->grid, c - d, a)));
+    const double h = fraction_height(s, c, a);
+    return s->surface->fraction->volume[c] / h / (0.5 * (h + fraction_height(s, c - d, a)));
 }
 
 /* A cell of air as the sweeps see it. */
@@ -141,15 +141,19 @@ static void take_divergence_away(struct fv *s)
 void fraction_set_flows(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
+    if (f->has_flows)
+        return;
     for (int a = 0; a < s->dim; a++) {
-        const double *restrict U = s->U[a], *restrict area = f->area[a];
+        const double *restrict U = s->U[a], *restrict area = f->area[a],
+                               *restrict grid = s->m ? s->m->grid[a] : NULL;
         double *restrict flow = f->flow[a];
         int up[3] = {0, 0, 0};
         up[a] = 1;
         for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
             PART_NEAR (p, no_layers, up, c, n)
                 for (int64_t i = c; i < c + n; i++)
-                    flow[i] = area ? U[i] * area[i] : U[i];
+                    flow[i] = area ? U[i] * area[i] : grid ? U[i] - grid[i] : U[i];
     }
     take_divergence_away(s);
+    f->has_flows = true;
 }

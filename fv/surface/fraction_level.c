@@ -13,13 +13,22 @@
 #include "mesh_view.h"
 #include "plane.h"
 
+/* Of the angle between the gradients of indices a < b; 0 but for oblique cells. */
+static double cosine(const struct fv *s, int64_t c, int a, int b)
+{
+    const double *q = s->surface->fraction->cosine[a][b];
+    return q ? q[c] : 0.0;
+}
+
 /* |grad phi|^2 of slopes n over a cell. */
 static double slope2(const struct fv *s, int64_t c, const double *n)
 {
-    double sum = 0.0;
+    double g[3], sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
-        const double g = n[a] / grid_height(&s->grid, c, a);
-        sum += g * g;
+        g[a] = n[a] / fraction_height(s, c, a);
+        sum += g[a] * g[a];
+        for (int b = 0; b < a; b++)
+            sum += cosine(s, c, b, a) * 2.0 * g[a] * g[b];
     }
     return sum;
 }
@@ -29,16 +38,16 @@ static double slope2(const struct fv *s, int64_t c, const double *n)
 static bool is_smooth(const struct fv *s, const struct part *p, int64_t c)
 {
     const double *q = s->surface->phi + c;
-    double sum = 0.0;
+    double n[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
         const bool down = !surface_holds_none(s, c - d), up = !surface_holds_none(s, c + d);
-        const double h = grid_height(&s->grid, c, a),
-                     g = ((up ? q[d] - q[0] : 0.0) + (down ? q[0] - q[-d] : 0.0)) / h;
-        if (up && down && fabs(q[d] - 2.0 * q[0] + q[-d]) > 0.3 * h)
+        if (up && down && fabs(q[d] - 2.0 * q[0] + q[-d]) > 0.3 * fraction_height(s, c, a))
             return false;
-        sum += up || down ? g * g / ((up + down) * (up + down)) : 0.0;
+        n[a] = (up ? q[d] - q[0] : 0.0) + (down ? q[0] - q[-d] : 0.0);
+        n[a] /= up + down > 0 ? up + down : 1;
     }
+    const double sum = slope2(s, c, n);
     return sum > 0.6 && sum < 1.6;
 }
 
@@ -96,7 +105,7 @@ static double wanted(const struct fv *s, const struct part *p, int64_t c, bool t
     const double C = s->surface->fraction->C[c], phi = s->surface->phi[c];
     double n[3] = {0.0, 0.0, 0.0}, h = 0.0, size = 0.0;
     for (int a = 0; a < s->dim; a++)
-        h = greater(h, grid_height(&s->grid, c, a));
+        h = greater(h, fraction_height(s, c, a));
     if (fabs(phi) > 2.0 * h)
         return (C > 0.5) != (phi < 0.0) ? (0.5 - C) * h : phi;
     if (!slopes_of(s, p, c, trusted, n)) /* amid water, or air, alone */
@@ -144,7 +153,7 @@ static bool is_beside(const struct fv *s, const struct part *p, int64_t c)
     surface_slopes(s, p, c, n);
     for (int a = 0; a < s->dim; a++) {
         across += fabs(n[a]);
-        least = lesser(least, grid_height(&s->grid, c, a));
+        least = lesser(least, fraction_height(s, c, a));
     }
     return fabs(s->surface->phi[c]) <= 1.5 * greater(across, least);
 }

@@ -87,7 +87,7 @@ static void advance_height(struct fv *s, double dt, double *near)
     memcpy(f->phi, f->phi_new, (size_t)s->size * sizeof(double));
 }
 
-void surface_advance_to(struct fv *s, double t, double dt)
+int surface_advance_to(struct fv *s, double t, double dt)
 {
     struct surface *f = s->surface;
     const double cfl = surface_mesh_speeds(s, BAND) * dt;
@@ -99,6 +99,7 @@ void surface_advance_to(struct fv *s, double t, double dt)
         advance_height(s, dt / n, f->kept);
     surface_mesh_change_height(s, 1.0, f->phi);
     surface_ghosts(s, f->phi);
+    return n;
 }
 
 /* --- cells --- */

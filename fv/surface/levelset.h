@@ -115,7 +115,7 @@ void surface_mirror(const struct fv *s, double *q);
 /* Advects phi by dt, s, with u as it is; returns the number of parts that the step was cut into. */
 int surface_advance(struct fv *s, double dt);
 /* The same for blocks that move, from where they are to their positions at time t. */
-void surface_advance_to(struct fv *s, double t, double dt);
+int surface_advance_to(struct fv *s, double t, double dt);
 /* Shifts phi uniformly to the volume volume0, by a tenth of a cell per iteration at most.
  * Collective. */
 void surface_keep_volume(struct fv *s);

@@ -275,10 +275,12 @@ static bool is_carried(const struct fv *s)
     return s->surface->fraction && s->surface->fraction->carries > 0.0;
 }
 
-/* phi and the water of cells by dt. */
-static void advance_water(struct fv *s, double dt)
+/* phi and the water of cells by dt, to time t: the flows are those of where blocks are now. */
+static void advance_water(struct fv *s, double t, double dt)
 {
-    const int parts = surface_advance(s, dt);
+    if (is_carried(s))
+        fraction_set_flows(s);
+    const int parts = s->moving ? surface_advance_to(s, t, dt) : surface_advance(s, dt);
     if (is_carried(s))
         fraction_advance(s, dt, parts);
 }
@@ -328,12 +330,9 @@ void surface_first_half(struct fv *s, double dt)
     flows(s, s->surface->through);
     if (!is_carried(s))
         outflow_count_flows(s, 0.5 * dt, share_that_counts);
-    if (s->moving) {
+    if (s->moving)
         moving_begin_surface(s, dt);
-        surface_advance_to(s, s->t + 0.5 * dt, 0.5 * dt);
-    } else {
-        advance_water(s, 0.5 * dt);
-    }
+    advance_water(s, s->t + 0.5 * dt, 0.5 * dt);
     impose(s, s->t + 0.5 * dt);
     refresh_band(s);
     if (is_carried(s)) {
@@ -356,18 +355,15 @@ void surface_second_half(struct fv *s, double dt)
     double now[3];
     if (f->half)
         memcpy(f->phi, f->half, (size_t)s->size * sizeof(double));
-    if (s->moving) {
-        if (f->half)
-            surface_mesh_change_height(s, 1.0, f->phi);
-        surface_advance_to(s, s->t, 0.5 * dt);
+    if (s->moving && f->half)
+        surface_mesh_change_height(s, 1.0, f->phi);
+    if (f->fraction)
+        fraction_note_layers(s);
+    advance_water(s, s->t, 0.5 * dt);
+    if (is_carried(s)) /* the next step begins with them */
+        f->fraction->has_flows = true;
+    if (s->moving)
         surface_mesh_count(s);
-    } else {
-        if (f->fraction)
-            fraction_note_layers(s);
-        advance_water(s, 0.5 * dt);
-        if (is_carried(s)) /* the next step begins with them */
-            f->fraction->has_flows = true;
-    }
     impose(s, s->t);
     flows(s, now);
     note_openings(s, dt, now);

@@ -184,14 +184,20 @@ static void a_cup_that_tilts_carries_its_water(void **state)
     fv_params_check(&c.run, &c.faults);
     assert_int_equal(params_report(&c.faults), 0);
     struct fv *s = fv_create(&c.run, NULL);
-    double force[FLOW_BODIES_MAX][4], all[4];
-    assert_true(mesh_case_run(s, 10000, 4.0));
-    flow_forces(s, force, all);
+    const double period = 2.0 * M_PI / sqrt(9.81 * M_PI * tanh(0.3 * M_PI)); /* it still sways */
     const double weight = s->run->scene.fluid.rho * 9.81 * 0.3;
-    print_message("cup: force %.4g, %.5g of %.5g N, %.2g of the water restored\n", force[0][0],
-                  force[0][1], -weight, s->surface->returned / 0.3);
-    assert_close(force[0][1], -weight, 0.005 * weight);
-    assert_close(force[0][0], 0.0, 0.01 * weight);
+    double force[FLOW_BODIES_MAX][4], all[4], mean[2] = {0.0, 0.0};
+    assert_true(mesh_case_run(s, 10000, 4.0 - period));
+    for (int k = 1; k <= 16; k++) {
+        assert_true(mesh_case_run(s, 10000, 4.0 - period + period * k / 16.0));
+        flow_forces(s, force, all);
+        for (int a = 0; a < 2; a++)
+            mean[a] += force[0][a] / 16.0;
+    }
+    print_message("cup: force %.4g, %.5g of %.5g N, %.2g of the water restored\n", mean[0], mean[1],
+                  -weight, s->surface->returned / 0.3);
+    assert_close(mean[1], -weight, 0.005 * weight);
+    assert_close(mean[0], 0.0, 0.005 * weight);
     assert_close(s->surface->returned, 0.0, 0.005 * 0.3);
     mesh_case_end(&c, &s);
 }
