@@ -610,11 +610,20 @@ INLINE void credit(const struct sph *s, struct nfm *m, int k, const struct seen 
         wall_gap_exchange(s, l, k, (const double(*)[3])m->q, i->w);
 }
 
+/* Whether particle k is a guard whose rates are overwritten and that pushes no wall. */
+static bool is_idle(const struct sph *s, const struct nfm *m, int k)
+{
+    return s->guards && !s->local_steps && particles_is_guard(&s->p, m->list.who[k]) &&
+           !(share_that_pushes(s, m, k) > 0.0);
+}
+
 /* Sums of pairs and walls over gamma. */
 INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
 {
     const struct wall_list *l = &m->list;
     const int who = l->who[k];
+    if (is_idle(s, m, k))
+        return;
     struct seen i = look(s, who, dim);
     i.mu = m->mu;
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
