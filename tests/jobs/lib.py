@@ -11,6 +11,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 
 import stl
 
@@ -182,7 +184,8 @@ def number(folder, key, program=None):
     def first(group, name, *inner):
         if name in group:
             return first(group[name], *inner) if inner else group[name]
-        return next((found for each in group.values() if isinstance(each, dict) for found in [first(each, name, *inner)] if found is not None), None)
+        inside = (first(each, name, *inner) for each in group.values() if isinstance(each, dict))
+        return next((found for found in inside if found is not None), None)
 
     found = first(summary(folder, program), *key.split('.')) if os.path.exists(folder) else None
     return found if isinstance(found, (int, float)) else math.nan
@@ -255,7 +258,7 @@ def same_bits(folder, other):
     """A fault unless the last snapshots of two coupled jobs hold the same values."""
     for program in 'sph', 'fv':
         pair = [max(glob.glob('%s/%s_[0-9]*.h5' % (where, program))) for where in (folder, other)]
-        if run('h5diff', *pair, log='diff.txt') or says('not comparable', 'diff.txt'):  # which h5diff says of other numbers of particles
+        if not same_values(*pair):
             bad('%s of %s has other bits than that of %s' % (program, other, folder), 'diff.txt')
 
 
@@ -271,3 +274,44 @@ def restarted(folder, case, keys, **how):
     for path in glob.glob(folder + '/*series.csv'):
         if len(open(path).readlines()) != len(open(path.replace(folder, again, 1)).readlines()):
             bad('%s: another number of rows after a restart' % path)
+
+
+def mpirun(*programs, log='out.txt', most=60):
+    """A job of programs, each its ranks, its file and its arguments; a death is told by the program itself: the exit code."""
+    os.environ['ASAN_OPTIONS'] = 'detect_leaks=0:handle_segv=0'
+    line = [word for program in programs for word in (':', '-np', *map(str, program))]
+    return run(*mpi, *line[1:], log=log, most=most)
+
+
+def judge(what, code, wanted, *words, log='out.txt'):
+    """A fault unless the exit code is the wanted one, or one of them, and the log says all words; whether all is well."""
+    missing = [pattern for pattern in words if not says(pattern, log)]
+    well = code in (wanted if hasattr(wanted, '__iter__') else [wanted]) and not missing
+    if not well:
+        bad('%s: exit code %d, wanted %s%s' % (what, code, wanted, ''.join('; not told: ' + pattern for pattern in missing)), log)
+    return well
+
+
+def lines_of(pattern):
+    """The lines of all files of such names, sorted."""
+    return sorted(line.rstrip('\n') for path in glob.glob(pattern) for line in open(path, errors='replace'))
+
+
+def until(holds, most=30):
+    """Waits until it holds, at most so many seconds: whether it does."""
+    end = time.monotonic() + most
+    while not holds() and time.monotonic() < end:
+        time.sleep(0.02)
+    return holds()
+
+
+def meanwhile(holds, act):
+    """In a thread: as soon as it holds, acts."""
+    thread = threading.Thread(target=lambda: until(holds) and act())
+    thread.start()
+    return thread
+
+
+def same_values(one, other):
+    """Whether two files of HDF5 hold the same, also as many particles; what differs is in diff.txt."""
+    return run('h5diff', one, other, log='diff.txt') == 0 and not says('not comparable', 'diff.txt')

@@ -1,5 +1,5 @@
 /* toy.c - the smallest solver that run_main can run: oscillators x'' = -x, shared out over the
- * ranks. tests/jobs/run.sh runs it through outputs, restart, divergence, signals and refusals.
+ * ranks. tests/jobs/run.py runs it through outputs, restart, divergence, signals and refusals.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <signal.h>
