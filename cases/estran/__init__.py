@@ -8,8 +8,10 @@
     estran.movie(run, "velocity")       # -> out/dam_break/velocity.mp4, or .apng without ffmpeg
     estran.compare(run)                 # series beside the references of the case
     estran.report(run)                  # -> out/dam_break/report.html
+    estran.vtkhdf(run)                  # -> out/dam_break/fv_000000.hdf ..., fv.hdf.series
+    estran.to_meshio(run.at(-1)["fv"])  # a meshio.Mesh
 
-Needs numpy and h5py; matplotlib to draw; pandas and xarray for run.series.frame() and part.dataset().
+Needs numpy and h5py; matplotlib to draw; meshio for to_meshio; pandas and xarray for run.series.frame() and part.dataset().
 SPDX-License-Identifier: BSD-3-Clause"""
 from .reading import Array, Run, read
 
@@ -36,3 +38,15 @@ def report(run, **how):
     """One page of the run: verdict, pictures, series, price; see estran.page.report."""
     from . import page
     return page.report(run, **how)
+
+
+def vtkhdf(run, folder=None):
+    """All snapshots as VTKHDF, for ParaView, PyVista and VTK; see estran.vtk.vtkhdf."""
+    from . import vtk
+    return vtk.vtkhdf(run, folder)
+
+
+def to_meshio(part):
+    """What one program wrote of one time as a meshio.Mesh; see estran.vtk.to_meshio."""
+    from . import vtk
+    return vtk.to_meshio(part)

@@ -1,13 +1,15 @@
 # What cases/estran reads and draws of four runs: plots.py ROOT POOL CUBE JOB TANK. SPDX-License-Identifier: BSD-3-Clause
+import json
 import os
 import sys
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.join(sys.argv[1], 'cases'))
 import estran
-from estran import casefile, curves, drawing, film as films, grids, page as pages
+from estran import casefile, curves, drawing, film as films, grids, page as pages, vtk
 from PIL import Image
 
 pool, cube, job, tank = (estran.read(d) for d in sys.argv[2:])
@@ -135,7 +137,22 @@ pool.case['accept'] = [{'what': 'P', 'reference': 'reference.csv', 'column': 'p'
 t, v = curves.references(pool, '.')['P']
 assert list(t) == [0, 0.1] and list(v) == [4000, 4000]
 assert os.path.exists(estran.compare(pool, folder='.'))
-for module, what in (('pandas', lambda: pool.series.frame()['P [Pa]']), ('xarray', lambda: part.dataset()['pressure'])):
+
+# meshes for other tools: cells fill the domain with their corners in VTK's order, particles are points, files hold the same
+for run, size in ((job, 1.0), (cube, 1.0)):
+    points, kind, corners, fields = vtk.mesh(run.at(0)['fv'])
+    x = points[corners]
+    near(np.prod((x[:, 6 if kind == vtk.HEXAHEDRON else 2] - x[:, 0])[:, :run.dim], axis=1).sum(), size, 1e-6)
+    assert np.allclose(x[:, 1] - x[:, 0], x[:, 2] - x[:, 3]) and all(len(v) == len(corners) for v in fields.values())
+points, kind, corners, fields = vtk.mesh(part)
+assert kind == vtk.VERTEX and len(points) == len(corners) == len(fields['pressure']) and fields['velocity'].shape[1] == 3
+for path in estran.vtkhdf(job, 'meshes'):
+    files = json.load(open(path))['files']
+    assert [entry['time'] for entry in files] == job.programs[os.path.basename(path).split('.')[0]].times
+    with h5py.File(os.path.join('meshes', files[-1]['name'])) as f:
+        f = f['VTKHDF']
+        assert f['Offsets'][-1] == len(f['Connectivity']) and f['Connectivity'][...].max() == f['NumberOfPoints'][0] - 1
+for module, what in (('meshio', lambda: estran.to_meshio(part).points), ('pandas', lambda: pool.series.frame()['P [Pa]']), ('xarray', lambda: part.dataset()['pressure'])):
     try:
         __import__(module)
     except ImportError:
