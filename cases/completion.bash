@@ -8,7 +8,7 @@ _estran() {
     -p) COMPREPLY=($(compgen -S = -W "$(sed -n 's/^| `\([a-z_]*\.[A-Za-z0-9_]*\)`.*/\1/p; s/^| \([a-z_]*\.[A-Za-z0-9_]*\) .*/\1/p' "$cases/parameters.md")" -- "$word")); return ;;
     esac
     case $word in
-    -*) COMPREPLY=($(compgen -W "-n -o -p --check --check=picture --restart --force --tune --help --movie --curves --compare --report" -- "$word")) ;;
+    -*) COMPREPLY=($(compgen -W "-n -o -p --check --check=picture --restart --force --tune --help --movie --curves --compare --report --vtkhdf" -- "$word")) ;;
     *) COMPREPLY=($(compgen -W "$(cd "$cases" && printf '%s\n' */case.cfg | sed 's,/.*,,')" -- "$word") $(compgen -f -- "$word")) ;;
     esac
 }
