@@ -57,6 +57,9 @@ upright='(-0.5, 0), (-0.2, 0), (-0.2, 0.5), (-0.5, 0.5)' shake='kind = "harmonic
 basin rests "$upright" ''
 basin shakes "$upright" "motion = ( { axis = \"x\"; $shake } );"
 basin rolls "$upright" "centre = (0, 0); motion = ( { axis = \"rz\"; $shake } );"
+basin sways '(-0.5, 0), (0.5, 0), (0.5, 0.4), (-0.5, 0.4)' "motion = ( { axis = \"x\"; ramp = 1; $shake } );" # smooth until it breaks
+"$b/fv" sways.cfg -o sways -p time.end=3 --force >sways.txt 2>&1 || bad "the tank that sways for longer ends with $?" sways.txt
+near "$(number sways volume_returned)" 0 0.001 || bad "swaying: $(number sways volume_returned) of the water put back" sways.txt
 basin leans '(-0.47, -0.17), (-0.188, -0.068), (-0.359, 0.401), (-0.641, 0.299)' 'angle = 20;'
 basin shears '(-0.5, 0), (-0.2, 0), (0, 0.5), (-0.3, 0.5)' 'mapping = "sheared"; shear = 0.4;'
 sed 's/form = "polygon";/& velocity = (1, 0);/; s/cells = (32, 24);/& motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0, 1); } );/' rests.cfg >goes.cfg
