@@ -1,0 +1,66 @@
+"""Levels and discharges of openings over time (walls.level_file, walls.discharge_file) in both programs against the law of volume:
+a closed tank takes what a hydrograph lets in, and stands as high as the tide outside. SPDX-License-Identifier: BSD-3-Clause"""
+import math
+
+import lib
+from lib import bad, close, column, refused_by, start, told, write
+
+lib.scratch()
+write('tide.csv', '0 0.2\n0.5 0.2\n7 0.26\n12 0.26\n')
+write('hydrograph.csv', '# t q\n0, 0\n0.5, 0.02\n3, 0.02\n3.5, 0\n')
+write('swing.csv', ''.join('%g %.9g\n' % (0.4 * k, 0.2 + 0.02 * math.sin(2 * math.pi * 0.4 * k / 12)) for k in range(61)))
+write('flood.csv', '0 0.2\n1 9\n')
+write('negative.csv', '0 0.02\n1 -0.02\n')
+solvers = {'sph': 'sph: { dx = 0.02; c0 = 20.0; };', 'fv': 'fv: { cells = (40, 32); surface = "yes"; };'}
+level, discharge = 'kind = "outflow"; level_file = "%s"', 'kind = "inflow"; discharge_file = "%s"'
+
+
+def tank(program, end, opening):
+    """Water 0.2 m deep, 1 m long, open at x_min."""
+    return '''format = 1;
+time:    { end = %g; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (1, 0.4); };
+initial: { field = "uniform"; velocity = (0, 0); };
+walls:   ( { side = "x_min"; %s; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes:  ( { form = "below"; level = 0.2; } );
+probes:  ( { name = "up"; kind = "level"; at = (0.25, 0.1); }, { name = "down"; kind = "level"; at = (0.75, 0.1); } );
+%s
+output:  { snapshots = false; series = 1; };
+''' % (end, opening, solvers[program])
+
+
+def run(program, folder, *of_tank):
+    if start(program, lib.scene(tank(program, *of_tank), folder), '-o', folder, log=folder + '.txt') != 0:
+        bad(folder + ' ends with a fault', folder + '.txt')
+
+
+def levels(folder, gauge, begin, end=math.inf):
+    path = folder + '/series.csv'
+    return [z for t, z in zip(column(path, 't'), column(path, gauge + ' ')) if begin <= t <= end]
+
+
+def mean_level(folder, begin, end, wanted, share):
+    both = levels(folder, 'up', begin, end) + levels(folder, 'down', begin, end)
+    close('%s: level from %g to %g s' % (folder, begin, end), sum(both) / len(both), wanted, share)
+
+
+for program in 'sph', 'fv':
+    river, sea = 'river_' + program, 'sea_' + program
+    run(program, river, 5, discharge % 'hydrograph.csv')
+    run(program, sea, 13, level % 'tide.csv')
+    mean_level(river, 4, 5, 0.26, 0.01)  # 0.02 m^2/s for 3 s less the ramps are 0.06 m^2, and none comes in afterwards
+    mean_level(sea, 3.5, 4, 0.23, 0.02)  # the tide rises by 1 cm in a second, a wave crosses the tank in 0.7 s
+    mean_level(sea, 12, 13, 0.26, 0.01)
+    start(program, sea + '.cfg', '--check')
+    told(sea, 'by tide.csv', 'out.txt')
+    refused_by(program, tank(program, 5, level % 'tide.csv'), 'tide.csv', 'none.csv', 'none.csv: no such file')
+    refused_by(program, tank(program, 5, level % 'tide.csv'), 'level_file', r'level = 0.2; \g<0>', 'give one of the two')
+    refused_by(program, tank(program, 5, level % 'flood.csv'), '^', '', 'level_file: 9 m is above the domain')
+refused_by('fv', tank('fv', 5, discharge % 'negative.csv'), '^', '', 'it is positive')
+# a tide of 12 s, 17 transits: in a basin closed at its other end the level swings by cos(k x)/cos(k L) of it, x from that
+# end, k = w/c of long waves
+run('fv', 'swing', 24, level % 'swing.csv')
+down = levels('swing', 'down', 12)
+close('swing: half of what the level at the closed end swings by', (max(down) - min(down)) / 2, 0.02139, 0.05)
+lib.end('%d faults' % lib.failed)

@@ -1,0 +1,95 @@
+"""Inlets and outlets of sph under a free surface against the laws of shallow water: a level channel stays level, what is asked for
+comes in and goes out, a bore has the height of its jump relations, water at rest between two levels rests.
+SPDX-License-Identifier: BSD-3-Clause"""
+import lib
+from lib import bad, close, column, figure, near, refused_by, says, start, told
+
+lib.scratch()
+
+
+def run(folder, case):
+    if start('sph', lib.scene(case, folder), '-o', folder, log=folder + '.txt') != 0:
+        bad(folder + ' ends with a fault', folder + '.txt')
+
+
+def mean(folder, title, begin, end):
+    """Of a column over that time."""
+    path = folder + '/series.csv'
+    values = [value for t, value in zip(column(path, 't'), column(path, title)) if begin <= t <= end]
+    return sum(values) / len(values)
+
+
+def level(folder, wanted, begin, end):
+    for gauge in 'up', 'middle', 'down':
+        close('%s: level %s' % (folder, gauge), mean(folder, gauge, begin, end), wanted, 0.01, folder + '.txt')
+
+
+# 1 m long; Froude number 0.25, ten transits of a wave; the level does not end on a lattice row in the second
+for folder, end, velocity, height, inflow, outflow in (
+        ('level', 7, 0.35, 0.2, 'discharge = 0.07', 'level = 0.2;'),
+        ('shifted', 7, 0.35, 0.207, 'discharge = 0.07245', 'level = 0.207;'),
+        ('shallow', 7, 0.3, 0.16, 'discharge = 0.048', 'level = 0.16;'),
+        ('still', 4, 0, 0.2, 'level = 0.2', 'level = 0.2;'),
+        ('bore', 0.8, 0, 0.2, 'velocity = (0.35, 0)', '')):
+    run(folder, '''format = 1;
+time:    { end = %g; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (1, 0.4); };
+initial: { field = "uniform"; velocity = (%g, 0); };
+walls:   ( { side = "x_min"; kind = "inflow"; %s; }, { side = "x_max"; kind = "outflow"; %s }, { side = "y_min"; } );
+shapes:  ( { form = "below"; level = %g; } );
+probes:  ( { name = "up"; kind = "level"; at = (0.25, 0.1); }, { name = "middle"; kind = "level"; at = (0.5, 0.1); },
+           { name = "down"; kind = "level"; at = (0.75, 0.1); }, { name = "flow"; kind = "discharge"; at = (0.5, 0); to = (0.5, 0.4); },
+           { name = "slant"; kind = "discharge"; at = (0.375, -0.05); to = (0.6, 0.4); } );
+sph:     { dx = 0.02; c0 = 20.0; };
+output:  { snapshots = false; };
+''' % (end, velocity, inflow, outflow, height))
+    if says('^warning(?!.*sph.c0)', folder + '.txt'):
+        bad(folder + ': warns', folder + '.txt')
+level('level', 0.2, 5, 7)
+level('shifted', 0.207, 5, 7)
+level('still', 0.2, 3, 4)
+# eight rows, what is in them: 160 kg and g h^2/(2 c0^2) for the weight of the water (-1.7 % where the pressure outside was
+# hydrostatic up to the surface, which particles exceed there)
+close('shallow: kg', mean('shallow', 'mass [', 5, 7), 160.31, 0.01, 'shallow.txt')
+close('level: kg that came in', figure('level', 'x_min'), 490, 0.02)
+close('level: kg through the outlet', figure('level', 'x_max'), -490, 0.02)
+for gauge in 'flow', 'slant':  # the same through any section, upright or not
+    close('level: m^2/s at ' + gauge, mean('level', gauge, 4, 7), 0.07, 0.02)
+near('level: mass lost or made', figure('level', 'budget'), 0, 0.02)
+near('water at rest: kg that come in', figure('still', 'x_min'), 0, 1)
+# jump relations: u = (h2 - h1) sqrt(g (h1 + h2)/(2 h1 h2)) = 0.35 m/s
+close('bore: level', mean('bore', 'up', 0.35, 0.8), 0.2528, 0.02)
+start('sph', 'level.cfg', '--check', log='check.txt')
+told('check', 'x_max: water 0.2 m high outside')
+
+# an inlet that a block cuts in two: a parabola in each opening, of two thirds of its largest velocity
+run('two', '''format = 1;
+time:    { end = 2; };
+fluid:   { nu = 0.002; };
+domain:  { max = (1.2, 1); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.4, 0); profile = "parabolic"; }, { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; },
+           { kind = "no_slip"; points = ((0, 0.6), (1.2, 0.6), (1.2, 0.4), (0, 0.4)); } );
+probes:  ( { name = "low"; kind = "discharge"; at = (0.6, 0); to = (0.6, 0.4); },
+           { name = "high"; kind = "discharge"; at = (0.6, 0.6); to = (0.6, 1); } );
+sph:     { dx = 0.025; };
+output:  { snapshots = false; };
+''')
+for gauge in 'low', 'high':  # m^2/s, within what gauges of discharge err by
+    close('two inlets: m^2/s at ' + gauge, mean('two', gauge, 1, 2), 0.10667, 0.03)
+# in 3D a parabola spans the whole side, and is refused where a mesh cuts that
+lib.box_stl('wall.stl', (-0.2, 0.4, -0.2), (1.4, 0.6, 1.2))
+parabola = '''format = 1;
+time:    { end = 0.1; };
+fluid:   { nu = 0.002; };
+domain:  { dim = 3; max = (1.2, 1, 1); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.4, 0, 0); profile = "parabolic"; }, { side = "x_max"; kind = "outflow"; },
+           { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; }, { side = "z_max"; }, { mesh = "wall.stl"; } );
+sph:     { dx = 0.05; };
+'''
+refused_by('sph', parabola, '^', '', r'walls.\[0\].profile: parabolic in 3D spans the whole side')
+lib.write('uniform.cfg', lib.varied(parabola, 'profile = "parabolic";', ''))
+if start('sph', 'uniform.cfg', '--check', log='uniform.txt') != 0:
+    bad('a uniform inlet that a mesh cuts is refused', 'uniform.txt')
+lib.end('%d faults' % lib.failed)
