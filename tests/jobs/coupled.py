@@ -54,7 +54,8 @@ error_below('carried', 0.004)
 error_below('carried', error('still'))
 
 # a box that moves through them and across the periodic side: error; restart; other ranks
-moves = 'sph.dx=0.0166667 fv.cells=(24,24) time.end=0.24 output.every=0.12 output.checkpoint=0.13 sph.free=((0.45,0.3),(0.85,0.7)) sph.box_velocity=(0.6,0.4) '
+moves = ('sph.dx=0.0166667 fv.cells=(24,24) time.end=0.24 output.every=0.12 output.checkpoint=0.13 '
+         'sph.free=((0.45,0.3),(0.85,0.7)) sph.box_velocity=(0.6,0.4) ')
 job('whole', 'taylor_green', moves, ranks='2:1:1')
 error_below('whole', 0.003)
 lib.run('h5dump', '-d', '/position', '-y', '-w', '0', max(glob.glob('whole/sph_0*.h5')), log='position.txt')

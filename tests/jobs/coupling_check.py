@@ -10,7 +10,7 @@ lib.scratch()
 
 def accepts(case, keys='', words='', program='sph', code=0):
     """--check of the case with these keys ends so and tells these words, which are then in out.txt."""
-    ended = start(program, lib.scene(case, 'looked_at'), '--check', *(word for key in keys.split() for word in ('-p', key)))
+    ended = start(program, lib.scene(case, 'looked_at'), '--check', *lib.settings(keys))
     if ended != code or not says(words):
         bad('%s %s: exit code %d, wanted %d and "%s"' % (case, keys, ended, code, words), 'out.txt')
 

@@ -4,7 +4,7 @@ The case that a run writes down is that case. SPDX-License-Identifier: BSD-3-Cla
 import re
 
 import lib
-from lib import bad, below, close, column, number, last, near, refused_by, says, start, told, varied
+from lib import alone, bad, below, close, column, number, last, near, refused_by, says, start, told, varied
 
 lib.scratch()
 dam = '{ form = "box"; box = ((0, 0), (0.5, 0.4)); }'
@@ -30,10 +30,7 @@ dry_sph, dry_blocks = varied(dry, *of_sph), re.sub('walls: .*\n', '', varied(dry
 
 def go(program, folder, case, keys='', *args, warned=False):
     """A run on one rank; but where it is looked for, no warning but of what these scenes cannot avoid is told."""
-    words = [word for key in keys.split() for word in ('-p', key)]
-    code = start(program, lib.scene(case, folder), '-o', folder, *words, *args, log=folder + '.txt')
-    if code != 0:
-        bad('%s ends with %d' % (folder, code), folder + '.txt')
+    alone(program, folder, case, keys, *args)
     if not warned and says('^warning(?!.*(passages|hold|restored elsewhere))', folder + '.txt'):
         bad(folder + ' warns', folder + '.txt')
 

@@ -232,20 +232,31 @@ def scene(case, folder):
     return case if case.endswith('.cfg') else '%s/cases/%s/case.cfg' % (root, case)
 
 
+def settings(keys):
+    """The arguments that set "a.b=1 c.d=2"."""
+    return [word for key in keys.split() for word in ('-p', key)]
+
+
+def ended(folder, code, ends):
+    """A fault if a run into this folder ended with a code that is not one of `ends'."""
+    if code not in ends:
+        bad('%s ended with %d, wanted %s' % (folder, code, ' or '.join(map(str, ends))), folder + '.txt')
+
+
+def alone(program, folder, case, keys='', *args, ends=(0,)):
+    """A run of sph or fv on one rank of a case (as of `scene') with these keys into a folder; what it says is in FOLDER.txt."""
+    ended(folder, start(program, scene(case, folder), '-o', folder, *settings(keys), *args, log=folder + '.txt'), ends)
+
+
 def job(folder, case, keys='', *args, ranks='1:1:1', boxes=('sph',), ends=(0,)):
-    """A coupled job on SPH:COUPLER:FV ranks of a case (as of `scene') with `keys', as "a.b=1 c.d=2", into a folder; what it says is in
-    FOLDER.txt; boxes are its groups of sph, a program each. An exit code that is not one of `ends' is a fault."""
-    said = [scene(case, folder), '-o', folder, *args]
-    for key in keys.split():
-        said += ['-p', key]
+    """The same of a coupled job on SPH:COUPLER:FV ranks; boxes are its groups of sph, a program each."""
+    said = [scene(case, folder), '-o', folder, *settings(keys), *args]
     of_sph, of_coupler, of_fv = ranks.split(':')
     command = []
     for box in boxes:
         command += ['-np', of_sph, build + '/sph', *said, *(() if box == 'sph' else ('--as', box)), ':']
     command += ['-np', of_coupler, build + '/coupler', *said, ':', '-np', of_fv, build + '/fv', *said]
-    code = run(*mpi, *command, log=folder + '.txt')
-    if code not in ends:
-        bad('%s ended with %d, wanted %s' % (folder, code, ' or '.join(map(str, ends))), folder + '.txt')
+    ended(folder, run(*mpi, *command, log=folder + '.txt'), ends)
 
 
 def told(folder, words, log=None):

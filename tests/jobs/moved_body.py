@@ -7,7 +7,7 @@ import subprocess
 import time
 
 import lib
-from lib import bad, below, build, close, column, job, last, refused_by, root, run, start, told
+from lib import bad, below, build, close, column, job, last, refused_by, root, run, settings, start, told
 
 lib.scratch()
 launcher, tank = root + '/cases/run', root + '/coupler/examples/spring.cfg'
@@ -15,14 +15,12 @@ launcher, tank = root + '/cases/run', root + '/coupler/examples/spring.cfg'
 
 def command(folder, case, of, keys, ranks='1'):
     """A job with the spring, `of' the body's name, mass, stiffness, stretch and a mass that it adds to its own in the iteration."""
-    words = [word for key in keys.split() for word in ('-p', key)]
-    return [launcher, case, '-n', ranks, '-o', folder, '--force', *words, '--with', '%s/examples/spring %s %s' % (build, folder, of)]
+    return [launcher, case, '-n', ranks, '-o', folder, '--force', *settings(keys),
+            '--with', '%s/examples/spring %s %s' % (build, folder, of)]
 
 
 def spring(folder, case, of, keys='', ranks='1', ends=(0,)):
-    code = run(*command(folder, case, of, keys, ranks), log=folder + '.txt')
-    if code not in ends:
-        bad('%s: exit code %d' % (folder, code), folder + '.txt')
+    lib.ended(folder, run(*command(folder, case, of, keys, ranks), log=folder + '.txt'), ends)
 
 
 def period(log, middle):

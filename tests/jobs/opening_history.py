@@ -3,7 +3,7 @@ a closed tank takes what a hydrograph lets in, and stands as high as the tide ou
 import math
 
 import lib
-from lib import bad, close, column, refused_by, start, told, write
+from lib import alone, close, column, refused_by, start, told, write
 
 lib.scratch()
 write('tide.csv', '0 0.2\n0.5 0.2\n7 0.26\n12 0.26\n')
@@ -30,11 +30,6 @@ output:  { snapshots = false; series = 1; };
 ''' % (end, opening, solvers[program])
 
 
-def run(program, folder, *of_tank):
-    if start(program, lib.scene(tank(program, *of_tank), folder), '-o', folder, log=folder + '.txt') != 0:
-        bad(folder + ' ends with a fault', folder + '.txt')
-
-
 def levels(folder, gauge, begin, end=math.inf):
     path = folder + '/series.csv'
     return [z for t, z in zip(column(path, 't'), column(path, gauge + ' ')) if begin <= t <= end]
@@ -47,8 +42,8 @@ def mean_level(folder, begin, end, wanted, share):
 
 for program in 'sph', 'fv':
     river, sea = 'river_' + program, 'sea_' + program
-    run(program, river, 5, discharge % 'hydrograph.csv')
-    run(program, sea, 13, level % 'tide.csv')
+    alone(program, river, tank(program, 5, discharge % 'hydrograph.csv'))
+    alone(program, sea, tank(program, 13, level % 'tide.csv'))
     mean_level(river, 4, 5, 0.26, 0.01)  # 0.02 m^2/s for 3 s less the ramps are 0.06 m^2, and none comes in afterwards
     mean_level(sea, 3.5, 4, 0.23, 0.02)  # the tide rises by 1 cm in a second, a wave crosses the tank in 0.7 s
     mean_level(sea, 12, 13, 0.26, 0.01)
@@ -60,7 +55,7 @@ for program in 'sph', 'fv':
 refused_by('fv', tank('fv', 5, discharge % 'negative.csv'), '^', '', 'it is positive')
 # a tide of 12 s, 17 transits: in a basin closed at its other end the level swings by cos(k x)/cos(k L) of it, x from that
 # end, k = w/c of long waves
-run('fv', 'swing', 24, level % 'swing.csv')
+alone('fv', 'swing', tank('fv', 24, level % 'swing.csv'))
 down = levels('swing', 'down', 12)
 close('swing: half of what the level at the closed end swings by', (max(down) - min(down)) / 2, 0.02139, 0.05)
 lib.end('%d faults' % lib.failed)

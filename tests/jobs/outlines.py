@@ -3,7 +3,7 @@ and fv; what cannot be read is told with file and line. SPDX-License-Identifier:
 import re
 
 import lib
-from lib import bad, close, number, last, refused_by, start, varied, write
+from lib import alone, close, number, last, refused_by, varied, write
 
 lib.scratch()
 write('ship.svg', '''<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 120"><path id="hull" d="m 60,40 h 80 l -20,40 h -40 z"/>
@@ -28,31 +28,26 @@ files = varied(points, wall, '{ outline = "bed.csv"; }', hull, 'outline = "ship.
                pool, 'outline = "ship.svg#pool"; scale = 0.01; rotate = (0, 0, 180); translate = (2.0, 0.6);')
 
 
-def run(program, folder, case):
-    if start(program, lib.scene(case, folder), '-o', folder, log=folder + '.log') != 0:
-        bad('%s %s' % (program, folder), folder + '.log')
-
-
 def same(one, other, *titles, most=1e-6):
     for title in titles:
         close('%s and %s: %s' % (one, other, title), *(last(folder + '/series.csv', title) for folder in (one, other)), most)
 
 
-run('sph', 'files', files)
-run('sph', 'points', points)
+alone('sph', 'files', files)
+alone('sph', 'points', points)
 same('files', 'points', 'hull y', 'hull force y', 'mass', 'kinetic energy')
 for folder, case in ('fv_files', files), ('fv_points', points):
     case = re.sub(r'"y_min"; }, {.*} \);\nbodies:.*', '"y_min"; }, { side = "y_max"; } );', case)
-    run('fv', folder, varied(case, 'sph:     { dx = 0.04; };', 'fv: { cells = (20, 12); };'))
+    alone('fv', folder, varied(case, 'sph:     { dx = 0.04; };', 'fv: { cells = (20, 12); };'))
 same('fv_files', 'fv_points', 'volume', most=1e-9)
 # a box, turned, and a disc, as their points are
 box = 'points = ((0.8, 0.5), (1.1, 0.5), (1.1, 0.3), (0.8, 0.3));'
 square = varied(points, wall, '{ side = "y_max"; }', hull, box, '0.6), (0, 0.6)', '0.4), (0, 0.4)')
-run('sph', 'square', square)
-run('sph', 'box', varied(square, box, 'box = ((-0.5, -1.1), (-0.3, -0.8)); rotate = (0, 0, 90); translate = (0, 0.8);'))
+alone('sph', 'square', square)
+alone('sph', 'box', varied(square, box, 'box = ((-0.5, -1.1), (-0.3, -0.8)); rotate = (0, 0, 90); translate = (0, 0.8);'))
 same('box', 'square', 'hull y', 'hull force y', 'kinetic energy')
 # a disc in water at rest: Archimedes (3 %)
-run('sph', 'disc', varied(square, box + ' free = true; density = 300;', 'radius = 0.1; translate = (1, 0.2);', 'end = 0.1', 'end = 0.5',
+alone('sph', 'disc', varied(square, box + ' free = true; density = 300;', 'radius = 0.1; translate = (1, 0.2);', 'end = 0.1', 'end = 0.5',
                           'dx = 0.04', 'dx = 0.025'))
 close('N/m that a disc bears', number('disc', 'average_y'), 308.19, 0.03)
 for old, new, words in (

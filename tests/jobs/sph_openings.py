@@ -2,14 +2,9 @@
 comes in and goes out, a bore has the height of its jump relations, water at rest between two levels rests.
 SPDX-License-Identifier: BSD-3-Clause"""
 import lib
-from lib import bad, close, column, figure, near, refused_by, says, start, told
+from lib import alone, bad, close, column, number, near, refused_by, says, start, told
 
 lib.scratch()
-
-
-def run(folder, case):
-    if start('sph', lib.scene(case, folder), '-o', folder, log=folder + '.txt') != 0:
-        bad(folder + ' ends with a fault', folder + '.txt')
 
 
 def mean(folder, title, begin, end):
@@ -31,7 +26,7 @@ for folder, end, velocity, height, inflow, outflow in (
         ('shallow', 7, 0.3, 0.16, 'discharge = 0.048', 'level = 0.16;'),
         ('still', 4, 0, 0.2, 'level = 0.2', 'level = 0.2;'),
         ('bore', 0.8, 0, 0.2, 'velocity = (0.35, 0)', '')):
-    run(folder, '''format = 1;
+    alone('sph', folder, '''format = 1;
 time:    { end = %g; };
 fluid:   { gravity = (0, -9.81); };
 domain:  { dim = 2; max = (1, 0.4); };
@@ -52,19 +47,19 @@ level('still', 0.2, 3, 4)
 # eight rows, what is in them: 160 kg and g h^2/(2 c0^2) for the weight of the water (-1.7 % where the pressure outside was
 # hydrostatic up to the surface, which particles exceed there)
 close('shallow: kg', mean('shallow', 'mass [', 5, 7), 160.31, 0.01, 'shallow.txt')
-close('level: kg that came in', figure('level', 'x_min'), 490, 0.02)
-close('level: kg through the outlet', figure('level', 'x_max'), -490, 0.02)
+close('level: kg that came in', number('level', 'x_min'), 490, 0.02)
+close('level: kg through the outlet', number('level', 'x_max'), -490, 0.02)
 for gauge in 'flow', 'slant':  # the same through any section, upright or not
     close('level: m^2/s at ' + gauge, mean('level', gauge, 4, 7), 0.07, 0.02)
-near('level: mass lost or made', figure('level', 'budget'), 0, 0.02)
-near('water at rest: kg that come in', figure('still', 'x_min'), 0, 1)
+near('level: mass lost or made', number('level', 'budget'), 0, 0.02)
+near('water at rest: kg that come in', number('still', 'x_min'), 0, 1)
 # jump relations: u = (h2 - h1) sqrt(g (h1 + h2)/(2 h1 h2)) = 0.35 m/s
 close('bore: level', mean('bore', 'up', 0.35, 0.8), 0.2528, 0.02)
 start('sph', 'level.cfg', '--check', log='check.txt')
 told('check', 'x_max: water 0.2 m high outside')
 
 # an inlet that a block cuts in two: a parabola in each opening, of two thirds of its largest velocity
-run('two', '''format = 1;
+alone('sph', 'two', '''format = 1;
 time:    { end = 2; };
 fluid:   { nu = 0.002; };
 domain:  { max = (1.2, 1); };
