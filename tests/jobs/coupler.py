@@ -53,7 +53,7 @@ def death(what, *patterns, **how):
         code = job(**how, most=20)
         if code not in (0, 124) and all(map(says, patterns)):
             return
-    judge(what, code, (set(range(1, 256)) - {124}), *patterns)
+    judge(what, code, set(range(1, 256)) - {124}, *patterns)
 
 
 def all_say(what, *patterns):

@@ -38,26 +38,24 @@ def faults_of(name, victim, phase, signal):
     """What is wrong about such a job."""
     code, end = job(name, victim=victim, phase=phase, signal=signal)
     with open(name + '.txt', errors='replace') as f:
-        lines = f.read().splitlines()
-    hit = [float(found[1]) for found in (re.search(r'kill_at: .*, ms (\d+)', line) for line in lines) if found]
+        text = f.read()
+    hit = re.search(r'kill_at: .*, ms (\d+)', text)
     if not hit:
         return ['the phase was not reached, exit %d' % code]
-    faults = ['the job ended %.0f ms after the signal' % (end - hit[0])] if end - hit[0] > 5000 else []
-    if phase == 'end' and signal != 9 and code == 0:  # it was over
-        return faults
-    if signal != 9 and code == 5:
-        if not says('asks for an orderly end|stopping in order', name + '.txt'):
+    late = end - float(hit[1])
+    faults = ['the job ended %.0f ms after the signal' % late] if late > 5000 else []
+    if signal != 9 and code == 5:  # stopped in order
+        manifest = name + '/checkpoint.txt'
+        if not re.search('asks for an orderly end|stopping in order', text):
             faults.append('stopped without a word')
-        if not os.path.exists(name + '/checkpoint.txt') or not os.path.getsize(name + '/checkpoint.txt'):
+        if not os.path.exists(manifest) or not os.path.getsize(manifest):
             faults.append('stopped without a restart point')
-        return faults
-    if code == 0:
+    elif code == 0 and (signal == 9 or phase != 'end'):
         faults.append('exit code 0')
-    for program in PROGRAMS:  # who, where, when
-        said = [line for line in lines if line.startswith(program + ' rank 0: ')]
-        if program != victim and not any(victim + ' rank 0' in line and re.search(
-                'in coupling step [0-9]|before the first coupling step|last heard', line) for line in said):
-            faults.append('exit %d: %s says nothing of %s: %s' % (code, program, victim, said))
+    elif code != 0:  # who, where, when
+        named = r'^%s rank 0: (?=.*%s rank 0).*(in coupling step \d|before the first coupling step|last heard)'
+        faults += ['exit %d: %s says nothing of %s' % (code, program, victim) for program in PROGRAMS
+                   if program != victim and not re.search(named % (program, victim), text, flags=re.M)]
     return faults
 
 
@@ -73,15 +71,16 @@ def trial(victim, phase, signal):
     return ['%s: %s' % (name, fault) for fault in faults]
 
 
+def stands_here(link):
+    try:
+        return os.readlink(link) == os.getcwd()
+    except OSError:
+        return False
+
+
 def left_over():
-    """Processes that stand in this folder."""
-    found = []
-    for link in glob.glob('/proc/[0-9]*/cwd'):
-        try:
-            found += [link] if os.readlink(link) == os.getcwd() and link != '/proc/%d/cwd' % os.getpid() else []
-        except OSError:
-            pass
-    return found
+    """Other processes that stand in this folder."""
+    return list(filter(stands_here, set(glob.glob('/proc/[0-9]*/cwd')) - {'/proc/%d/cwd' % os.getpid()}))
 
 
 lib.scratch()

@@ -288,8 +288,9 @@ def restarted(folder, case, keys, **how):
 
 
 def mpirun(*programs, log='out.txt', most=60):
-    """A job of programs, each its ranks, its file and its arguments; a death is told by the program itself: the exit code."""
-    os.environ['ASAN_OPTIONS'] = 'detect_leaks=0:handle_segv=0'
+    """A job of programs, each its ranks, its file and its arguments: the exit code. Under the sanitizers, too, a program tells
+    of its death itself."""
+    os.environ.setdefault('ASAN_OPTIONS', 'detect_leaks=0:handle_segv=0')
     line = [word for program in programs for word in (':', '-np', *map(str, program))]
     return run(*mpi, *line[1:], log=log, most=most)
 
@@ -297,10 +298,11 @@ def mpirun(*programs, log='out.txt', most=60):
 def judge(what, code, wanted, *words, log='out.txt'):
     """A fault unless the exit code is the wanted one, or one of them, and the log says all words; whether all is well."""
     missing = [pattern for pattern in words if not says(pattern, log)]
-    well = code in (wanted if hasattr(wanted, '__iter__') else [wanted]) and not missing
-    if not well:
-        bad('%s: exit code %d, wanted %s%s' % (what, code, wanted, ''.join('; not told: ' + pattern for pattern in missing)), log)
-    return well
+    ended = code in (wanted if hasattr(wanted, '__iter__') else [wanted])
+    if not ended or missing:
+        bad('%s: exit code %d%s%s' % (what, code, '' if ended else ', wanted %s' % (wanted if isinstance(wanted, int) else 'another'),
+                                      ''.join('; not told: ' + pattern for pattern in missing)), log)
+    return ended and not missing
 
 
 def lines_of(pattern):

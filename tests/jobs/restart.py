@@ -1,6 +1,7 @@
 """A restart file is read by any number of ranks: a run that was written on some and went on on others ends where the
 straight run does, but for rounding and its growth. SPDX-License-Identifier: BSD-3-Clause"""
 import glob
+import math
 import os
 import re
 import shutil
@@ -55,8 +56,9 @@ def family(name, case, writers, readers, end, tolerance=1e-9, column='kinetic', 
         shutil.copytree(name + '-half', folder)
         if judge(what, go(case, program + ' ' + n, folder, *options, '--restart'), DONE):
             value = last(folder + series, column)
-            print('%s: %.1e relative, wanted %g' % (what, abs(value - wanted) / abs(wanted), tolerance))
-            if not (wanted > 0 and abs(value - wanted) <= tolerance * wanted):
+            off = abs(value - wanted) / wanted if wanted > 0 else math.inf
+            print('%s: %.1e relative, wanted %g' % (what, off, tolerance))
+            if not off <= tolerance:
                 bad('%s: %s is %.12g, in the straight run %.12g' % (what, column, value, wanted))
 
 
