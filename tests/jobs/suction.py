@@ -1,0 +1,34 @@
+"""Water that hangs by suction, or that a line cuts off, is told at the start, a U-tube of ten particles an arm is not warned of;
+figures of a run that water leaves do not depend on where the origin is, and hold no balance that nobody has booked.
+SPDX-License-Identifier: BSD-3-Clause"""
+import lib
+from lib import TANK, changed, check, number, run_case, says, sides
+
+lib.scratch()
+BOX = '{ form = "box"; box = ((%g, %g), (%g, %g)); }'
+tank = changed(TANK, time='end = 0.001;', domain='max = (1.2, 1);', sph='dx = 0.02;')
+run_case('siphon', changed(tank, bodies='''{ points = ((0.5, 0.3), (0.5, 0.6), (0.7, 0.6), (0.7, 0.2)); },
+    { points = ((0.4, 0.2), (0.3, 0.2), (0.3, 0.8), (0.96, 0.8), (0.96, 0.1), (0.8, 0.1), (0.8, 0.7), (0.4, 0.7)); }''',
+                           shapes=BOX % (0, 0, 0.6, 0.4) + ''', { form = "polygon"; points = (
+    (0.4, 0.1), (0.4, 0.7), (0.8, 0.7), (0.8, 0.1), (0.7, 0.1), (0.7, 0.6), (0.5, 0.6), (0.5, 0.1)); }'''),
+         words='^warning: .* stands 0.3 m above the level .*suction')
+run_case('utube', changed(tank, bodies='{ points = ((0.2, 0.2), (0.2, 0.9), (1, 0.9), (1, 0.2)); }',
+                          shapes=', '.join(BOX % box for box in ((0, 0, 0.2, 0.5), (0.2, 0, 1, 0.2), (1, 0, 1.2, 0.4)))))
+check(not says('^warning', 'utube.txt'), 'a U-tube of ten particles is warned of', 'utube.txt')
+
+# a partition that is a line leaves out the water on its right; a beach does not, whose water lies under it
+LINE = sides('x_min x_max y_min') + ', { points = (%s); }'
+parted = changed(tank, shapes='{ form = "below"; level = 0.4; }')
+run_case('parted', changed(parted, walls=LINE % '(0.2, 1), (0.2, 0)'), words='^warning: lines among the walls leave out 1[5-7] %')
+run_case('beach', changed(parted, walls=LINE % '(0.7, 0), (1.2, 0.6)'))
+check(not says('leave out', 'beach.txt'), 'a beach is taken for a partition', 'beach.txt')
+
+# a column that falls out over an edge, and the same 3 m lower
+for name, low in ('spill', 0), ('lower', -3):
+    run_case(name, changed(tank, time='end = 0.4;', domain='min = (0, %g); max = (0.6, %g);' % (low, low + 1),
+                           walls=sides('x_min y_min') + ', ' + sides('x_max', 'outflow'), shapes=BOX % (0, low, 0.4, low + 0.3)))
+    check('"defect"' not in open(name + '/summary.json').read(), name + ': water that leaves takes momentum along: a defect is shown')
+check(number('spill', 'through.x_max') <= -10, 'no water falls out', 'spill.txt')
+energies = [number(name, 'drift.energy') for name in ('spill', 'lower')]
+check(abs(energies[0] - energies[1]) <= 1e-3, 'drift.energy depends on the origin: %g and %g' % tuple(energies))
+lib.end('%d faults' % lib.failed)
