@@ -238,14 +238,15 @@ def settings(keys):
 
 
 def ended(folder, code, ends):
-    """A fault if a run into this folder ended with a code that is not one of `ends'."""
+    """The exit code of a run into this folder; a fault if it is not one of `ends'."""
     if code not in ends:
         bad('%s ended with %d, wanted %s' % (folder, code, ' or '.join(map(str, ends))), folder + '.txt')
+    return code
 
 
 def alone(program, folder, case, keys='', *args, ends=(0,)):
     """A run of sph or fv on one rank of a case (as of `scene') with these keys into a folder; what it says is in FOLDER.txt."""
-    ended(folder, start(program, scene(case, folder), '-o', folder, *settings(keys), *args, log=folder + '.txt'), ends)
+    return ended(folder, start(program, scene(case, folder), '-o', folder, *settings(keys), *args, log=folder + '.txt'), ends)
 
 
 def job(folder, case, keys='', *args, ranks='1:1:1', boxes=('sph',), ends=(0,)):
@@ -256,7 +257,7 @@ def job(folder, case, keys='', *args, ranks='1:1:1', boxes=('sph',), ends=(0,)):
     for box in boxes:
         command += ['-np', of_sph, build + '/sph', *said, *(() if box == 'sph' else ('--as', box)), ':']
     command += ['-np', of_coupler, build + '/coupler', *said, ':', '-np', of_fv, build + '/fv', *said]
-    ended(folder, run(*mpi, *command, log=folder + '.txt'), ends)
+    return ended(folder, run(*mpi, *command, log=folder + '.txt'), ends)
 
 
 def told(folder, words, log=None):
