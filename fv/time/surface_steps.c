@@ -447,5 +447,7 @@ const char *surface_trouble(const struct fv *s)
     const bool fills = sides_kinds(s) & 1u << MESH_INFLOW;
     if (s->surface->cuts == 0 && fills && !sides_give_pressure(s))
         return "the domain is full of water, and more flows in";
-    return s->surface->wet > 0 || s->surface->forced ? NULL : "no cell holds water any more";
+    const bool leaves = sides_kinds(s) & 1u << MESH_OUTFLOW; /* then it may all have left */
+    return s->surface->wet > 0 || s->surface->forced || leaves ? NULL
+                                                               : "no cell holds water any more";
 }

@@ -375,6 +375,18 @@ static void look_for_surface(struct fv *s, int64_t step)
                  : "");
 }
 
+/* Once: what is left when it has run out through the openings. */
+static void look_for_water(struct fv *s, int64_t step)
+{
+    struct watches *w = s->watches;
+    if (w->dry || s->surface->wet > 0 || s->surface->forced)
+        return;
+    w->dry = true;
+    const double left = surface_volume(s);
+    log_say("t = %.4g s, step %lld: the water has left, but for %.3g m^%d finer than the cells",
+            s->t, (long long)step, left, s->dim);
+}
+
 /* A closed side that water has reached. */
 struct lid {
     const struct fv *s;
@@ -423,10 +435,11 @@ void fv_watches_look(struct fv *s, struct diagnosis *d)
         look_for_lid(s, step);
     if (watches_want_waves(w, step))
         look_at_waves(s, step, d);
-    if (s->surface)
+    if (s->surface) {
         look_for_surface(s, step);
-    if (s->surface)
+        look_for_water(s, step);
         watch_judge(&w->returned, fabs(s->surface->returned) / surface_volume_scale(s), s->t, step,
                     d);
+    }
     timer_stop(&s->run->timers, "watches");
 }

@@ -25,6 +25,7 @@ struct watches {
     struct watch energy, velocity, pressure, growth, returned;
     bool has_energy, has_growth, has_surface, periodic;
     bool filled;                       /* that no surface is left was told */
+    bool dry;                          /* and that no cell holds water */
     bool lidded;                       /* that water is at a side that fv closes was told */
     int energy_every, waves_every;     /* steps */
     struct watch_budget budget, peaks; /* of the energy less work; its largest so far */

@@ -74,6 +74,10 @@ for ranks in 1 4; do
 done
 close_to "$(last leans4/series.csv 'kinetic energy')" "$(last leans1/series.csv 'kinetic energy')" 1e-7 ||
     bad "leaning gravity: $(last leans1/series.csv 'kinetic energy') J, on four ranks $(last leans4/series.csv 'kinetic energy')"
+# a tank that falls dry through an open side goes on without water; without such a side the run ends
+sed 's/((-0.25, 0), (0.25, 0.6))/((-1, 0), (1, 0.3))/; s/{ side = "x_max"; }/{ side = "x_max"; kind = "outflow"; level = -1; }/; s/(80, 40)/(48, 24)/' column.cfg >dry.cfg
+timeout 100 "$b/fv" dry.cfg -o dry -p time.end=40 >dry.txt 2>&1 || bad "a tank that falls dry ends with $?" dry.txt
+grep -q 'the water has left, but for .* m^2 finer than the cells' dry.txt || bad "no word of a tank that fell dry" dry.txt
 # boxes and gauges without names have some; a row of the series every third step and at the end
 sed 's/^fv: /blocked: ( { min = (0.5, 0); max = (0.6, 0.1); }, { min = (-0.6, 0); max = (-0.5, 0.1); } );\n&/; s/name = "[a-z]*"; //g' column.cfg >nameless.cfg
 timeout 100 "$b/fv" nameless.cfg -o nameless -p time.end=0.2 >nameless.txt 2>&1 || bad "boxes without names end with $?" nameless.txt
