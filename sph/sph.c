@@ -152,6 +152,10 @@ static void say_turned(const struct scene *c)
         if (c->bodies[k].turned)
             log_say("body %d (%s): its points ran counter-clockwise: turned", k + 1,
                     c->bodies[k].name);
+    for (int k = 0; k < c->nbodies; k++)
+        if (c->bodies[k].cut)
+            log_say("body %d (%s): what of it is beyond closed sides of the domain is left out",
+                    k + 1, c->bodies[k].name);
 }
 
 static void describe_scene(const struct run *r)

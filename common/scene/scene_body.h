@@ -83,6 +83,7 @@ struct scene_body {
     bool thin;                        /* particles on one side have no neighbours on the other */
     int kind;                         /* WALL_SLIP or WALL_NO_SLIP */
     bool turned;                      /* the sense of the points was reversed by scene_orient */
+    bool cut;                         /* what is beyond closed sides was left out: scene_cut.h */
     double centre[3];                 /* m: centre of rotation and of moments at t = 0 */
     double velocity[3];               /* m/s: constant, or that of a free body at the start */
     double spin[3];                   /* rad/s: the same of its rotation */

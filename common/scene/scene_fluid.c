@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../base/base.h"
+#include "scene_cut.h"
 #include "scene_geometry.h"
 #include "scene_mesh.h"
 
@@ -361,6 +362,7 @@ void scene_orient(struct scene *s)
         b->turned = l.n > 2 && line_area(&l) > 0.0;
         if (b->turned)
             points_reverse(&b->points);
+        scene_cut_at_sides(s, b);
     }
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;

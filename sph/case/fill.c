@@ -290,6 +290,23 @@ static void warn_of_suction(const struct sph *s, const struct basins *b)
             x[0], x[1], x[2], over, -s->rho0 * weight_of(s, still) * over);
 }
 
+/* Nothing but its own volume holds the pressure of water that is shut in, and volumes follow the
+ * packing within 0.4 %. */
+static void warn_of_shut_in(const struct sph *s, const struct basins *b)
+{
+    double x[3] = {0.0, 0.0, 0.0};
+    const int64_t n = basins_shut_in(b, x);
+    if (s->surface && n > 0)
+        log_warn(
+            "%lld particle(s) of water are shut in by walls and bodies, at (%g, %g, %g) m: their "
+            "pressure starts from %s and may then drift by %.2g Pa, and so may the forces "
+            "around. Let the water outside reach them through a gap of some sph.dx, or leave "
+            "that room dry",
+            (long long)n, x[0], x[1], x[2],
+            s->run->scene.initial.level < LEVEL_TOP ? "initial.level" : "0 under their roof",
+            0.004 * s->rho0 * s->c0 * s->c0);
+}
+
 /* A tank whose lines run the wrong way, or a body around the fluid, leave hardly any. */
 static void warn_of_taken(const struct sph *s, const struct look *k)
 {
@@ -339,6 +356,7 @@ struct fill *fill_lattice(struct sph *s)
         say_rooms(b);
     say_pockets(b);
     warn_of_suction(s, b);
+    warn_of_shut_in(s, b);
     basins_clear(b, l);
     if (parted)
         rims_check(s, l);

@@ -100,18 +100,19 @@ static bool is_wet(const struct scene *c, const struct bound *A, const struct bo
     return in && (is_side(A) || left[0] >= 0.0) && (is_side(B) || left[1] >= 0.0);
 }
 
-static void fault_at(const struct run *r, struct faults *f, const struct bound *b, const char *what,
-                     const double *at, const char *other)
-{
-    char key[64];
-    snprintf(key, sizeof key, "bodies.[%d]", b->body);
-    params_fault(r->params, f, b->body < 0 ? "walls" : key, "%s %s %s at (%g, %g) m", b->name, what,
-                 other, at[0], at[1]);
-}
-
 static bool is_free(const struct scene *c, const struct bound *b)
 {
     return b->body >= 0 && c->bodies[b->body].free;
+}
+
+/* What to do with body k, which is beyond a side that is not periodic. */
+static const char *beyond_remedy(const struct run *r, int k)
+{
+    return scene_body_moves(r->scene.bodies + k) ? "make the domain larger, or the motion smaller"
+           : r->scene.domain.dim == 3
+               ? "end it on the side, or make the domain larger"
+               : "make the domain larger, or end it on the side: one that crosses "
+                 "a closed side once is cut there";
 }
 
 /* Whether x is so near to the axis of a free body's hinge that contact leaves it alone: see
@@ -249,7 +250,7 @@ static bool check_domain(const struct run *r, int k, const double *x, const char
             d
             -> periodic[a]
                    ? "a body may come up to it, not through it; shift the domain, or make it larger"
-                   : "make the domain larger, or the motion smaller");
+                   : beyond_remedy(r, k));
         return true;
     }
     return false;
@@ -422,10 +423,25 @@ static bool check_room(const struct run *r, const struct sph_params *used, const
                                             "openings, or make sph.box larger"
                          : d->periodic[a] ? "a body may come up to it, not through it; shift the "
                                             "domain, or make it larger"
-                                          : "make the domain larger, or the motion smaller");
+                                          : beyond_remedy(r, b->body));
             return false;
         }
     return true;
+}
+
+/* Two that are in each other at a time. */
+static void fault_of_places(const struct run *r, struct faults *f, const struct bound *b,
+                            const struct bound *other, const double *at, const char *when)
+{
+    const bool wall = other->body < 0, moves = scene_body_moves(r->scene.bodies + b->body);
+    char key[64];
+    snprintf(key, sizeof key, "bodies.[%d]", b->body);
+    params_fault(r->params, f, key, "%s %s %s %s at (%g, %g) m: %s", b->name,
+                 wall ? "cuts" : "overlaps with", other->name, when, at[0], at[1],
+                 moves ? "move it away, or make the motion smaller"
+                 : wall
+                     ? "let it end on the wall, with corners on it, or draw it as part of the wall"
+                     : "let them touch, or draw them as one");
 }
 
 /* What is wrong at one time; true: something. */
@@ -442,16 +458,13 @@ static bool check_places(const struct run *r, const struct sph_params *used,
         if (!all[k].elsewhere && !check_room(r, used, all + k, t, when, f))
             return true;
         for (int m = 0; m < n; m++) {
-            char words[96];
             if (t > 0.0 && all[m].body >= 0 && r->scene.bodies[all[m].body].free)
                 continue;
             if (m == k || (all[m].body >= 0 && m > k))
                 continue;
-            snprintf(words, sizeof words, "%s %s", all[m].body < 0 ? "cuts" : "overlaps with",
-                     all[m].name);
             if (all[m].body >= 0 ? line_overlaps(&all[k].line, &all[m].line, at)
                                  : line_pierces(&all[k].line, &all[m].line, at))
-                fault_at(r, f, all + k, words, at, when);
+                fault_of_places(r, f, all + k, all + m, at, when);
         }
     }
     return f->n > before;

@@ -83,7 +83,8 @@ static void check_level(const struct run *r, int k, struct faults *f)
     snprintf(key, sizeof key, "walls.[%d].kind", k);
     if (up < 0)
         params_fault(r->params, f, key,
-                     "inlets and outlets under a free surface need gravity along one axis");
+                     "inlets and outlets under a free surface need gravity along one axis; "
+                     "shapes mean a free surface: leave them out where the fluid fills the domain");
     else if ((w->side - SIDE_X_MIN) / 2 == up)
         params_fault(
             r->params, f, key,

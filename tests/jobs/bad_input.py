@@ -306,6 +306,12 @@ bodies:  ( { name = "b"; points = ((0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2
 probes:  ( { name = "p"; at = (1, 0.1); } );
 sph:     { dx = 0.05; c0 = 30.0; };
 ''')
+# water shut in below a slab on two blocks, a body in the floor: accepted, with a word
+slab = 'bodies: ( { box = ((0.2, 0), (0.3, 0.2)); }, { box = ((0.6, 0), (0.7, 0.2)); }, { box = ((0.2, 0.2), (0.7, 0.3)); } );'
+edit('tank.cfg', 's/^bodies.*/' + slab + '/')
+holds(start('sph', 'case.cfg', '-o', 'shut', '-p', 'time.end=1e-3', '-p', 'sph.dx=0.025') == 0 and told('particle(s) of water are shut in .* at (0'), 'water shut in')
+edit('tank.cfg', 's/^bodies.*/bodies: ( { radius = 0.2; translate = (0.5, 0); } );/')
+holds(start('sph', 'case.cfg', '--check') == 0 and told('body 1 .*: what of it is beyond closed sides of the domain is left out'), 'half a disc on the floor')
 write('channel.cfg', '''format = 1;
 time:    { end = 0.01; };
 fluid:   { rho = 1.0; nu = 0.01; };
@@ -360,7 +366,8 @@ faulty('tank', 's/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(0.8, 0.2), (0.
 faulty('tank', 's/(1.2, 0.2))/(1.2, 0.2), (1.2, 0.3))/', r'bodies.\[0\].points: .*runs back', 'sph')
 faulty('tank', 's/points = ((0.8, 0.2), .*; }/points = ((0.8, 0.2), (0.9, 0.4)); }/', 'three points', 'sph')
 # bodies and walls
-faulty('tank', 's/(1.2, 0.4), (1.2, 0.2)/(2.2, 0.4), (2.2, 0.2)/', r'case.cfg:8: bodies.\[0\]: .*leaves the domain', 'sph')
+faulty('tank', 's/(0.8, 0.4), (1.2, 0.4)/(0.8, 1.4), (1.2, 1.4)/', r'case.cfg:8: bodies.\[0\]: .*leaves the domain across y', 'sph')
+faulty('tank', r's/"b".*/"b"; box = ((2.1, 0.2), (2.5, 0.4)); } );/', r'bodies.\[0\]: .*leaves the domain across x', 'sph')
 faulty('tank', 's/"b"/"b"; velocity = (2, 0)/', r'bodies.\[0\]: .*leaves the domain across x at (.*t = 0.4', 'sph')
 faulty('tank', 's/"b"/"b"; centre = (1.5, 0.3); spin = 3.0/', r'bodies.\[0\]: .*leaves the domain across y', 'sph')
 faulty('sph', r's/^sph:/bodies: ( { points = ((0.9, 0.2), (0.9, 0.4), (1.1, 0.4), (1.1, 0.2)); } );\nsph:/', r'bodies.\[0\]: .*periodic side x', 'sph')

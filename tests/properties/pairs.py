@@ -92,6 +92,11 @@ def judge(s, out):
         most = max(abs(f - lift * u) for f, u in zip(force, up))
         if most > 0.03 * max(weight, max(pa[:-1]) * unit ** s.dim):
             bad.append("sideways force of %s %.4g N, p A %.4g" % (name, most, max(pa[:-1]) * unit ** s.dim))
+    for name, wanted, scale in laws.get("pushed", []):
+        force = [late(rows, "%s force %s" % (name, "xyz"[a])) for a in range(s.dim)]
+        off = [(f - w * unit ** s.dim) / (scale * unit ** s.dim) for f, w in zip(force, s.vector(wanted))]
+        if max(map(abs, off)) > 0.03:
+            bad.append("force of %s (%s) %% of its largest part off" % (name, ", ".join("%+.1f" % (100 * x) for x in off)))
     for name, volume, pa in laws.get("stays", []):
         moved = [late(rows, "%s %s" % (name, "xyz"[a]), 0.01) for a in range(s.dim)]
         start = [float(rows[0][next(c for c in rows[0] if c.startswith("%s %s" % (name, "xyz"[a])))]) for a in range(s.dim)]

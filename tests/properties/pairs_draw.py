@@ -144,6 +144,39 @@ def wedge_body(rng):
     return s
 
 
+def kept(points, axis, at, way):
+    """The part of a polygon with way (x - at) >= 0."""
+    out = []
+    for (p, q) in zip(points, points[1:] + points[:1]):
+        a, b = way * (p[axis] - at), way * (q[axis] - at)
+        if a >= 0:
+            out.append(p)
+        if a * b < 0:
+            out.append(tuple(x + a / (a - b) * (y - x) for x, y in zip(p, q)))
+    return out
+
+
+def body_sunk(rng):
+    """A body that stands in the floor or in a side: its wet faces have the buoyancy of what is inside the tank, less
+    what water would push on the cut."""
+    s = tank2(rng, "sides", wide=(30, 40), deep=(18, 26))
+    n, r, floor = rng.choice([4, 40]), rng.uniform(4.5, 6) * s.dx, rng.random() < 0.6
+    deep, angle = rng.uniform(-0.4, 0.4) * r, rng.uniform(0, 6.28)
+    centre = (0.5 * s.hi[0], deep) if floor else (deep, 0.45 * s.depth)
+    points = s.polygon("b", centre, r, n, angle)
+    s.laws.pop("solids")
+    axis = 1 if floor else 0
+    inside = kept(points, axis, 0.0, 1.0)
+    cut = sorted(p[1 - axis] for p in inside if p[axis] < 1e-12)
+    area = abs(0.5 * sum(p[0] * q[1] - q[0] * p[1] for p, q in zip(inside, inside[1:] + inside[:1])))
+    wide, middle = cut[-1] - cut[0], 0.5 * (cut[-1] + cut[0])
+    push = 1000 * G * wide * (s.depth if floor else s.depth - middle)  # of water on the cut, into the tank
+    force = [0.0, 1000 * G * area - push] if floor else [-push, 1000 * G * area]
+    s.laws["pushed"] = [("b", force, max(push, 1000 * G * area))]
+    s.gauges([s.hi[0] - 5 * s.dx])
+    return s
+
+
 def body_surface(rng):
     s = tank2(rng, wide=(30, 40), deep=(16, 24))
     w = rng.uniform(6, 10) * s.dx
@@ -513,6 +546,7 @@ PAIRS = [
     ("polygon-floor", "body with edges at any angle x floor", 2, polygon_floor),
     ("wedge-floor", "corner of a body on the floor, a side or both, with wedges of water beside it", 0, wedge_floor),
     ("wedge-body", "corner of a body on another", 0, wedge_body),
+    ("body-sunk", "body that stands in a side", 0, body_sunk),
     ("body-surface", "body x free surface", 1, body_surface),
     ("body-lid", "top of a body x free surface", 1, body_lid),
     ("body-edge", "body x level edge", 1, body_level_edge),

@@ -6,6 +6,7 @@
 #include "../../../common/base/vec3.h"
 #include "../../../common/scene/scene_mesh.h"
 #include "../../../sph/case/sph_state.h"
+#include "../../../sph/walls/wall_share.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
@@ -44,6 +45,27 @@ static void a_box_of_walls_is_one_closed_mesh(void **state)
     assert_close(wall_meshes_nearest(s->walls, out, 1.0, &which).distance, -hypot(.02, .03), 1e-12);
     wall_meshes_nearest(s->walls, out, 0.01, &which);
     assert_int_equal(which, -1);
+    sph_free(&c.s);
+}
+
+/* Beside a plane a half of the kernel is behind it, in an edge three quarters, in a corner seven
+ * eighths; the same by the mesh's own frame. */
+static void what_is_behind_faces_is_known_in_their_frame(void **state)
+{
+    (void)state;
+    static const int all[] = {SIDE_X_MIN, SIDE_X_MAX, SIDE_Y_MIN,
+                              SIDE_Y_MAX, SIDE_Z_MIN, SIDE_Z_MAX};
+    struct sph_case c;
+    struct sph *s = cube(&c, 6, all);
+    const double e = 1e-5 * s->R;
+    const double x[4][3] = {{0.5, 0.5, 0.5}, {e, 0.5, 0.5}, {e, 0.5, e}, {e, 1.0 - e, e}};
+    static const double want[] = {0.0, 0.5, 0.75, 0.875};
+    for (int k = 0; k < 4; k++) {
+        double own[3];
+        wall_mesh_to_own(s->walls->meshes, x[k], own);
+        assert_close(wall_share_in_frame(s, 0, own), wall_share(s, -1, x[k]), 1e-12);
+        assert_close(wall_share_in_frame(s, 0, own), want[k], 1e-3);
+    }
     sph_free(&c.s);
 }
 
@@ -150,6 +172,7 @@ static void poses_carry_there_and_back(void **state)
 }
 
 TESTS_WITH_MPI(cmocka_unit_test(a_box_of_walls_is_one_closed_mesh),
+               cmocka_unit_test(what_is_behind_faces_is_known_in_their_frame),
                cmocka_unit_test(open_sides_prolong_the_others),
                cmocka_unit_test(walls_unlike_each_other_are_meshes_of_their_own),
                cmocka_unit_test(meshes_repeat_with_the_domain),

@@ -1,0 +1,13 @@
+/* scene_cut.h - bodies that stand in the floor or in another closed side of the domain: a pile,
+ * half a disc. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_SCENE_CUT_H
+#define COMMON_SCENE_CUT_H
+
+#include "scene_groups.h"
+
+/* In 2D: leaves out what a body that never moves has beyond closed sides of the domain, and sets
+ * its `cut'; its corners then lie on the side. A body that moves, is all beyond, or crosses a side
+ * more than twice (legs of a table) stays as it is, for the checks of the program to refuse. */
+void scene_cut_at_sides(const struct scene *s, struct scene_body *b);
+
+#endif
