@@ -56,6 +56,9 @@ static void say_forecast(const struct run *r, const struct fv_params *prm, doubl
                           ceil(r->scene.time.end / dt));
 }
 
+/* Cells a wave needs along its length and over its height. */
+static const double wave_points[2] = {12.0, 1.5};
+
 static void describe(const struct run *r)
 {
     const struct fv_params *prm = fv_params_of(r);
@@ -100,6 +103,7 @@ static void describe(const struct run *r)
         fraction_describe(r, prm, NULL, least);
         openings_describe(&r->scene);
         scene_waves_describe(&r->scene);
+        scene_waves_resolution(&r->scene, h, wave_points);
     }
     if (prm->graded[1] > 0.0)
         describe_rows(r);

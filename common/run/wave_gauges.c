@@ -15,6 +15,10 @@
 #include "../scene/scene.h"
 #include "../waves/waves.h"
 
+/* Of the normal equations: below 0.15 errors of the places and the waves grow threefold, below
+ * 0.01 tenfold. */
+static const double well_placed = 0.15, useless = 0.01;
+
 /* The probes of a group by name; -1: a name is none; their number. The list is cut at blanks and
  * commas. */
 static int probes_of(const struct scene *s, const struct scene_gauges *g, int probe[GAUGE_PROBES],
@@ -92,6 +96,43 @@ static int apart(const bool *elsewhere, int n, const int *probe)
     return -1;
 }
 
+/* The first gauge of a group that stands in a zone, where waves of one direction grow or decay, or
+ * -1; *of: the zone's side. */
+static int zoned(const struct scene *s, int n, const int *probe, const struct scene_wall **of)
+{
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < s->nwalls; k++) {
+            bool low;
+            *of = s->walls + k;
+            const int axis = scene_zone_axis(*of, &low);
+            if ((*of)->zone == ZONE_NONE)
+                continue;
+            const double x = s->probes[probe[i]].at[axis];
+            if ((low ? x - s->domain.min[axis] : s->domain.max[axis] - x) < (*of)->beach)
+                return probe[i];
+        }
+    return -1;
+}
+
+static void warn_of_places(const struct scene *s, const struct scene_gauges *g, int n,
+                           const int *probe, double number)
+{
+    double x[GAUGE_PROBES];
+    const double complex still[GAUGE_PROBES] = {0.0};
+    const struct scene_wall *of;
+    places_of(s, n, probe, x);
+    const double condition = reflection_separate(n, x, still, number).condition;
+    if (condition < well_placed)
+        log_warn("gauges %s: these places tell waves of %.3g m apart badly (%.2g of 1): gauges at "
+                 "0, 0.1 and 0.27 of that do",
+                 g->name, 2.0 * M_PI / number, condition);
+    const int in = zoned(s, n, probe, &of);
+    if (in >= 0)
+        log_warn("gauges %s: %s stands in the zone of %.4g m before %s, where waves are made or "
+                 "taken: what runs onward and back is told beyond it",
+                 g->name, s->probes[in].name, of->beach, scene_side_names[of->side - SIDE_X_MIN]);
+}
+
 /* A group whose gauges stand badly is only warned of: the amplitudes are not told apart, but
  * heights and spectra are good. */
 void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struct params *p,
@@ -130,14 +171,7 @@ void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struc
                          period);
         if (f->n > 0)
             continue;
-        double x[GAUGE_PROBES];
-        const double complex none[GAUGE_PROBES] = {0.0};
-        places_of(s, n, probe, x);
-        const double condition = reflection_separate(n, x, none, number_of(s, period)).condition;
-        if (condition < 0.15)
-            log_warn("gauges %s: these places tell waves of %.3g m apart badly (%.2g of 1): gauges "
-                     "at 0, 0.1 and 0.27 of that do",
-                     g->name, 2.0 * M_PI / number_of(s, period), condition);
+        warn_of_places(s, g, n, probe, number_of(s, period));
     }
 }
 
@@ -180,9 +214,10 @@ static void free_history(struct history *h, int n)
         mem_free(h->v[i]);
 }
 
-/* Squares of the heights of one frequency that run onward and back. */
-static bool separate(const struct history *h, int n, const double *x, double omega, double k,
-                     double squares[2])
+/* Squares of the heights of one frequency that run onward and back; how well the gauges stand for
+ * it. */
+static double separate(const struct history *h, int n, const double *x, double omega, double k,
+                       double squares[2])
 {
     double complex A[GAUGE_PROBES];
     for (int i = 0; i < n; i++)
@@ -192,13 +227,14 @@ static bool separate(const struct history *h, int n, const double *x, double ome
     const struct reflection r = reflection_separate(n, x, A, k);
     squares[0] = creal(r.onward * conj(r.onward));
     squares[1] = creal(r.back * conj(r.back));
-    return r.condition >= 0.15;
+    return r.condition;
 }
 
 /* In regular waves one frequency, that of the period. In a sea every line j/all of the record from
  * 0.6 to 2 times the frequency of the peak, where nearly all the energy is; a line for which the
  * gauges stand badly (condition) is left out, in both sums alike. Amplitudes are roots of the sums
- * of squares. The larger sum is taken as incident: waves may run against waves.direction. */
+ * of squares, nan where no line is left. The larger sum is taken as incident: waves may run against
+ * waves.direction. */
 static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
                             const struct history *h, int n, const int *probe, double period,
                             struct summary *summary)
@@ -207,17 +243,20 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
     const bool sea = s->has_waves && s->waves.kind != WAVE_REGULAR && !(g->period > 0.0);
     double x[GAUGE_PROBES], sums[2] = {0.0, 0.0}, squares[2];
     places_of(s, n, probe, x);
-    if (!sea)
-        separate(h, n, x, 2.0 * M_PI / period, number_of(s, period), sums);
+    if (!sea && separate(h, n, x, 2.0 * M_PI / period, number_of(s, period), sums) < useless)
+        sums[0] = sums[1] = 0.0;
     const int last = sea ? (int)(2.0 * all / period) : 0;
     for (int j = (int)ceil(0.6 * all / period); j <= last; j++) { /* lines of the spectrum */
         const double omega = 2.0 * M_PI * j / all;
-        if (separate(h, n, x, omega, waves_number(omega, gravity, scene_waves_depth(s)), squares))
+        if (separate(h, n, x, omega, waves_number(omega, gravity, scene_waves_depth(s)), squares) >=
+            well_placed)
             for (int i = 0; i < 2; i++)
                 sums[i] += squares[i];
     }
     const bool onward = sums[0] >= sums[1];
-    const double incident = sqrt(fmax(sums[0], sums[1])), back = sqrt(fmin(sums[0], sums[1]));
+    const bool told = sums[0] + sums[1] > 0.0;
+    const double incident = told ? sqrt(fmax(sums[0], sums[1])) : NAN,
+                 back = told ? sqrt(fmin(sums[0], sums[1])) : NAN;
     char key[PARAM_TEXT_SIZE + 32];
     snprintf(key, sizeof key, "reflection.%s.incident", g->name);
     summary_real(summary, key, incident);
@@ -225,11 +264,15 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
     summary_real(summary, key, back);
     snprintf(key, sizeof key, "reflection.%s.R", g->name);
     summary_real(summary, key, back / incident);
-    log_say(
-        "waves      gauges %s: amplitude %.4g m %s, %.4g m back: R %.3g %% (period %.4g s, over "
-        "%.3g periods)",
-        g->name, incident, onward ? "onward" : "against waves.direction", back,
-        100.0 * back / incident, period, all / period);
+    if (!told)
+        log_warn("gauges %s: from where they stand what runs onward and back is not told apart",
+                 g->name);
+    else
+        log_say("waves      gauges %s: amplitude %.4g m %s, %.4g m back: R %.3g %% (period %.4g s, "
+                "over "
+                "%.3g periods)",
+                g->name, incident, onward ? "onward" : "against waves.direction", back,
+                100.0 * back / incident, period, all / period);
 }
 
 static bool makes_sea(const struct scene *s) { return s->has_waves && s->waves.kind == WAVE_SEA; }

@@ -206,7 +206,16 @@ static void check_zone(const struct scene *s, const struct params *p, int k, str
                      s->domain.max[axis] - s->domain.min[axis]);
 }
 
-/* Gravity along an axis, water over a floor: what a wave is made of. */
+/* m: depth down to the floor of the domain if a wall closes it, else without end. */
+static double deepest(const struct scene *s, int up)
+{
+    const bool down = s->fluid.gravity[up] < 0.0;
+    const double floor = down ? s->domain.min[up] : -s->domain.max[up];
+    const bool closed = scene_wall_of(s, SIDE_X_MIN + 2 * up + (down ? 0 : 1)) != NULL;
+    return closed ? scene_waves_level(s) - floor : INFINITY;
+}
+
+/* Gravity along an axis, water over a floor, a way to run: what a wave is made of. */
 static bool check_water(const struct scene *s, const struct params *p, struct faults *f)
 {
     const double g = vec3_length(s->fluid.gravity);
@@ -216,16 +225,87 @@ static bool check_water(const struct scene *s, const struct params *p, struct fa
     else if (!(scene_waves_depth(s) > 0.0))
         params_fault(p, f, "waves.depth",
                      "no shape (a box, or below a level) tells how deep the water is: give it, m");
+    else if (s->waves.depth > (1.0 + 1e-6) * deepest(s, up))
+        params_fault(p, f, "waves.depth",
+                     "%g m: the water is %g m deep down to the floor of the domain: leave it out, "
+                     "or give what stands where the waves are made",
+                     s->waves.depth, deepest(s, up));
+    else if (s->domain.dim == 2 && fabs(sin(s->waves.direction * M_PI / 180.0)) > 1e-6)
+        params_fault(p, f, "waves.direction",
+                     "%g degrees: in 2D waves run along the horizontal axis: 0, or 180 against it",
+                     s->waves.direction);
     else
         return true;
     return false;
 }
 
-/* Zones that the waves give a length. */
-static void check_room(const struct scene *s, const struct params *p, struct faults *f)
+/* Waves that all sides of kind wave let out: nothing of them would be in the tank. */
+static void check_ways(const struct scene *s, const struct params *p, struct faults *f)
 {
-    const struct wave_spec of = scene_waves_spec(s);
-    struct waves *made = waves_create(&of);
+    double d[3];
+    const struct scene_wall *last = NULL;
+    scene_waves_direction(s, d, NULL);
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        bool low;
+        const int axis = w->zone == ZONE_WAVE ? scene_zone_axis(w, &low) : 0;
+        if (w->zone == ZONE_WAVE && (low ? d[axis] : -d[axis]) > 1e-6)
+            return;
+        last = w->zone == ZONE_WAVE ? w : last;
+    }
+    if (last && !scene_has_wave_maker(s))
+        params_fault(
+            p, f, "waves.direction",
+            "%g degrees: the waves run out through %s, or along it, and none come in: turn "
+            "them, or give the side that they come from the kind wave",
+            s->waves.direction, scene_side_names[last->side - SIDE_X_MIN]);
+}
+
+/* Along a periodic axis the waves must meet themselves: a whole number of them, of length L/d. Only
+ * a regular wave has one length; of others the target jumps where the period closes. */
+static void check_period(const struct scene *s, const struct params *p, const struct waves *made,
+                         struct faults *f)
+{
+    double d[3];
+    scene_waves_direction(s, d, NULL);
+    for (int a = 0; a < s->domain.dim; a++) {
+        const double wide = s->domain.max[a] - s->domain.min[a],
+                     n = fabs(d[a]) * wide / made->length;
+        if (!s->domain.periodic[a] || a == scene_still_axis(s))
+            continue;
+        if (made->of.kind == WAVE_REGULAR && fabs(n - round(n)) > 0.01)
+            params_fault(p, f, "domain.max",
+                         "the period of %g m along %c holds %.3g waves of that direction, and must "
+                         "hold a whole number: %.6g m, or another waves.direction",
+                         wide, "xyz"[a], n, fmax(1.0, round(n)) * made -> length / fabs(d[a]));
+        else if (made->of.kind != WAVE_REGULAR && (fabs(d[a]) > 0.02 || made->of.spread > 0.0))
+            log_warn("waves: those that run along %c do not fit its period of %g m, and jump where "
+                     "it closes: sides with zones instead",
+                     "xyz"[a], wide);
+    }
+}
+
+/* A side above the water that crests would strike: all of a regular wave's do, some of a sea's. */
+static void check_crests(const struct scene *s, const struct params *p, const struct waves *made,
+                         struct faults *f)
+{
+    const int up = scene_still_axis(s);
+    const double sign = s->fluid.gravity[up] < 0.0 ? 1.0 : -1.0,
+                 end = sign > 0.0 ? s->domain.max[up] : s->domain.min[up],
+                 crest = sign * (scene_waves_level(s) + made->crest);
+    const char *const key = sign > 0.0 ? "domain.max" : "domain.min";
+    if (!(sign * crest > sign * end))
+        return;
+    if (made->of.kind == WAVE_REGULAR)
+        params_fault(p, f, key, "%g m: crests reach %.4g m: more room above the water", end, crest);
+    else
+        log_warn("%s: %g m: crests reach some %.4g m: more room above the water", key, end, crest);
+}
+
+/* Zones that the waves give a length. */
+static void check_room(const struct scene *s, const struct params *p, const struct waves *made,
+                       struct faults *f)
+{
     double left[3];
     for (int a = 0; a < 3; a++)
         left[a] = s->domain.max[a] - s->domain.min[a];
@@ -244,7 +324,6 @@ static void check_room(const struct scene *s, const struct params *p, struct fau
         else if (left[a] < made->length && left[a] < s->domain.max[a] - s->domain.min[a])
             log_warn("along %c the zones leave %.3g m between them, less than a wave length",
                      "xyz"[a], left[a]);
-    waves_free(&made);
 }
 
 void scene_waves_check(const struct scene *s, const struct params *p, struct faults *f)
@@ -269,10 +348,17 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
     if (!check_water(s, p, f))
         return;
     const struct wave_spec of = scene_waves_spec(s);
-    if (waves_refuse(&of, &key, text, sizeof text))
+    if (waves_refuse(&of, &key, text, sizeof text)) {
         params_fault(p, f, key, "%s", text);
-    else
-        check_room(s, p, f);
+        return;
+    }
+    struct waves *made = waves_create(&of);
+    check_room(s, p, made, f);
+    check_crests(s, p, made, f);
+    check_ways(s, p, f);
+    if (scene_makes_waves(s))
+        check_period(s, p, made, f);
+    waves_free(&made);
 }
 
 /* --- the log --- */
@@ -381,4 +467,25 @@ void scene_waves_describe(const struct scene *s)
                      "a sea",
                      side, w->zone == ZONE_WAVE ? "waves.zone" : "beach", length, 1.5 * length);
     }
+}
+
+void scene_waves_resolution(const struct scene *s, const double *h, const double *least)
+{
+    const int up = scene_still_axis(s);
+    if (!s->has_waves || up < 0)
+        return;
+    const struct wave_spec of = scene_waves_spec(s);
+    struct waves *made = waves_create(&of);
+    const double length = made->length, height = made->of.height;
+    double d[3], along = INFINITY;
+    waves_free(&made);
+    scene_waves_direction(s, d, NULL);
+    for (int a = 0; a < s->domain.dim; a++)
+        if (a != up)
+            along = fmin(along, length / fmax(fabs(d[a]), 1e-3) / h[a]);
+    log_say("waves have %.3g points a length, %.2g a height", along, height / h[up]);
+    if (along < least[0] || height / h[up] < least[1])
+        log_warn("waves: %.3g points a length, %.2g a height: below %g and %g over a tenth of the "
+                 "height is lost on the way of some lengths",
+                 along, height / h[up], least[0], least[1]);
 }

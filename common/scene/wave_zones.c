@@ -139,29 +139,55 @@ static void add_velocity(const struct wave_zones *z, int k, double rate, const d
     u[z->up] += rate * z->sign * v[1];
 }
 
-/* A beach brings the water to the mean flow. */
-static void add_current(const struct wave_zones *z, double rate, double *u)
+/* The same; a beach brings the water to the mean flow. */
+static void add_target(const struct wave_zones *z, int k, double rate, const double *x, double *u)
 {
-    for (int a = 0; a < 3; a++)
+    if (z->zone[k].waves)
+        add_velocity(z, k, rate, x, u);
+    for (int a = 0; a < 3 && !z->zone[k].waves; a++)
         u[a] += rate * z->current * z->along[a];
 }
 
+/* 1/s: of one zone at x; 0 beyond its inner edge. */
+static double rate_of(const struct wave_zones *z, int k, const double *x)
+{
+    const double chi = 1.0 - (x[z->zone[k].axis] - z->zone[k].edge) * z->zone[k].per;
+    return chi > 0.0 ? z->zone[k].rate * fmin(chi * chi, 1.0) : 0.0;
+}
+
+/* Where zones meet, u_w is their mean by their rates. */
+static double rate_of_several(const struct wave_zones *z, const double *x, double *u_w)
+{
+    double rate = 0.0;
+    for (int k = 0; k < z->n; k++) {
+        const double r = rate_of(z, k, x);
+        rate += r;
+        if (r > 0.0)
+            add_target(z, k, r, x, u_w);
+    }
+    for (int a = 0; a < 3; a++)
+        u_w[a] /= rate;
+    return rate;
+}
+
+/* Most points are in no zone, most others in one. */
 double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
 {
     double rate = 0.0;
-    u_w[0] = u_w[1] = u_w[2] = 0.0;
+    int one = -1;
+    bool several = false;
     for (int k = 0; k < z->n; k++) {
-        const double chi = 1.0 - (x[z->zone[k].axis] - z->zone[k].edge) * z->zone[k].per;
-        const double r = chi > 0.0 ? z->zone[k].rate * fmin(chi * chi, 1.0) : 0.0;
-        rate += r;
-        if (r > 0.0 && z->zone[k].waves)
-            add_velocity(z, k, r, x, u_w);
-        else if (r > 0.0 && z->current != 0.0)
-            add_current(z, r, u_w);
+        const double r = rate_of(z, k, x);
+        if (r == 0.0)
+            continue;
+        several = several || one >= 0;
+        one = k;
+        rate = r;
     }
-    if (rate == 0.0)
-        return 0.0;
-    for (int a = 0; a < 3; a++) /* where zones meet, by their shares */
-        u_w[a] /= rate;
+    u_w[0] = u_w[1] = u_w[2] = 0.0;
+    if (several)
+        return rate_of_several(z, x, u_w);
+    if (one >= 0)
+        add_target(z, one, 1.0, x, u_w);
     return rate;
 }

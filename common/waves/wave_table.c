@@ -167,11 +167,12 @@ static inline __attribute__((always_inline)) void sum_nodes(const struct wave_ta
     for (int k = 0; k < at->n; k++) {
         const double *q =
             t->u + ((size_t)at->column[k] * WAVE_NODES + (size_t)node) * (size_t)parts;
-        for (int i = 0; i < 4; i++) {
-            const double w = at->weight[k] * along[i];
+        double sum[3] = {0.0, 0.0, 0.0}; /* of the column: a third of the products */
+        for (int i = 0; i < 4; i++)
             for (int a = 0; a < parts; a++)
-                u[a] += w * q[parts * i + a];
-        }
+                sum[a] += along[i] * q[parts * i + a];
+        for (int a = 0; a < parts; a++)
+            u[a] += at->weight[k] * sum[a];
     }
 }
 

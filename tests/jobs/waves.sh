@@ -78,6 +78,14 @@ EOF
     close_to "$made" 0.03 0.1 || bad "sph: a $paddle makes waves of an amplitude of $made m, not 0.03 m"
     echo "waves: $paddle $made m"
 done
+# told, and run: gauges in a zone, gauges half a length apart, which tell nothing of what comes back, cells that are too few
+sed 's/at = (1.9,/at = (0.9,/' regular.cfg >told.cfg
+"$b/fv" told.cfg --check 2>&1 | grep -q 'gauges tank: a stands in the zone of 1 m before x_min' || bad "a gauge in a zone"
+sed 's/at = (2.15,/at = (2.4,/; s/cells = (144, 32)/cells = (45, 12)/; s/end = 10/end = 4/' regular.cfg >told.cfg
+"$b/fv" told.cfg -o told >told.log 2>&1
+grep -q 'gauges tank: from where they stand' told.log && [ "$(sed -n 's/.*"R": \([a-z0-9.]*\).*/\1/p' told/summary.json)" = null ] || bad "gauges half a length apart" told.log
+sed 's/cells = (144, 32)/cells = (45, 12)/' regular.cfg >told.cfg
+"$b/fv" told.cfg --check 2>&1 | grep -q 'waves: 10 points a length, 1.5 a height: below 12 and 1.5' || bad "cells that are too few for waves"
 # refused CHANGE MESSAGE PROGRAM
 refused() {
     if [ "$3" = sph ]; then sed "$1" grains.cfg; else sed 's/^sph:.*/fv: { cells = (80, 16); };/' grains.cfg | sed "$1"; fi >faulty.cfg
@@ -91,6 +99,12 @@ refused 's/height = 0.03/height = 0.2/' 'waves.height: 0.2 m: at a length of 1 m
 refused 's/length = 1.0;//' 'waves.length: give one of length (m) and period (s)' fv
 refused 's/^waves:.*//' 'walls.\[0\].kind: what waves? give the group waves' fv
 refused 's/kind = "wave"/kind = "slip"/' 'waves: nobody makes them' sph
+refused 's/length = 1.0/depth = 0.5; &/' 'waves.depth: 0.5 m: the water is 0.16 m deep down to the floor' fv
+refused 's/length = 1.0/direction = 90; &/' 'waves.direction: 90 degrees: in 2D waves run along the horizontal axis' sph
+refused 's/length = 1.0/direction = 180; &/' 'waves.direction: 180 degrees: the waves run out through x_min' fv
+refused 's/4.5, 0.24/4.5, 0.17/' 'domain.max: 0.17 m: crests reach 0.1769 m' fv
+refused 's/dim = 2; max = (4.5, 0.24)/dim = 3; max = (4.5, 0.24, 1); periodic = (false, false, true)/; s/gravity = (0, -9.81)/gravity = (0, -9.81, 0)/; s/length = 1.0/direction = 20; &/
+    s/0\.17)/0.17, 0.5)/g; s/cells = (80, 16)/cells = (80, 16, 20)/' 'domain.max: the period of 1 m along z holds 0.342 waves of that direction, and must hold a whole number: 2.9238 m' fv
 refused 's/length = 1.0/length = 2.5/' 'along x the zones before the sides leave no room between them' fv
 refused 's/"y_min";/"y_min"; kind = "wave";/' 'walls.\[2\].kind: a zone is before an upright side' sph
 refused 's/kind = "wave";/kind = "wave"; beach = 0.5;/' 'walls.\[0\].beach: ' sph
