@@ -103,7 +103,7 @@ static void describe(const struct run *r)
         fraction_describe(r, prm, NULL, least);
         openings_describe(&r->scene);
         scene_waves_describe(&r->scene);
-        scene_waves_resolution(&r->scene, h, wave_points);
+        scene_waves_resolution(&r->scene, "cells", h, wave_points);
     }
     if (prm->graded[1] > 0.0)
         describe_rows(r);

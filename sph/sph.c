@@ -194,7 +194,7 @@ static void describe_scene(const struct run *r)
     if (!r->coupled || !r->scene.has_fv) /* which says it */
         scene_waves_describe(&r->scene);
     const double h[3] = {prm->dx, prm->dx, prm->dx}, wave_points[2] = {40.0, 1.5};
-    scene_waves_resolution(&r->scene, h, wave_points);
+    scene_waves_resolution(&r->scene, "particles", h, wave_points);
     paddles_describe(r, prm);
 }
 

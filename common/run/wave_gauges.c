@@ -269,8 +269,7 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
                  g->name);
     else
         log_say("waves      gauges %s: amplitude %.4g m %s, %.4g m back: R %.3g %% (period %.4g s, "
-                "over "
-                "%.3g periods)",
+                "over %.3g periods)",
                 g->name, incident, onward ? "onward" : "against waves.direction", back,
                 100.0 * back / incident, period, all / period);
 }

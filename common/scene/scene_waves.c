@@ -469,7 +469,8 @@ void scene_waves_describe(const struct scene *s)
     }
 }
 
-void scene_waves_resolution(const struct scene *s, const double *h, const double *least)
+void scene_waves_resolution(const struct scene *s, const char *points, const double *h,
+                            const double *least)
 {
     const int up = scene_still_axis(s);
     if (!s->has_waves || up < 0)
@@ -483,9 +484,9 @@ void scene_waves_resolution(const struct scene *s, const double *h, const double
     for (int a = 0; a < s->domain.dim; a++)
         if (a != up)
             along = fmin(along, length / fmax(fabs(d[a]), 1e-3) / h[a]);
-    log_say("waves have %.3g points a length, %.2g a height", along, height / h[up]);
+    log_say("waves have %.3g %s a length, %.2g a height", along, points, height / h[up]);
     if (along < least[0] || height / h[up] < least[1])
-        log_warn("waves: %.3g points a length, %.2g a height: below %g and %g over a tenth of the "
+        log_warn("waves: %.3g %s a length, %.2g a height: below %g and %g over a tenth of the "
                  "height is lost on the way of some lengths",
-                 along, height / h[up], least[0], least[1]);
+                 along, points, height / h[up], least[0], least[1]);
 }

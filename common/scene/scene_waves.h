@@ -25,9 +25,10 @@ void scene_waves_resolve(struct scene *s);
 bool scene_makes_waves(const struct scene *s);
 /* Logs which waves are made, and what each zone reflects. */
 void scene_waves_describe(const struct scene *s);
-/* Logs how many cells or particles, h[3] m apart along the axes, a wave has along its length and
- * over its height, and warns below least[0] and least[1] of them. */
-void scene_waves_resolution(const struct scene *s, const double *h, const double *least);
+/* Logs how many points ("cells", "particles"), h[3] m apart along the axes, a wave has along its
+ * length and over its height, and warns below least[0] and least[1] of them. */
+void scene_waves_resolution(const struct scene *s, const char *points, const double *h,
+                            const double *least);
 /* Still level of the waves, m against gravity: the highest of the shapes' levels and boxes, or
  * initial.level; NAN: none. */
 double scene_waves_level(const struct scene *s);

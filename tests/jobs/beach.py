@@ -1,7 +1,7 @@
 """Beaches (walls.beach) in both programs: standing waves in a long tank run into one and do not come back; without it they stand and
 nothing grows. Momentum balances with what a beach takes. SPDX-License-Identifier: BSD-3-Clause"""
 import lib
-from lib import alone, bad, below, column, figure, near, refused_by, start, told, varied
+from lib import alone, bad, below, column, number, near, refused_by, start, told, varied
 
 lib.scratch()
 # waves of 1 m over 0.25 m of water, period 0.836 s, 0.01 m
@@ -43,7 +43,7 @@ for folder, begin, end, most in ('beach', 10, 16, 0.03), ('slow', 8, 10, 0.05), 
     if not left > 0:
         bad(folder + ': no wave at all')
     print('%s: %.3g of %.3g m is left' % (folder, left, first))
-below('sph: momentum off by', figure('grains', 'defect'), 1e-10)
+below('sph: momentum off by', number('grains', 'defect'), 1e-10)
 for program, case, old, new, words in (
         ('sph', grains, 'beach_period = 0.836;', '', r'walls.\[1\].beach: a beach needs its length and the period'),
         ('fv', short, 'beach = 1.5', 'beach = 3', r'walls.\[1\].beach: 3 m: the domain is 2.5 m long there'),

@@ -3,7 +3,7 @@ newborn particle is as old as the time since its birth. Limits are about twice w
 import re
 
 import lib
-from lib import bad, below, column, figure, job, run
+from lib import bad, below, column, number, job, run
 
 lib.scratch()
 code = job('out', 'breaking_wave', 'sph.dx=0.0125 sph.box=((0,-0.35),(1,0.5)) time.end=1.28 output.every=0.64', '-p',
@@ -14,8 +14,8 @@ if missed:
     bad('not met: %s' % missed, 'out.txt')
 if lib.summary('out')['accepted'] != (code == 0):
     bad('ended with %d, and summary.json does not say so' % code, 'out.txt')
-below('particles lost', figure('out', 'particles_lost'), 0)
-below('mass of the particles off by', figure('out', 'mass_fluctuation'), 0.001)
+below('particles lost', number('out', 'particles_lost'), 0)
+below('mass of the particles off by', number('out', 'mass_fluctuation'), 0.001)
 energy = [sum(both) for both in zip(column('out/series.csv', 'kinetic energy'), column('out/series.csv', 'potential energy'))]
 lost = energy[0] - energy[-1]
 if not 0 < lost < 0.0032:  # of 0.0084 J over still water

@@ -85,7 +85,7 @@ sed 's/at = (2.15,/at = (2.4,/; s/cells = (144, 32)/cells = (45, 12)/; s/end = 1
 "$b/fv" told.cfg -o told >told.log 2>&1
 grep -q 'gauges tank: from where they stand' told.log && [ "$(sed -n 's/.*"R": \([a-z0-9.]*\).*/\1/p' told/summary.json)" = null ] || bad "gauges half a length apart" told.log
 sed 's/cells = (144, 32)/cells = (45, 12)/' regular.cfg >told.cfg
-"$b/fv" told.cfg --check 2>&1 | grep -q 'waves: 10 points a length, 1.5 a height: below 12 and 1.5' || bad "cells that are too few for waves"
+"$b/fv" told.cfg --check 2>&1 | grep -q 'waves: 10 cells a length, 1.5 a height: below 12 and 1.5' || bad "cells that are too few for waves"
 # refused CHANGE MESSAGE PROGRAM
 refused() {
     if [ "$3" = sph ]; then sed "$1" grains.cfg; else sed 's/^sph:.*/fv: { cells = (80, 16); };/' grains.cfg | sed "$1"; fi >faulty.cfg
