@@ -291,22 +291,27 @@ static double driven_speed(const struct scene *s)
     return a > 0.0 ? driven(s, a) : 0.0;
 }
 
-/* Largest pressure of the outlets over the reference, and what their difference accelerates. */
+/* Largest pressure of the outlets over the reference, and what their difference accelerates. What
+ * rounding leaves of pressures that balance the weight is none. */
 static double outlet_speed(const struct scene *s, double *pressure)
 {
     const struct scene_reference of = scene_reference(s);
-    double lo = INFINITY, hi = -INFINITY, length = 0.0;
+    double lo = INFINITY, hi = -INFINITY, length = 0.0, largest = 0.0;
     for (int k = 0; k < s->nwalls; k++)
         if (s->walls[k].kind >= WALL_OUTFLOW) {
             const double p = scene_reference_left(s, &of, s->walls + k) / s->fluid.rho;
             lo = fmin(lo, p);
             hi = fmax(hi, p);
+            largest = fmax(largest, fabs(s->walls[k].pressure) / s->fluid.rho);
         }
-    *pressure = hi >= lo ? fmax(fabs(lo), fabs(hi)) : 0.0;
-    if (!(hi > lo))
-        return 0.0;
     for (int a = 0; a < s->domain.dim; a++)
         length = fmax(length, extent(s, a));
+    const double rounding = 1e-12 * (vec3_length(s->fluid.gravity) * length + largest);
+    *pressure = fmax(fabs(lo), fabs(hi));
+    if (!(hi >= lo && *pressure > rounding))
+        *pressure = 0.0;
+    if (!(hi - lo > rounding))
+        return 0.0;
     return fmin(sqrt(2.0 * (hi - lo)), driven(s, (hi - lo) / length));
 }
 
