@@ -3,7 +3,7 @@ newborn particle is as old as the time since its birth. Limits are about twice w
 import re
 
 import lib
-from lib import bad, below, column, number, job, run
+from lib import bad, below, column, dataset, number, job
 
 lib.scratch()
 code = job('out', 'breaking_wave', 'sph.dx=0.0125 sph.box=((0,-0.35),(1,0.5)) time.end=1.28 output.every=0.64', '-p',
@@ -20,15 +20,8 @@ energy = [sum(both) for both in zip(column('out/series.csv', 'kinetic energy'), 
 lost = energy[0] - energy[-1]
 if not 0 < lost < 0.0032:  # of 0.0084 J over still water
     bad('energy lost %g J, wanted between 0 and 0.0032' % lost)
-
-
-def values(field):
-    run('h5dump', '-d', '/' + field, '-y', '-w', '0', '-m', '%.9g', 'out/sph_000002.h5', log=field + '.txt')
-    return [float(x) for x in re.findall(r'[-+.\de]+', re.search(r'DATA {(.*?)}', open(field + '.txt').read(), re.S)[1])]
-
-
 # ages: never negative nor above the time; the newborn, of numbers from 2^40 on, are younger than the run
-particles = list(zip(values('age'), values('id')))
+particles = list(zip(dataset('out/sph_000002.h5', 'age'), dataset('out/sph_000002.h5', 'id')))
 newborn = sum(number >= 2**40 for age, number in particles)
 wrong = sum(not -1e-4 <= age <= 1.2801 or (number >= 2**40) != (age < 1.2799) for age, number in particles)
 if not newborn > 5 or wrong:

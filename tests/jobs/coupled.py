@@ -2,7 +2,6 @@
 SPDX-License-Identifier: BSD-3-Clause"""
 import glob
 import os
-import re
 import signal
 import subprocess
 import time
@@ -58,8 +57,7 @@ moves = ('sph.dx=0.0166667 fv.cells=(24,24) time.end=0.24 output.every=0.12 outp
          'sph.free=((0.45,0.3),(0.85,0.7)) sph.box_velocity=(0.6,0.4) ')
 job('whole', 'taylor_green', moves, ranks='2:1:1')
 error_below('whole', 0.003)
-lib.run('h5dump', '-d', '/position', '-y', '-w', '0', max(glob.glob('whole/sph_0*.h5')), log='position.txt')
-position = [float(x) for x in re.findall(r'[-+.\de]+', re.search(r'DATA {(.*?)}', open('position.txt').read(), re.S)[1])]
+position = lib.dataset(max(glob.glob('whole/sph_0*.h5')), 'position')
 if not position or min(position) < 0 or max(position) > 1:
     bad('moving box: coordinates of the snapshot are outside of the periodic domain')
 restarted('whole', 'taylor_green', moves, ranks='2:1:1')

@@ -266,6 +266,12 @@ def told(folder, words, log=None):
         bad('%s: not told "%s"' % (folder, words), log or folder + '.txt')
 
 
+def dataset(path, name):
+    """The numbers of a data set of a file of HDF5, one after the other."""
+    run('h5dump', '-d', '/' + name, '-y', '-w', '0', '-m', '%.9g', path, log='dataset.txt')
+    return [float(x) for x in re.findall(r'[-+.\de]+', re.search(r'DATA {(.*?)}', open('dataset.txt').read(), re.S)[1])]
+
+
 def same_bits(folder, other):
     """A fault unless the last snapshots of two coupled jobs hold the same values."""
     for program in 'sph', 'fv':
