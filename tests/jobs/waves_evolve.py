@@ -51,7 +51,8 @@ write('bad.swd', 'no waves')
 for old, new, words in (
         ('evolve = "hos";', r'\g<0> order = 1;', 'waves.order: is not used: waves that evolve'),
         (r'kind = "focused"; (.*)at = \(2.0, 3.2\); repeat = 8.0;', r'\1', 'waves.evolve: is not used: regular waves keep their form'),
-        ('kind = "focused".*zone', 'kind = "file"; file = "bad.swd"; zone', 'waves.file: .*bad.swd: byte 8: the file ends before its header'),
+        ('kind = "focused".*zone', 'kind = "file"; file = "bad.swd"; zone',
+         'waves.file: .*bad.swd: byte 8: the file ends before its header does'),
         ('kind = "focused".*zone', 'kind = "file"; zone', 'waves.kind: which file'),
         ('repeat = 8.0;', r'\g<0> file = "bad.swd";', 'waves.file: is not used: only waves of kind file')):
     refused_by('fv', hos, old, new, words)
