@@ -1,5 +1,6 @@
 /* test_dual_time.c - dual time stepping reaches what Newton's method does, on all kinds of cells;
- * its errors fall as theirs; what it does not solve is told. SPDX-License-Identifier: BSD-3-Clause
+ * its errors fall as theirs; what it does not solve is told. ranks: 1 2.
+ * SPDX-License-Identifier: BSD-3-Clause
  */
 #include "../test.h"
 
