@@ -229,8 +229,6 @@ errors('is off by', 2, 2e-5)  # T decays as exp(-pi^2 t): by Taylor the scheme's
 python = [p for p in ('python3', '/usr/bin/python3') if shutil.which(p) and lib.run(p, '-c', 'import mpi4py') == 0]
 if not python:
     print('skipped: coupler/python: no python3 with mpi4py (apt-get install python3-mpi4py)')
-elif os.environ.get('SAN_BUILD'):
-    print('skipped: coupler/python: python does not run under the sanitizers')
 else:
     os.environ.update(PYTHONPATH='%s/coupler/python:%s' % (root, os.environ.get('PYTHONPATH', '')), OMP_NUM_THREADS='1',
                       ESTRAN_LIB=max(glob.glob(b + '/libcpl.so.*')))
