@@ -278,13 +278,15 @@ void sph_meshes_warn(const struct run *r, const struct sph_params *used)
     const double dx = used->dx;
     for (int k = 0; c->meshes && k < c->meshes->n; k++) {
         const struct scene_mesh *m = c->meshes->of + k;
+        const bool file =
+            *scene_surface_of(c, m->owner, m->index)->mesh; /* else facets follow dx */
         if (m->owner == MESH_OF_SHAPE)
             continue;
-        if (m->sizes.mean < 0.3 * dx)
+        if (file && m->sizes.mean < 0.3 * dx)
             log_warn("mesh %s: edges of %.3g m on average, finer than the particles (sph.dx = %g "
                      "m): it costs time and adds nothing. Coarsen it to about %.2g m",
                      m->name, m->sizes.mean, dx, dx);
-        if (m->sizes.sagitta > 0.1 * dx)
+        if (file && m->sizes.sagitta > 0.1 * dx)
             log_warn("mesh %s: its facets leave a smooth surface by up to %.2g m = %.2g dx; if it "
                      "stands for one, refine it",
                      m->name, m->sizes.sagitta, m->sizes.sagitta / dx);

@@ -79,11 +79,11 @@ run_case('floor', rim('tube', 0.3))
 run_case('bowl', rim('bowl'))
 
 
-def forecast(z):
+def forecast(z, radius=0.15):
     """Run time in s that --check says, with a ball at that height."""
     write('ball.cfg', changed(TANK3, domain='dim = 3; max = (0.8, 0.6, 1.2);', walls=sides('z_min x_min x_max y_min y_max'),
                               shapes='{ form = "box"; box = ((0, 0, 0), (0.8, 0.6, 0.6)); }', time='end = 0.5;',
-                              bodies='{ name = "ball"; radius = 0.15; centre = (0.4, 0.3, %g); }' % z, sph='dx = 0.05; c0 = 40;'))
+                              bodies='{ name = "ball"; radius = %g; centre = (0.4, 0.3, %g); }' % (radius, z), sph='dx = 0.05; c0 = 40;'))
     lib.start('sph', 'ball.cfg', '--check')
     said = re.search(r'^run time.* ([0-9.e+]+) (s|min|h) of', open('out.txt').read(), flags=re.M)
     return float(said[1]) * {'s': 1, 'min': 60, 'h': 3600}[said[2]]
@@ -92,4 +92,6 @@ def forecast(z):
 # the forecast counts the triangles that have particles near them: a ball in water costs three times the tank alone, one in the air nothing
 wet, dry = forecast(0.3), forecast(1)
 check(2 * dry < wet < 8 * dry, 'forecast with a ball in the water, above it: %g, %g s' % (wet, dry))
+forecast(0.3, 0.12)
+check(not says('smooth surface'), 'facets that sph makes itself are warned of')
 lib.end('%d faults' % lib.failed)
