@@ -214,7 +214,7 @@ static void walls_and_openings_are_in_the_budget(void **state)
     }
 }
 
-/* A film of 0.64 cells that a slope makes run off. */
+/* A film of 0.64 cells that a slope makes run off, without shares of water. */
 static void lost_water_is_not_accepted(void **state)
 {
     struct fv_case c;
@@ -222,7 +222,8 @@ static void lost_water_is_not_accepted(void **state)
     (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
-                                      "fluid.gravity=(2,-9.81)", "fluid.nu=1e-6", NULL});
+                                      "fluid.gravity=(2,-9.81)", "fluid.nu=1e-6",
+                                      "fv.volume=\"shift\"", NULL});
     for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
         wall_add(&c, (enum scene_side)side, WALL_SLIP, 0.0);
     c.run.scene.shapes[c.run.scene.nshapes++] =
