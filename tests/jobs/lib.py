@@ -187,7 +187,10 @@ def number(folder, key, program=None):
         inside = (first(each, name, *inner) for each in group.values() if isinstance(each, dict))
         return next((found for found in inside if found is not None), None)
 
-    found = first(summary(folder, program), *key.split('.')) if os.path.exists(folder) else None
+    try:
+        found = first(summary(folder, program), *key.split('.'))
+    except FileNotFoundError:
+        found = None
     return found if isinstance(found, (int, float)) else math.nan
 
 
