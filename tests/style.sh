@@ -83,9 +83,8 @@ found=$(ldd "$b/sph" "$b/coupler" | grep -i -E 'hypre|sundials')
 [ -z "$found" ] || bad "sph and coupler link what they do not use: $found"
 cases/parameters "$b" | cmp -s - cases/parameters.md || bad "cases/parameters.md is older than the tables: cases/parameters >cases/parameters.md"
 if command -v clang-format >/dev/null && clang-format --version | grep -q ' 14\.'; then
-    clang-format --dry-run -Werror $(find sph fv coupler common tests -name '*.[ch]') 2>out.txt ||
-        bad "layout: $(grep -c error: out.txt) places, clang-format -i mends them: $(head -n 3 out.txt)"
-    rm -f out.txt
+    found=$(clang-format --dry-run -Werror $(find sph fv coupler common tests -name '*.[ch]') 2>&1 | grep error: | head -n 3)
+    [ -z "$found" ] || bad "layout, clang-format -i mends it: $found"
 fi
 [ $failed = 0 ] && echo "style: all rules kept"
 [ $failed = 0 ]
