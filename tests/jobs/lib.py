@@ -338,3 +338,11 @@ def meanwhile(holds, act):
 def same_values(one, other):
     """Whether two files of HDF5 hold the same, also as many particles; what differs is in diff.txt."""
     return run('h5diff', one, other, log='diff.txt') == 0 and not says('not comparable', 'diff.txt')
+
+
+def held(name, defect=None):
+    """No particle was lost or put back; the momentum defect of fluid, bodies and walls is below that, if one is given."""
+    lost, returned = number(name, 'particles_lost'), number(name, 'particles_returned')
+    check(lost == 0 and returned == 0, '%s: %g particles lost, %g put back' % (name, lost, returned))
+    if defect:
+        check(number(name, 'momentum.defect') < defect, '%s: momentum off by %g' % (name, number(name, 'momentum.defect')))

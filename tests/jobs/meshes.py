@@ -3,7 +3,7 @@ on one rank as on two; nobody gets out; ParaView's files name what is there. SPD
 import re
 
 import lib
-from lib import TANK, bad, box_stl, changed, check, last, number, run, run_case, says, sides, write
+from lib import TANK, bad, box_stl, changed, check, held, last, number, run, run_case, says, sides, write
 
 lib.scratch()
 box_stl('tank.stl', (-0.4, -0.3, -0.3), (0.4, 0.3, 0.3))
@@ -36,9 +36,8 @@ run_case('turned', tank(1, TURN, 0.5))
 for name, size, ranks in ('short', 1, 1), ('ranks', 1, 2), ('small', 0.001, 1), ('large', 1000, 1):
     run_case(name, tank(size, TURN, 0.2), ranks=ranks)
 for name in 'straight', 'turned', 'ranks':
-    returned, lost, mach = (number(name, key) for key in ('particles_returned', 'particles_lost', 'max_mach'))
-    check(returned == 0 and lost == 0, '%s: %g put back, %g lost' % (name, returned, lost))
-    check(0 < mach < 0.01, '%s: not still, Ma %g' % (name, mach))
+    held(name)
+    check(0 < number(name, 'max_mach') < 0.01, '%s: not still, Ma %g' % (name, number(name, 'max_mach')))
 within(last('straight', 'kinetic energy'), last('turned', 'kinetic energy'), 4, 'kinetic energy of a straight and a turned tank')
 within(last('short', 'kinetic energy'), last('ranks', 'kinetic energy'), 1.000000001, 'kinetic energy on one rank and on two')
 within(number('short', 'particles'), number('ranks', 'particles'), 1, 'particles on one rank and on two')

@@ -3,19 +3,10 @@ SPDX-License-Identifier: BSD-3-Clause"""
 import math
 
 import lib
-from lib import TANK, changed, check, column, last, number, run_case, sides
+from lib import TANK, changed, check, column, held, last, number, run_case, sides
 
 lib.scratch()
 FLOOR = 'x_min x_max y_min'
-
-
-def held(name, defect=None):
-    """Nobody was lost or put back, the momentum of fluid, bodies and walls is in balance."""
-    lost, returned = number(name, 'particles_lost'), number(name, 'particles_returned')
-    check(lost == 0 and returned == 0, '%s: %g particles lost, %g put back' % (name, lost, returned))
-    if defect:
-        check(number(name, 'momentum.defect') < defect, '%s: momentum off by %g' % (name, number(name, 'momentum.defect')))
-
 
 # 30 degrees at constant speed, no gravity: F = 14.02 rho V^3 t of both sides (similarity solution; Zhao & Faltinsen,
 # J. Fluid Mech. 246, 1993: 14.14). The root of the impulse, (7.01 rho V^3)^0.5 (t - t0), has the same slope wherever in its
