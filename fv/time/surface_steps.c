@@ -291,6 +291,15 @@ enum { CALM = 20 }; /* steps until calm water is left to phi */
  * over. */
 static const double LOST = 1e-5;
 
+/* Whether phi has lost so much in this step. Long steps of newton and bdf2, and flat cells, in
+ * which shares make waves rough, lose more and are left to phi. */
+static bool loses(const struct fv *s, double before)
+{
+    const struct surface *f = s->surface;
+    return s->prm.integrator == INTEGRATOR_RK3 && f->largest <= 2.0 * f->least &&
+           fabs(f->returned - before) > LOST * surface_volume_scale(s);
+}
+
 /* The water at the end of a step: what phi has lost is put back, or it follows the shares, which
  * may change from one to the other. */
 static void keep_water(struct fv *s)
@@ -303,8 +312,7 @@ static void keep_water(struct fv *s)
         surface_keep_volume(s);
     if (!f)
         return;
-    const double lost = fabs(s->surface->returned - before) / surface_volume_scale(s);
-    const bool calm = lost < LOST && fraction_is_calm(s);
+    const bool calm = !loses(s, before) && fraction_is_calm(s);
     f->calm = calm ? fmin(f->calm + 1.0, CALM) : 0.0;
     if (is_carried(s) && f->calm == CALM) {
         f->carries = 0.0;
