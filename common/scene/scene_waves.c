@@ -285,6 +285,26 @@ static void check_period(const struct scene *s, const struct params *p, const st
     }
 }
 
+/* Closed sides beside the zones against which the waves run, as they do against a plane of
+ * symmetry: right, and seldom wanted. */
+static void warn_of_sides(const struct scene *s)
+{
+    double d[3];
+    bool made[3] = {false}, low;
+    scene_waves_direction(s, d, NULL);
+    for (int k = 0; k < s->nwalls; k++)
+        if (s->walls[k].zone == ZONE_WAVE)
+            made[scene_zone_axis(s->walls + k, &low)] = true;
+    for (int a = 0; a < 3; a++) {
+        const enum scene_side side = SIDE_X_MIN + 2 * a + (d[a] > 0.0);
+        const struct scene_wall *w = scene_wall_of(s, side);
+        if (!made[a] && fabs(d[a]) > 0.02 && w && w->zone == ZONE_NONE && w->kind < WALL_INFLOW)
+            log_warn("waves: they run against %s, which throws them back: kind = \"beach\" there, "
+                     "and \"wave\" on the side that they come from",
+                     scene_side_names[side - SIDE_X_MIN]);
+    }
+}
+
 /* A side above the water that crests would strike: all of a regular wave's do, some of a sea's. */
 static void check_crests(const struct scene *s, const struct params *p, const struct waves *made,
                          struct faults *f)
@@ -356,8 +376,10 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
     check_room(s, p, made, f);
     check_crests(s, p, made, f);
     check_ways(s, p, f);
-    if (scene_makes_waves(s))
+    if (scene_makes_waves(s)) {
         check_period(s, p, made, f);
+        warn_of_sides(s);
+    }
     waves_free(&made);
 }
 

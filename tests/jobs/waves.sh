@@ -86,6 +86,9 @@ sed 's/at = (2.15,/at = (2.4,/; s/cells = (144, 32)/cells = (45, 12)/; s/end = 1
 grep -q 'gauges tank: from where they stand' told.log && [ "$(sed -n 's/.*"R": \([a-z0-9.]*\).*/\1/p' told/summary.json)" = null ] || bad "gauges half a length apart" told.log
 sed 's/cells = (144, 32)/cells = (45, 12)/' regular.cfg >told.cfg
 "$b/fv" told.cfg --check 2>&1 | grep -q 'waves: 10 cells a length, 1.5 a height: below 12 and 1.5' || bad "cells that are too few for waves"
+sed 's/dim = 2; max = (4.5, 0.24)/dim = 3; max = (4.5, 0.24, 1)/; s/gravity = (0, -9.81)/gravity = (0, -9.81, 0)/; s/length = 1.0/direction = 20; &/; s/0.17)/0.17, 0.5)/g
+    s/cells = (144, 32)/cells = (45, 16, 10)/; s/{ side = "y_min"; }/&, { side = "z_min"; }, { side = "z_max"; }/' regular.cfg >told.cfg
+"$b/fv" told.cfg --check >told.log 2>&1 && grep -q 'waves: they run against z_max, which throws them back' told.log || bad "oblique waves beside a closed side" told.log
 # refused CHANGE MESSAGE PROGRAM
 refused() {
     if [ "$3" = sph ]; then sed "$1" grains.cfg; else sed 's/^sph:.*/fv: { cells = (80, 16); };/' grains.cfg | sed "$1"; fi >faulty.cfg
