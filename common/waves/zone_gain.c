@@ -4,8 +4,8 @@
 #include "zone_gain.h"
 
 #include <complex.h>
+#include <lapacke.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "../base/base.h"
 
@@ -16,10 +16,10 @@ struct problem {
     double kx, ky;                   /* 1/m: along the side's normal, along the side */
     double dx, dz;
     int nx;
-    double *re, *im; /* rows of WIDTH: upper band of the symmetric matrix, then right sides */
+    double complex *ab, *b; /* LAPACK's band, right sides */
 };
 
-enum { BAND = NZ + 1, WIDTH = BAND + RIGHT };
+enum { BAND = 3 * NZ + 1 };
 
 static double rate_at(const struct problem *q, double x)
 {
@@ -53,20 +53,14 @@ static double complex wave_w(const struct problem *q, double x, double z, int wa
     return I * (q->g * q->k / q->w) * wave_sinh(q, z) * cexp(-I * (way * q->kx * x));
 }
 
-static void add_at(struct problem *q, int row, int at, double complex value)
-{
-    q->re[(size_t)row * WIDTH + (size_t)at] += creal(value);
-    q->im[(size_t)row * WIDTH + (size_t)at] += cimag(value);
-}
-
 static void add(struct problem *q, int row, int column, double complex value)
 {
-    add_at(q, row < column ? row : column, abs(column - row), value);
+    q->ab[(size_t)column * BAND + (size_t)(2 * NZ + row - column)] += value;
 }
 
 static void add_right(struct problem *q, int row, int way, double complex value)
 {
-    add_at(q, row, BAND + way, value);
+    q->b[(size_t)way * (size_t)(q->nx * NZ) + (size_t)row] += value;
 }
 
 /* Flux through the face between two cells, out of the first: area u. Right sides: u_w of a wave to
@@ -78,6 +72,7 @@ static void between(struct problem *q, int first, int second, double area, doubl
     add(q, first, first, c);
     add(q, first, second, -c);
     add(q, second, second, c);
+    add(q, second, first, -c);
     for (int k = 0; k < 2; k++) {
         add_right(q, first, k, -all * r * u_w[k]);
         add_right(q, second, k, all * r * u_w[k]);
@@ -114,18 +109,18 @@ static void far_end(struct problem *q, int cell, double z)
 }
 
 /* Continuity of every cell: the fluxes out of it sum to 0. Columns of NZ cells from the bed up, one
- * after the other from the far end, so that neighbours are NZ rows apart at most. The side and the
- * bed are walls: no face, no flux. */
+ * after the other from the side, so that neighbours are at most NZ rows apart and the band is as
+ * narrow as can be. The side and the bed are walls: no face, no flux. */
 static void assemble(struct problem *q)
 {
     for (int i = 0; i < q->nx; i++)
         for (int j = 0; j < NZ; j++) {
-            const int cell = (q->nx - 1 - i) * NZ + j;
+            const int cell = i * NZ + j;
             const double x = (i + 0.5) * q->dx, z = (j + 0.5) * q->dz - q->h;
             const double xf = x + 0.5 * q->dx, zf = z + 0.5 * q->dz;
             along(q, cell, x, z);
             if (i + 1 < q->nx)
-                between(q, cell, cell - NZ, q->dz, q->dx, rate_at(q, xf),
+                between(q, cell, cell + NZ, q->dz, q->dx, rate_at(q, xf),
                         (double complex[]){wave_u(q, xf, z, 1), wave_u(q, xf, z, -1)});
             else
                 far_end(q, cell, z);
@@ -135,47 +130,6 @@ static void assemble(struct problem *q)
             else
                 surface(q, cell, x);
         }
-}
-
-/* a -= f b for complex rows, real and imaginary parts apart: several columns at once. */
-static inline void subtract(double *restrict a_re, double *restrict a_im, const double *restrict re,
-                            const double *restrict im, double complex f, int n)
-{
-    const double fr = creal(f), fi = cimag(f);
-    for (int j = 0; j < n; j++) {
-        a_re[j] -= fr * re[j] - fi * im[j];
-        a_im[j] -= fr * im[j] + fi * re[j];
-    }
-}
-
-/* L D L^T without pivots, which waves that run out of the far end make safe: what has been
- * eliminated, the water from there on, has no resonance. Solutions take the place of right sides.
- */
-static void solve(struct problem *q)
-{
-    const int n = q->nx * NZ;
-    for (int k = 0; k < n; k++) {
-        const double *re = q->re + (size_t)k * WIDTH, *im = q->im + (size_t)k * WIDTH;
-        const double complex pivot = 1.0 / CMPLX(re[0], im[0]);
-        for (int i = 1; i < BAND && k + i < n; i++) {
-            const double complex f = pivot * CMPLX(re[i], im[i]);
-            double *to_re = q->re + (size_t)(k + i) * WIDTH,
-                   *to_im = q->im + (size_t)(k + i) * WIDTH;
-            subtract(to_re, to_im, re + i, im + i, f, BAND - i);
-            subtract(to_re + BAND, to_im + BAND, re + BAND, im + BAND, f, RIGHT);
-        }
-    }
-    for (int k = n - 1; k >= 0; k--) {
-        double *re = q->re + (size_t)k * WIDTH, *im = q->im + (size_t)k * WIDTH;
-        for (int i = 1; i < BAND && k + i < n; i++)
-            subtract(re + BAND, im + BAND, re + i * WIDTH + BAND, im + i * WIDTH + BAND,
-                     CMPLX(re[i], im[i]), RIGHT);
-        for (int way = 0; way < RIGHT; way++) {
-            const double complex x = CMPLX(re[BAND + way], im[BAND + way]) / CMPLX(re[0], im[0]);
-            re[BAND + way] = creal(x);
-            im[BAND + way] = cimag(x);
-        }
-    }
 }
 
 /* Height of the wave that leaves, of a right side. By projection on cosh k(z + h), which waves that
@@ -188,7 +142,8 @@ static double complex leaves(const struct problem *q, int way)
     const double x = (q->nx - 0.5) * q->dx;
     for (int j = 0; j < NZ; j++) {
         const double z = (j + 0.5) * q->dz - q->h, weight = wave_cosh(q, z);
-        double complex p = CMPLX(q->re[j * WIDTH + BAND + way], q->im[j * WIDTH + BAND + way]);
+        double complex p =
+            q->b[(size_t)way * (size_t)(q->nx * NZ) + (size_t)((q->nx - 1) * NZ + j)];
         p -= way == 2 ? wave_p(q, x, z, -1) : 0.0;
         sum += weight * p;
         all += weight * weight * q->g;
@@ -214,13 +169,15 @@ struct zone_response zone_response(double omega, double number, double cosine, d
     q.dx = whole / q.nx;
     q.dz = h / NZ;
     const int n = q.nx * NZ;
-    q.re = NEW(double, (size_t)n *WIDTH);
-    q.im = NEW(double, (size_t)n *WIDTH);
+    q.ab = NEW(double complex, (size_t)n *BAND);
+    q.b = NEW(double complex, (size_t)n *RIGHT);
+    lapack_int *pivots = NEW(lapack_int, n);
     assemble(&q);
-    solve(&q);
-    const double complex back = leaves(&q, 2);
-    is = (struct zone_response){
-        .make = 1.0 / leaves(&q, 0), .pass = -back / leaves(&q, 1), .reflected = cabs(back)};
-    FREE(q.re, q.im);
+    if (LAPACKE_zgbsv(LAPACK_COL_MAJOR, n, NZ, NZ, RIGHT, q.ab, BAND, pivots, q.b, n) == 0) {
+        const double complex back = leaves(&q, 2);
+        is = (struct zone_response){
+            .make = 1.0 / leaves(&q, 0), .pass = -back / leaves(&q, 1), .reflected = cabs(back)};
+    }
+    FREE(q.ab, q.b, pivots);
     return is;
 }
