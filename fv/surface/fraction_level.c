@@ -13,23 +13,18 @@
 #include "mesh_view.h"
 #include "plane.h"
 
-/* Of the angle between the gradients of indices a < b; 0 but for oblique cells. */
-static double cosine(const struct fv *s, int64_t c, int a, int b)
-{
-    const double *q = s->surface->fraction->cosine[a][b];
-    return q ? q[c] : 0.0;
-}
-
 /* |grad phi|^2 of slopes n over a cell. */
 static double slope2(const struct fv *s, int64_t c, const double *n)
 {
+    const struct fraction *f = s->surface->fraction;
     double g[3], sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
         g[a] = n[a] / fraction_height(s, c, a);
         sum += g[a] * g[a];
-        for (int b = 0; b < a; b++)
-            sum += cosine(s, c, b, a) * 2.0 * g[a] * g[b];
     }
+    for (int a = 1; a < s->dim && f->cosine[0][1]; a++)
+        for (int b = 0; b < a; b++)
+            sum += f->cosine[b][a][c] * 2.0 * g[a] * g[b];
     return sum;
 }
 
