@@ -76,7 +76,7 @@ fluid:   { nu = 1e-06; gravity = (2, -9.81); };
 domain:  { max = (1, 1); };
 walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
 shapes:  ( { form = "box"; box = ((-1, -1), (2, 0.02)); } );
-fv:      { cells = (32, 32); };
+fv:      { cells = (32, 32); volume = "shift"; };
 output:  { snapshots = false; };
 ''')
 # the level set loses a film thinner than a cell: done, but not accepted
