@@ -127,7 +127,7 @@ static void check_outputs(struct life *l)
     if (every > 0.0 && end / every > most)
         params_fault(l->params, &l->faults, "output.every",
                      "%g s makes %.3g snapshots in %g s, more than have names: take %.2g s or more",
-                     every, end / every, end, end / most);
+                     every, end / every, end, 1.1 * end / most);
 }
 
 /* Reads and checks everything; returns the number of faults, the same on all ranks. The order
