@@ -110,14 +110,6 @@ static void find_runs(struct basins *b)
     b->start[b->columns] = b->nruns;
 }
 
-/* The same without shortening the way there. */
-static int root_of(const struct basins *b, int r)
-{
-    while (b->runs[r].part != r)
-        r = b->runs[r].part;
-    return r;
-}
-
 static int part_of(struct basins *b, int r)
 {
     while (b->runs[r].part != r) {
@@ -694,18 +686,18 @@ double basins_suction(const struct basins *b, double *where)
     return most;
 }
 
-int64_t basins_shut_in(const struct basins *b, double *where)
+int64_t basins_shut_in(struct basins *b, double *where)
 {
     bool *open = NEW(bool, b->nruns), any = false;
     int64_t cells = 0;
     for (int r = 0; r < b->nruns; r++)
         if (!b->runs[r].covered && !b->runs[r].dropped)
-            any = open[root_of(b, r)] = true;
+            any = open[part_of(b, r)] = true;
     for (int c = 0; c < b->columns; c++)
         for (int r = b->start[c]; r < b->start[c + 1] && any; r++) {
             const struct basin_run *run = b->runs + r;
             int ic[3];
-            if (open[root_of(b, r)] || run->dropped || isnan(run->level))
+            if (open[part_of(b, r)] || run->dropped || isnan(run->level))
                 continue;
             cells += run->last - run->first + 1;
             cell_in(b, c, top_cell(b, run), ic);

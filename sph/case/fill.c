@@ -292,7 +292,7 @@ static void warn_of_suction(const struct sph *s, const struct basins *b)
 
 /* Nothing but its own volume holds the pressure of water that is shut in, and volumes follow the
  * packing within 0.4 %. */
-static void warn_of_shut_in(const struct sph *s, const struct basins *b)
+static void warn_of_shut_in(const struct sph *s, struct basins *b)
 {
     double x[3] = {0.0, 0.0, 0.0};
     const int64_t n = basins_shut_in(b, x);
@@ -351,7 +351,7 @@ struct fill *fill_lattice(struct sph *s)
         cut_links(s, l);
     else
         warn_of_taken(s, &look);
-    const struct basins *b = f->basins = basins_create(s, l);
+    struct basins *b = f->basins = basins_create(s, l);
     if (parted)
         say_rooms(b);
     say_pockets(b);

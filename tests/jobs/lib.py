@@ -90,13 +90,17 @@ def write(path, text):
         out.write(text)
 
 
+def refused(program, text, words, what=''):
+    """A fault unless --check refuses the text with these words."""
+    write('faulty.cfg', text)
+    code = start(program, 'faulty.cfg', '--check', log='faulty.log')
+    if code != 2 or not says(words, 'faulty.log'):
+        bad('%sexit code %d, wanted 2 and the words: %s' % (what, code, words), 'faulty.log')
+
+
 def refused_by(program, case, old, new, words):
-    """The case (text), with the pattern `old' replaced, is refused by --check with these words."""
-    write('faulty.cfg', re.sub(old, new, case, flags=re.M))
-    if start(program, 'faulty.cfg', '--check', log='faulty.log') != 2:
-        bad('accepted: %s -> %s' % (old, new))
-    elif not says(words, 'faulty.log'):
-        bad('%s -> %s: not told "%s"' % (old, new, words), 'faulty.log')
+    """The same of the case (text) with the pattern `old' replaced."""
+    refused(program, re.sub(old, new, case, flags=re.M), words, '%s -> %s: ' % (old, new))
 
 
 def summary(folder, program=None):
@@ -206,14 +210,6 @@ def near(what, value, wanted, most, log=None):
     """A fault if a value is farther than `most' from what is wanted, or no number."""
     if not abs(value - wanted) <= most:
         bad('%s: %.8g instead of %.8g (within %.3g)' % (what, value, wanted, most), log)
-
-
-def refused(program, text, words):
-    """A fault unless --check refuses the text with these words."""
-    write('faulty.cfg', text)
-    code = start(program, 'faulty.cfg', '--check', log='faulty.log')
-    if code != 2 or not says(words, 'faulty.log'):
-        bad('exit code %d, wanted 2 and the words: %s' % (code, words), 'faulty.log')
 
 
 def close(what, value, wanted, share, log=None):

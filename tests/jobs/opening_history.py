@@ -3,7 +3,7 @@ a closed tank takes what a hydrograph lets in, and stands as high as the tide ou
 import math
 
 import lib
-from lib import alone, close, column, refused_by, start, told, write
+from lib import alone, close, column, refused, refused_by, start, told, write
 
 lib.scratch()
 write('tide.csv', '0 0.2\n0.5 0.2\n7 0.26\n12 0.26\n')
@@ -51,8 +51,8 @@ for program in 'sph', 'fv':
     told(sea, 'by tide.csv', 'out.txt')
     refused_by(program, tank(program, 5, level % 'tide.csv'), 'tide.csv', 'none.csv', 'none.csv: no such file')
     refused_by(program, tank(program, 5, level % 'tide.csv'), 'level_file', r'level = 0.2; \g<0>', 'give one of the two')
-    refused_by(program, tank(program, 5, level % 'flood.csv'), '^', '', 'level_file: 9 m is above the domain')
-refused_by('fv', tank('fv', 5, discharge % 'negative.csv'), '^', '', 'it is positive')
+    refused(program, tank(program, 5, level % 'flood.csv'), 'level_file: 9 m is above the domain')
+refused('fv', tank('fv', 5, discharge % 'negative.csv'), 'it is positive')
 # a tide of 12 s, 17 transits: in a basin closed at its other end the level swings by cos(k x)/cos(k L) of it, x from that
 # end, k = w/c of long waves
 alone('fv', 'swing', tank('fv', 24, level % 'swing.csv'))

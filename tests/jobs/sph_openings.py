@@ -2,7 +2,7 @@
 comes in and goes out, a bore has the height of its jump relations, water at rest between two levels rests.
 SPDX-License-Identifier: BSD-3-Clause"""
 import lib
-from lib import alone, bad, close, column, number, near, refused_by, says, start, told
+from lib import alone, bad, close, column, number, near, refused, says, start, told
 
 lib.scratch()
 
@@ -83,7 +83,7 @@ walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.4, 0, 0); profile = 
            { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; }, { side = "z_max"; }, { mesh = "wall.stl"; } );
 sph:     { dx = 0.05; };
 '''
-refused_by('sph', parabola, '^', '', r'walls.\[0\].profile: parabolic in 3D spans the whole side')
+refused('sph', parabola, r'walls.\[0\].profile: parabolic in 3D spans the whole side')
 lib.write('uniform.cfg', lib.varied(parabola, 'profile = "parabolic";', ''))
 if start('sph', 'uniform.cfg', '--check', log='uniform.txt') != 0:
     bad('a uniform inlet that a mesh cuts is refused', 'uniform.txt')

@@ -3,7 +3,7 @@ pressure from sph, and gives what flows in. SPDX-License-Identifier: BSD-3-Claus
 import re
 
 import lib
-from lib import bad, close, column, job, last, refused_by, told, varied
+from lib import bad, close, column, job, last, refused, refused_by, told, varied
 
 lib.scratch()
 channel = '''format = 1;
@@ -48,7 +48,7 @@ for program, titles in read_by.items():
 # what has no balance of its own is refused
 blocks = varied(channel, 'fv:      { cells = (96, 12); };', 'fv: {}; blocks: ( { cells = (96, 12); max = (3, 0.4); } );')
 outlet = 'kind = "inflow"; velocity = .*"parabolic"', 'kind = "outflow"; pressure = 0.45', 'nothing would say how much flows through it'
-refused_by('sph', blocks, '^', '', 'take fv.cells, which need none')
+refused('sph', blocks, 'take fv.cells, which need none')
 refused_by('sph', channel, *outlet)
 refused_by('sph', blocks, *outlet)
 two_boxes = 'sph_a: { dx = 0.0125; box = ((0.5, 0), (1.2, 0.4)); };\nsph_b: { dx = 0.0125; box = ((1.8, 0), (2.5, 0.4)); };'
