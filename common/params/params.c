@@ -705,6 +705,13 @@ bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, do
     return n > 0;
 }
 
+bool params_peek_any(const struct params *p, MPI_Comm comm, const char *key)
+{
+    bool there = value_of(p, key) != NULL;
+    MPI_Bcast(&there, 1, MPI_C_BOOL, 0, comm);
+    return there;
+}
+
 static bool marked(const struct params *p, const char *key, const char *mark)
 {
     char word[168], buffer[160];

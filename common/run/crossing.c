@@ -89,7 +89,8 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
     return inside;
 }
 
-/* Whether the box of some group of particles moves: a gauge at rest may lie in it for a while. */
+/* Whether the box of some group of particles, this program's or another's, moves: a gauge at rest
+ * may lie in it for a while. Collective. */
 static bool any_moves(const struct run *r)
 {
     char names[PARAM_PROGRAMS_MAX][64], key[96];
@@ -97,9 +98,9 @@ static bool any_moves(const struct run *r)
     bool moves = false;
     for (int k = 0; k < n; k++) {
         snprintf(key, sizeof key, ":%.63s.box_velocity", names[k]);
-        moves = moves || params_given(r->params, key);
+        moves = params_peek_any(r->params, r->comm, key) || moves;
         snprintf(key, sizeof key, ":%.63s.box_follows", names[k]);
-        moves = moves || params_given(r->params, key);
+        moves = params_peek_any(r->params, r->comm, key) || moves;
     }
     return moves;
 }

@@ -26,7 +26,8 @@ output:  { every = 5.0; series = 5; };
 # Sections that no program has
 refused('sph', varied(channel, 'at = (1.4, 0); to = (1.4, 0.6)', 'at = (0.8, 0.2); to = (1.4, 0.2)'),
         'mid: .* end its section at the box of the particles, .1, 0. to .2.6, 0.6. m')
-refused('sph', varied(channel, 'R_dx = 3; box', 'R_dx = 3; box_velocity = (0.1, 0); box'), 'mid: .* the box of the particles moves')
+for program in 'sph', 'fv':
+    refused(program, varied(channel, 'R_dx = 3; box', 'R_dx = 3; box_velocity = (0.1, 0); box'), 'mid: .* the box of the particles moves')
 
 
 def later(program, title):
