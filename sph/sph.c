@@ -26,30 +26,11 @@ static const double PAIRS_OF_TOUCH = 20.0;
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */
 
-/* Part of the region that is fluid at the start, by a few thousand samples; of walls and bodies
- * meshes alone are taken off. */
-static double share_of_fluid(const struct run *r, const struct sph_params *prm)
-{
-    const int dim = r->scene.domain.dim, m = dim == 2 ? 96 : 24;
-    const struct exact e = exact_create(&r->scene);
-    int in = 0;
-    for (int k = 0; k < (dim == 3 ? m : 1); k++)
-        for (int j = 0; j < m; j++)
-            for (int i = 0; i < m; i++) {
-                const int at[3] = {i, j, k};
-                double x[3] = {0.0, 0.0, 0.0};
-                for (int a = 0; a < dim; a++)
-                    x[a] = prm->box[0][a] + (at[a] + 0.5) / m * (prm->box[1][a] - prm->box[0][a]);
-                in += scene_matter(&r->scene, &e, x) == MATTER_FLUID;
-            }
-    return in / pow(m, dim);
-}
-
 /* About how many particles the run will have. */
 static double lattice(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
-    double n = share_of_fluid(r, prm);
+    double n = first_water_share(r, prm);
     for (int a = 0; a < r->scene.domain.dim; a++)
         n *= round((prm->box[1][a] - prm->box[0][a]) / prm->dx);
     return n;
@@ -252,6 +233,8 @@ static void warn_of(const struct run *r)
             "the others, whose masses do not follow their packing, the level wanders by a tenth "
             "in ten transits");
     sph_meshes_warn(r, prm);
+    if (!sph_params_zones(r, prm))
+        first_water_warn(r, prm);
     warn_of_passage(r, prm);
     sph_falls_warn(r, prm);
     if (prm->cfl > 0.85 * bound)

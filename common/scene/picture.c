@@ -9,6 +9,7 @@
 #include "../base/base.h"
 #include "../files/files.h"
 #include "picture_section.h"
+#include "scene_lines.h"
 #include "scene_probe.h"
 #include "scene_waves.h"
 
@@ -238,7 +239,7 @@ static void wave_zones(struct picture *p)
 
 /* --- sections through meshes --- */
 
-enum { RASTER = 240, EDGES = 6000, BEYOND = 6 /* px around the domain */ };
+enum { RASTER = 360, EDGES = 6000, BEYOND = 6 /* px around the domain */ };
 
 /* Where the views cut: the middle of the first body or obstacle, seen from above half way to that
  * of the water; without one of the water. */
@@ -255,31 +256,42 @@ static double place_of_cut(const struct scene *s, int axis)
     return water;
 }
 
-/* Rows of a raster, as runs of what is at their places. */
-static void paint_raster(struct picture *p, const struct exact *e, double cut)
+/* What a place is painted with: in a section water and what is solid; in the plane what open lines
+ * leave out, over the water of the shapes. NULL: nothing. */
+static const char *fill_at(const struct picture *p, const struct exact *e, const double *x)
 {
+    const struct scene *s = p->s;
+    if (!s->meshes)
+        return scene_is_behind_lines(s, x) ? "white" : NULL;
+    const enum scene_matter is = scene_matter(s, e, x);
+    return is == MATTER_NONE ? NULL : style[is == MATTER_FLUID ? PICTURE_WATER : PICTURE_BODY].fill;
+}
+
+/* Rows of a raster, as runs of what is at their places. */
+static void paint_raster(struct picture *p, double cut)
+{
+    const struct exact e = exact_create(p->s);
     const double step = fmax(p->hi[0] - p->lo[0], p->hi[1] - p->lo[1]) / RASTER;
     const int n[2] = {(int)ceil((p->hi[0] - p->lo[0]) / step),
                       (int)ceil((p->hi[1] - p->lo[1]) / step)};
     for (int j = 0; j < n[1]; j++) {
-        enum scene_matter before = MATTER_NONE;
+        const char *before = NULL;
         int start = 0;
         for (int i = 0; i <= n[0]; i++) {
             double x[3] = {cut, cut, cut};
             x[p->axis[0]] = p->lo[0] + (i + 0.5) * step;
             x[p->axis[1]] = p->lo[1] + (j + 0.5) * step;
-            const enum scene_matter is = i < n[0] ? scene_matter(p->s, e, x) : MATTER_NONE;
+            const char *is = i < n[0] ? fill_at(p, &e, x) : NULL;
             if (is == before)
                 continue;
-            if (before != MATTER_NONE) {
-                const double y = p->lo[1] + (j + 1) * step;
-                fprintf(p->f, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"",
-                        px(p, p->lo[0] + start * step), py(p, y), p->scale * (i - start) * step,
-                        p->scale * step + 0.3);
-                fprintf(p->f, " fill=\"%s\" shape-rendering=\"crispEdges\"/>\n",
-                        style[before == MATTER_FLUID ? PICTURE_WATER : PICTURE_BODY].fill);
-                p->used[before == MATTER_FLUID ? PICTURE_WATER : PICTURE_BODY] = true;
-            }
+            if (before)
+                fprintf(p->f,
+                        "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\" "
+                        "shape-rendering=\"crispEdges\"/>\n",
+                        px(p, p->lo[0] + start * step), py(p, p->lo[1] + (j + 1) * step),
+                        p->scale * (i - start) * step, p->scale * step + 0.3, before);
+            p->used[PICTURE_WATER] |= before == style[PICTURE_WATER].fill;
+            p->used[PICTURE_BODY] |= before == style[PICTURE_BODY].fill;
             before = is;
             start = i;
         }
@@ -332,7 +344,6 @@ static void cut_lines(struct picture *p, const struct scene_mesh *is, enum pictu
 static void section(struct picture *p)
 {
     const struct scene *s = p->s;
-    const struct exact e = exact_create(s);
     const int off = 3 - p->axis[0] - p->axis[1];
     const double cut = place_of_cut(s, off);
     fprintf(p->f,
@@ -341,7 +352,7 @@ static void section(struct picture *p)
             off, px(p, p->lo[0]) - BEYOND, py(p, p->hi[1]) - BEYOND,
             p->scale * (p->hi[0] - p->lo[0]) + 2 * BEYOND,
             p->scale * (p->hi[1] - p->lo[1]) + 2 * BEYOND, off);
-    paint_raster(p, &e, cut);
+    paint_raster(p, cut);
     for (int k = 0; k < s->meshes->n; k++)
         edges(p, &s->meshes->of[k].mesh);
     for (int k = 0; k < s->meshes->n; k++) {
@@ -368,6 +379,8 @@ static void water(struct picture *p, bool first)
         picture_box(p, PICTURE_WATER, s->domain.min, s->domain.max, NULL);
     for (int k = 0; k < s->nshapes && !s->meshes; k++)
         shape(p, s->shapes + k);
+    if (scene_has_open_lines(s))
+        paint_raster(p, 0.0);
     if (first)
         fputs("</g>\n", p->f);
 }

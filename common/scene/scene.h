@@ -16,6 +16,7 @@
 #include "scene_fluid.h"
 #include "scene_geometry.h"
 #include "scene_groups.h"
+#include "scene_lines.h"
 #include "scene_mesh.h"
 #include "scene_openings.h"
 #include "scene_outlines.h"

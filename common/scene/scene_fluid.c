@@ -7,6 +7,7 @@
 #include "../base/base.h"
 #include "scene_cut.h"
 #include "scene_geometry.h"
+#include "scene_lines.h"
 #include "scene_mesh.h"
 
 double scene_still_gravity(const struct scene *s, double still[3])
@@ -238,112 +239,6 @@ bool scene_in_tanks(const struct scene *s, const double *x)
     return true;
 }
 
-static bool wet(const struct scene *s, const struct exact *e, const double *x)
-{
-    for (int a = 0; a < 2; a++)
-        if (x[a] <= s->domain.min[a] || x[a] >= s->domain.max[a])
-            return false;
-    return scene_is_fluid(s, e, x, NULL);
-}
-
-/* Shares of a line's length that have fluid close by on the left and on the right. */
-static void sides_of(const struct scene *s, const struct line *l, double share[2])
-{
-    const struct exact e = exact_create(s);
-    const double whole = line_length(l), off = 1e-4 * line_size(l);
-    enum { PLACES = 400 };
-    share[0] = share[1] = 0.0;
-    for (int k = 0; k < line_segments(l); k++) {
-        const double *a = l->x[k], *b = l->x[(k + 1) % l->n];
-        const double d[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(d[0], d[1]);
-        const int n = 1 + (int)(PLACES * length / whole);
-        for (int i = 0; i < n && length > 0.0; i++)
-            for (int right = 0; right < 2; right++) {
-                const double f = (i + 0.5) / n, h = (right ? -off : off) / length;
-                const double x[3] = {a[0] + f * d[0] - h * d[1], a[1] + f * d[1] + h * d[0], 0.0};
-                share[right] += wet(s, &e, x) ? length / n / whole : 0.0;
-            }
-    }
-}
-
-/* Whether walls stand around wall k: sides of the domain, or a larger closed line. */
-static bool is_enclosed(const struct scene *s, int k)
-{
-    const struct line l = line_of(&s->walls[k].points, true);
-    bool any = false;
-    for (int m = 0; m < s->nwalls; m++) {
-        const struct scene_wall *w = s->walls + m;
-        const struct line o = line_of(&w->points, true);
-        any = any || (w->side != SIDE_NONE && w->kind < WALL_INFLOW) ||
-              (m != k && w->closed && line_inside(&o, l.x[0]) &&
-               fabs(line_area(&o)) > fabs(line_area(&l)));
-    }
-    return any;
-}
-
-/* The side of the domain on which, or beyond which, both ends of a line lie; -1: none. */
-static int side_of_ends(const struct scene *s, const struct line *l)
-{
-    int side = -1;
-    for (int a = 0; a < 2; a++) {
-        const double lo = s->domain.min[a], hi = s->domain.max[a], near = 1e-6 * (hi - lo);
-        const double from = l->x[0][a], to = l->x[l->n - 1][a];
-        side = fmax(from, to) < lo + near ? 2 * a : side;
-        side = fmin(from, to) > hi - near ? 2 * a + 1 : side;
-    }
-    return side;
-}
-
-/* The water that line k would hold, between itself and the side from which it hangs, over all water
- * of the shapes. */
-static double share_held(const struct scene *s, int k)
-{
-    enum { ACROSS = 200 };
-    const struct exact e = exact_create(s);
-    const struct line l = line_of(&s->walls[k].points, true);
-    const double *lo = s->domain.min, *hi = s->domain.max;
-    int n[2] = {0, 0};
-    for (int i = 0; i < ACROSS * ACROSS; i++) {
-        const double x[3] = {lo[0] + (i % ACROSS + 0.5) / ACROSS * (hi[0] - lo[0]),
-                             lo[1] + (i / ACROSS + 0.5) / ACROSS * (hi[1] - lo[1]), 0.0};
-        n[line_inside(&l, x)] += wet(s, &e, x);
-    }
-    return (double)n[1] / fmax(1.0, n[0] + n[1]);
-}
-
-/* An open line with water on both sides that hangs from a side of the domain, between other walls,
- * is a baffle and not the only tank: what is inside it is solid. On the floor, where it is a roof
- * over what it would hold, it is a dyke as long as most of the water is around it. */
-static bool is_baffle_inside_out(const struct scene *s, int k, const double share[2])
-{
-    const struct line open = line_of(&s->walls[k].points, false);
-    const struct line shut = line_of(&s->walls[k].points, true);
-    const int side = side_of_ends(s, &open);
-    if (open.n < 3 || !(line_area(&shut) > 0.0) || side < 0 || !is_enclosed(s, k))
-        return false;
-    const double down = s->fluid.gravity[side / 2] * (side % 2 ? 1.0 : -1.0);
-    const bool stands = down > 0.0 && share[1] > 0.5 * share[0];
-    return share_held(s, k) < (stands ? 0.5 : 1.0 / 11.0); /* a tenth of what is around it */
-}
-
-/* An open line is turned when hardly half as much of it has fluid on its left as on its right:
- * those of an island between two waters, or of a fillet in a corner, are equal or nearly so; or
- * when it is a baffle that would hold the water inside itself. A closed one may be a tank in which
- * the shapes let water go on through its walls, or an island: it is turned if all fluid is on its
- * right, or if it is a tank by its sense, with water around, inside other walls: an island. */
-static bool is_reversed(const struct scene *s, int k)
-{
-    const struct scene_wall *w = s->walls + k;
-    const struct line l = line_of(&w->points, w->closed);
-    double share[2];
-    sides_of(s, &l, share);
-    if (!w->closed)
-        return share[0] < 0.5 * share[1] || is_baffle_inside_out(s, k, share);
-    if (share[0] > 0.01 && share[1] > 0.01)
-        return line_area(&l) > 0.0 && is_enclosed(s, k);
-    return share[0] < share[1];
-}
-
 static void close_line(struct param_points *p, bool *closed)
 {
     struct line l = line_of(p, *closed);
@@ -369,7 +264,7 @@ void scene_orient(struct scene *s)
         if (w->side != SIDE_NONE || w->points.n < 2)
             continue;
         close_line(&w->points, &w->closed);
-        w->turned = is_reversed(s, k);
+        w->turned = scene_line_is_reversed(s, k);
         if (w->turned)
             points_reverse(&w->points);
     }

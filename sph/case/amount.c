@@ -13,8 +13,7 @@
 #include "rooms.h"
 #include "sph_sense.h"
 
-static const double least_told = 0.005;  /* of the water */
-static const double least_parted = 0.02; /* of the water that shapes draw, behind partitions */
+static const double least_told = 0.005; /* of the water */
 
 /* Whether a cell has filled and unfilled ones around it, itself among them; beyond the lattice is
  * none. */
@@ -38,15 +37,6 @@ static void look_around(const struct sph *s, const struct lattice *l, int64_t ce
         *any = *any || filled;
         *all = *all && filled;
     }
-}
-
-/* Open lines part what is before them from what is behind. */
-static bool has_open_lines(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || (c->walls[k].side == SIDE_NONE && !c->walls[k].closed);
-    return any;
 }
 
 /* Whether x is on the water's side of open lines: some filled cell around has no line before it. */
@@ -85,21 +75,8 @@ static double share_of(const struct sph *s, const struct lattice *l, const struc
 struct asked {
     struct exact exact;
     bool lines;
-    double cells, behind; /* water in cells, and what of the shapes' water open lines leave out */
-    double open;          /* what of that has nothing above it */
+    double cells; /* water in cells */
 };
-
-/* Whether no line or body is above x; so it is under a beach, and not behind a partition. */
-static bool is_open_above(const struct scene *c, const double *x)
-{
-    double g[3], up[3], room = 0.0;
-    const double size = scene_still_gravity(c, g);
-    for (int a = 0; a < c->domain.dim; a++)
-        room += c->domain.max[a] - c->domain.min[a];
-    for (int a = 0; a < 3; a++)
-        up[a] = size > 0.0 ? -room * g[a] / size : 0.0;
-    return size > 0.0 && !sph_falls_stopped(c, x, up);
-}
 
 static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                      void *ctx)
@@ -109,38 +86,6 @@ static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const
     look_around(s, l, cell, &any, &all);
     if (any)
         to->cells += all ? 1.0 : share_of(s, l, &to->exact, to->lines, centre);
-    else if (to->lines && scene_is_fluid(&s->run->scene, &to->exact, centre, NULL) &&
-             scene_is_room(&s->run->scene, centre)) {
-        to->behind += 1.0;
-        to->open += is_open_above(&s->run->scene, centre);
-    }
-}
-
-static bool has_wall_sides(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || (c->walls[k].side != SIDE_NONE && c->walls[k].kind < WALL_INFLOW);
-    return any;
-}
-
-/* More water left out than kept: of the lines one runs the wrong way, or the shapes are wrong. A
- * line that is all there is of a tank may leave out what a level draws beyond it. */
-static void check_behind(const struct sph *s, double kept, double behind, double open)
-{
-    const double all = behind + kept;
-    if (behind <= kept && open > least_parted * all && has_wall_sides(&s->run->scene))
-        log_warn("lines among the walls leave out %.2g %% of the water that the shapes draw, with "
-                 "air above, %.3g of %.3g m^%d, which lies behind them: a line has fluid on its "
-                 "left alone. If water is meant there, too, draw the partition as a body; if not, "
-                 "draw the shapes before the lines alone",
-                 100.0 * open / all, open, all, s->dim);
-    if (behind > kept && has_wall_sides(&s->run->scene))
-        log_warn(
-            "lines among the walls leave out %.2g %% of the water that the shapes draw, "
-            "%.3g of %.3g m^%d, which lies behind them: a line has its fluid on its left; "
-            "reverse the points of one that has not, or draw the shapes before the lines alone",
-            100.0 * behind / (behind + kept), behind, behind + kept, s->dim);
 }
 
 void amount_check(struct sph *s, const struct lattice *l)
@@ -148,13 +93,12 @@ void amount_check(struct sph *s, const struct lattice *l)
     if (rooms_parted(s) || s->zones)
         return;
     struct asked asked = {.exact = exact_create(&s->run->scene),
-                          .lines = has_open_lines(&s->run->scene)};
+                          .lines = scene_has_open_lines(&s->run->scene)};
     first_lattice_each_own(s, l, add_cell, &asked);
-    double sums[4] = {asked.cells * s->dxD, 0.0, asked.behind * s->dxD, asked.open * s->dxD};
+    double sums[2] = {asked.cells * s->dxD, 0.0};
     for (int i = 0; i < s->p.n; i++)
         sums[1] += state_row(&s->p, s->p.y, i)[at_volume(s->dim)];
-    MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    check_behind(s, sums[0], sums[2], sums[3]);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double off = sums[1] / sums[0] - 1.0;
     if (fabs(off) > least_told)
         log_warn(

@@ -3,6 +3,7 @@
 #ifndef SPH_CASE_DOOR_H
 #define SPH_CASE_DOOR_H
 
+#include "first_water.h"
 #include "sph_params.h"
 #include "sph_sense.h"
 #include "sph_state.h"

@@ -1,8 +1,10 @@
 """Water that hangs by suction, or that a line cuts off, is told at the start, a U-tube of ten particles an arm is not warned of;
 figures of a run that water leaves do not depend on where the origin is, and hold no balance that nobody has booked.
 SPDX-License-Identifier: BSD-3-Clause"""
+import re
+
 import lib
-from lib import TANK, changed, check, number, run_case, says, sides
+from lib import TANK, changed, check, column, near, number, run_case, says, sides
 
 lib.scratch()
 BOX = '{ form = "box"; box = ((%g, %g), (%g, %g)); }'
@@ -22,6 +24,16 @@ parted = changed(tank, shapes='{ form = "below"; level = 0.4; }')
 run_case('parted', changed(parted, walls=LINE % '(0.2, 1), (0.2, 0)'), words='^warning: lines among the walls leave out 1[5-7] %')
 run_case('beach', changed(parted, walls=LINE % '(0.7, 0), (1.2, 0.6)'))
 check(not says('leave out', 'beach.txt'), 'a beach is taken for a partition', 'beach.txt')
+# where water is drawn on both sides of a line, gravity says which is meant: above a bed, below what cuts off an upper
+# corner; a check counts the particles that the run has
+for name, line in ('beach', '(1.2, 0.6), (0.7, 0)'), ('ceiling', '(0.7, 1), (1.2, 0.1)'):
+    run_case(name + '_back', changed(parted, walls=LINE % line), words='^wall 4: its points had the fluid on their right: turned')
+run_case('ceiling', changed(parted, walls=LINE % '(1.2, 0.1), (0.7, 1)'))
+check(not says('turned', 'ceiling.txt'), 'a ceiling that is drawn right is turned', 'ceiling.txt')
+for name in 'beach', 'ceiling':
+    near('water, kg', column(name + '_back', 'mass')[0], column(name, 'mass')[0], 1e-6)
+    about = float(re.search(r'^about (\d+) particles', open(name + '.txt').read(), re.M).group(1))
+    near('particles of a check', about, column(name, 'particles')[0], 0.02 * about)
 
 # a column that falls out over an edge, and the same 3 m lower
 for name, low in ('spill', 0), ('lower', -3):

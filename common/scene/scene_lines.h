@@ -1,0 +1,18 @@
+/* scene_lines.h - polylines of walls in the plane: which of their sides is the fluid's, and what
+ * open ones leave out behind them. Local to a rank.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_SCENE_LINES_H
+#define COMMON_SCENE_LINES_H
+
+#include "scene_groups.h"
+
+/* Whether the points of wall k, a polyline, must be reversed to have the fluid on their left. */
+bool scene_line_is_reversed(const struct scene *s, int k);
+/* Whether some wall is an open polyline. */
+bool scene_has_open_lines(const struct scene *s);
+/* Whether the nearest of the open polylines has x, m, on its right, where no fluid is. A line
+ * continues straight beyond an end on a side of the domain; beyond another end nothing is behind
+ * it. */
+bool scene_is_behind_lines(const struct scene *s, const double *x);
+
+#endif
