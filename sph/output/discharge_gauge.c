@@ -2,19 +2,23 @@
  * the section and h the hat function of half width 2 dx,
  *   Q = sum_j w_j (u_j.n) h((x_j - x_s).n) share_j,
  * share_j the part of the particle's cell, as wide as its spacing along each direction of the
- * section, that lies between its ends. The integral of h is 1, so Q is exact for a lattice. The
- * width of h is that of the coarsest level for all, since it must be wide against the spacing of
- * each. Particles count with their images across periods; a section closer than 3 dx to a side
- * through which fluid leaves or enters is read that far inside, where h has particles on both
- * sides, and none that a face of the side still holds. Called once per row of the series.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * section, that lies between its ends. At an end that stands on a wall no cell is cut, for in films
+ * particles come nearer to the wall than half of their spacing, and a sloping wall is lower on one
+ * side of the section: there all count that have no wall between themselves and the end. The
+ * integral of h is 1, so Q is exact for a lattice. The width of h is that of the coarsest level for
+ * all, since it must be wide against the spacing of each. Particles count with their images across
+ * periods; a section closer than 3 dx to a side through which fluid leaves or enters is read that
+ * far inside, where h has particles on both sides, and none that a face of the side still holds.
+ * Called once per row of the series. SPDX-License-Identifier: BSD-3-Clause */
 #include "discharge_gauge.h"
 
 #include <math.h>
 
 #include "../../common/scene/scene.h"
+#include "../walls/sph_walls.h"
 
 static const double half = 2.0, inside = 3.0; /* dx: half width of the hat; from open sides */
+static const double beside = 0.25;            /* dx: from an end, where walls are looked for */
 
 /* direction.(x - from), or direction.x with from NULL. */
 static double project(const double *direction, const double *x, const double *from, int dim)
@@ -29,6 +33,7 @@ static double project(const double *direction, const double *x, const double *fr
 struct gauge_section {
     struct probe_section is;
     double at[3], width; /* m: one corner; half width of the hat function */
+    bool stands[2][2];   /* the lower and upper end along each direction: on a wall */
 };
 
 /* Whether nothing holds fluid back at a side of the region. */
@@ -37,6 +42,23 @@ static bool is_passable(const struct sph *s, int side)
     const struct scene_wall *w =
         scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
     return !s->periodic[side / 2] && (s->open[side] || !w || scene_wall_opens(w));
+}
+
+/* Whether a wall or a closed side is at an end of the section, in the middle of its breadth. */
+static bool stands_on_wall(const struct sph *s, const struct gauge_section *c, int k, int end)
+{
+    double x[3] = {0.0, 0.0, 0.0}, d[3] = {0.0, 0.0, 0.0};
+    bool out = false;
+    for (int a = 0; a < s->dim; a++) {
+        x[a] = c->at[a];
+        for (int m = 0; m < c->is.n; m++)
+            x[a] += c->is.along[m][a] * c->is.length[m] * (m == k ? end : 0.5);
+        d[a] = (end ? 1.0 : -1.0) * 2.0 * beside * s->dx * c->is.along[k][a];
+        x[a] -= 0.5 * d[a];
+        const int side = x[a] + d[a] < s->lo[a] ? 2 * a : x[a] + d[a] > s->hi[a] ? 2 * a + 1 : -1;
+        out = out || (side >= 0 && !s->periodic[a] && !is_passable(s, side));
+    }
+    return out || (s->walls && walls_meet(s, x, d) < 1.0);
 }
 
 /* What is outside the region stays there. */
@@ -54,6 +76,8 @@ static struct gauge_section place(const struct sph *s, const struct scene_probe 
         if (x > hi - depth && is_passable(s, 2 * a + 1))
             c.at[a] = hi - depth;
     }
+    for (int k = 0; k < 2 * c.is.n; k++)
+        c.stands[k / 2][k % 2] = stands_on_wall(s, &c, k / 2, k % 2);
     return c;
 }
 
@@ -77,23 +101,46 @@ static bool image(const struct sph *s, const struct gauge_section *c, int k, dou
     return digits == 0;
 }
 
-/* The sum over the flowing particles of one level of this rank, shifted, m^dim/s. */
-static double flow_of(const struct sph *s, const struct gauge_section *c, const double *shift)
+/* Whether nothing is between the particle at x, d m off the section, and its end, which is `up' m
+ * up from the particle along direction k. */
+static bool reaches_end(const struct sph *s, const struct gauge_section *c, int k, double up,
+                        const double *x, double d)
 {
-    double sum = 0.0, from[3];
+    double way[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < s->dim; a++)
-        from[a] = c->at[a] - shift[a];
+        way[a] = up * c->is.along[k][a] - d * c->is.across[a];
+    return !s->walls || walls_meet(s, x, way) >= 1.0;
+}
+
+/* Part of the cell of the particle at x, d m off the section, that is between its ends along
+ * direction k; `at' is its place there, m. */
+static double share_between(const struct sph *s, const struct gauge_section *c, int k, double at,
+                            const double *x, double d)
+{
+    const double length = c->is.length[k], near = beside * s->dx;
+    double low = at / s->dx + 0.5, high = (length - at) / s->dx + 0.5, most = length / s->dx;
+    if (c->stands[k][0] && low < 1.0)
+        low = at >= 0.0 || (at > -c->width && reaches_end(s, c, k, near - at, x, d));
+    if (c->stands[k][1] && high < 1.0)
+        high = at <= length ||
+               (at < length + c->width && reaches_end(s, c, k, length - near - at, x, d));
+    if (c->stands[k][0] && c->stands[k][1])
+        most = 1.0;
+    return fmax(0.0, fmin(fmin(low, high), fmin(1.0, most)));
+}
+
+/* The sum over the flowing particles of one level of this rank, m^dim/s. */
+static double flow_of(const struct sph *s, const struct gauge_section *c)
+{
+    double sum = 0.0;
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i);
-        const double d = fabs(project(c->is.across, q, from, s->dim)) / c->width;
-        double part = d < 1.0 ? (1.0 - d) / c->width : 0.0;
+        const double d = project(c->is.across, q, c->at, s->dim), off = fabs(d) / c->width;
+        double part = off < 1.0 ? (1.0 - off) / c->width : 0.0;
         if (part == 0.0 || particles_is_guard(&s->p, i))
             continue;
-        for (int k = 0; k < c->is.n; k++) {
-            const double at = project(c->is.along[k], q, from, s->dim) / s->dx;
-            const double end = c->is.length[k] / s->dx;
-            part *= fmax(0.0, fmin(fmin(at + 0.5, end - at + 0.5), fmin(1.0, end)));
-        }
+        for (int k = 0; k < c->is.n && part > 0.0; k++)
+            part *= share_between(s, c, k, project(c->is.along[k], q, c->at, s->dim), q, d);
         sum += part * q[at_volume(s->dim)] * project(c->is.across, q + s->dim, NULL, s->dim);
     }
     return sum;
@@ -102,10 +149,15 @@ static double flow_of(const struct sph *s, const struct gauge_section *c, const 
 double discharge_gauge(struct sph *s, const struct scene_probe *g)
 {
     const struct gauge_section c = place(s, g);
-    double sum = 0.0, shift[3];
-    for (int k = 0; k < 27; k++)
-        for (const struct sph *q = s; q && image(s, &c, k, shift); q = q->finer)
-            sum += flow_of(q, &c, shift);
+    double sum = 0.0, shift[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < 27; k++) {
+        if (!image(s, &c, k, shift))
+            continue;
+        struct gauge_section shifted = c;
+        vec3_add(shifted.at, -1.0, shift);
+        for (const struct sph *q = s; q; q = q->finer)
+            sum += flow_of(q, &shifted);
+    }
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     return sum;
 }

@@ -204,5 +204,14 @@ for program in 'sph', 'fv':
     if start(program, 'parts.cfg', '--check', log='parts.txt') != 0:
         bad(program + ' refuses gauges in one part', 'parts.txt')
     refused(program, varied(parts, '"w1 w2"', '"w1 w3"'), 'w1 and w3 are read by different programs')
+# a film of two rows that overtops a dyke: all of it through a section that stands on the crest, or begins in the dyke, or on
+# the slope behind, where particles are nearer to the wall than half of their spacing
+run_case('overtops', scene(0.6, '''fluid: { gravity = (0, -9.81); }; domain: { max = (1.2, 0.6); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } );
+bodies: ( { points = ((0.3, 0), (0.4, 0.2), (0.6, 0.2), (0.8, 0)); } );
+shapes: ( { box = ((0.4, 0.2), (0.5, 0.24)); velocity = (1, 0); } ); probes: ( %s ); sph: { dx = 0.02; };
+''' % probes('discharge', 'crest 0.58, 0.2 to 0.58, 0.5', 'slope 0.7, 0.1 to 0.7, 0.4', 'deep 0.58, 0.1 to 0.58, 0.5')))
+for gauge in 'crest', 'slope', 'deep':
+    volume('overtops', gauge, 0.004, 0.03)
 lib.end('a body takes a gauge along: %.6g Pa/m (-9810), one that stands %.4g; before a wall off by %.3g; %d faults'
         % (share('with'), share('stands'), off, lib.failed))
