@@ -158,24 +158,56 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
     here[nq] = -1.0;
 }
 
-/* This rank's samples; those in boxes are dry. v[3]: the level set, or -step without a surface, so
- * that all of it is wet. */
+/* Velocity at a sample, and the distance to the surface there; without a surface -step, so that all
+ * of it is wet. */
+static void look_at(const struct fv *s, const struct flow_samples *f, const double *x, int *i,
+                    double *w, double *v)
+{
+    if (s->blocked)
+        look_past_boxes(s, x, i, w);
+    for (int a = 0; a < s->dim; a++)
+        v[a] = f->across[a] != 0.0 ? value_of(s, s->u[a], x, i, w) : 0.0;
+    v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f->step;
+}
+
+/* The water that crosses a sample where cells keep their share of it: what crossed the
+ * faces of its cell in the last advance, so that films and jets which phi does not resolve
+ * count. All of the sample is wet. */
+static void look_at_shares(const struct fv *s, const struct flow_samples *f, const int *i,
+                           const double *w, double *v)
+{
+    int cell[3];
+    double at[3];
+    for (int a = 0; a < 3; a++) {
+        const double *e = a == 1 && s->b.rows ? s->b.rows->edge + s->b.lo[1] + i[1] : NULL;
+        const double lower = e ? (e[1] - e[0]) / (e[2] - e[0]) : 0.5; /* of the way to the next */
+        const bool up = w[a] >= lower;
+        cell[a] = i[a] + up;
+        at[a] = up ? 0.5 * (w[a] - lower) / (1.0 - lower) : 0.5 + 0.5 * w[a] / lower;
+    }
+    for (int a = 0; a < s->dim; a++)
+        v[a] = f->across[a] == 0.0
+                   ? 0.0
+                   : fraction_passed(s, block_at(&s->b, cell[0], cell[1], cell[2]), a, at[a]);
+    v[3] = -f->step;
+}
+
+/* This rank's samples; those in boxes are dry. */
 static double discharge_of(struct fv *s, const struct scene_probe *g)
 {
     struct flow_samples f = flow_samples_create(s, g);
+    const struct fraction *fraction = s->surface ? s->surface->fraction : NULL;
+    const bool shares = fraction && fraction->carries > 0.0 && fraction->has_passed;
     for (int k = 0; k < f.n; k++) {
         int i[3];
-        double w[3], *v = f.value[k];
-        v[3] = f.step;
-        if (!locate(s, f.x[k], i, w))
+        double w[3];
+        f.value[k][3] = f.step;
+        if (!locate(s, f.x[k], i, w) || is_blocked(s, host_at(s, i, w)))
             continue;
-        if (is_blocked(s, host_at(s, i, w)))
-            continue;
-        if (s->blocked)
-            look_past_boxes(s, f.x[k], i, w);
-        for (int a = 0; a < s->dim; a++)
-            v[a] = f.across[a] != 0.0 ? value_of(s, s->u[a], f.x[k], i, w) : 0.0;
-        v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f.step;
+        if (shares)
+            look_at_shares(s, &f, i, w, f.value[k]);
+        else
+            look_at(s, &f, f.x[k], i, w, f.value[k]);
     }
     const double sum = flow_samples_sum(&f, s->dim);
     flow_samples_free(&f);

@@ -170,7 +170,8 @@ void fraction_free(struct fraction **fp)
         return;
     FREE(f->C, f->layer, f->alpha, f->volume, f->flux, f->work, f->next);
     for (int a = 0; a < 3; a++)
-        FREE(f->n[a], f->flow[a], f->area[a], f->height[a], f->cosine[a][1], f->cosine[a][2]);
+        FREE(f->n[a], f->flow[a], f->area[a], f->height[a], f->cosine[a][1], f->cosine[a][2],
+             f->passed[a]);
     FREE(f->air, f->smooth, f);
     *fp = NULL;
 }
@@ -204,9 +205,19 @@ static bool has_boxes(const struct fv *s)
     return any;
 }
 
+static bool has_discharge_gauge(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nprobes; k++)
+        any = any || c->probes[k].kind == PROBE_DISCHARGE;
+    return any;
+}
+
 void fraction_start(struct fv *s)
 {
     s->surface->fraction = create(s);
+    for (int a = 0; a < s->dim && has_discharge_gauge(&s->run->scene); a++)
+        s->surface->fraction->passed[a] = NEW(double, s->size);
     s->surface->fraction->boxes = has_boxes(s);
     s->surface->fraction->first = first_axis(s);
     fraction_take(s);
@@ -429,13 +440,16 @@ static void update_row(const struct fraction *f, int a, int64_t c, int64_t d, do
     }
 }
 
-static void sweep(struct fv *s, int a, double dt)
+/* per: 1/s, over the time of the advance. */
+static void sweep(struct fv *s, int a, double dt, double per)
 {
     struct fraction *f = s->surface->fraction;
     find_planes(s);
     memset(f->flux, 0, (size_t)s->size * sizeof(double)); /* beside cells near water, too */
     find_fluxes(s, a, dt);
     outflow_count_volumes(s, a, f->flux);
+    for (int64_t i = 0; f->passed[a] && i < s->size; i++)
+        f->passed[a][i] += f->flux[i] * per;
     FLOW_NEAR_AT (s, part, j, c, n) {
         const int64_t d = part->stride[a];
         update_row(f, a, c, d, dt, n);
@@ -483,11 +497,22 @@ void fraction_advance(struct fv *s, double dt, int n)
     f->has_flows = false;
     f->entered = 0.0;
     f->excess = excess_of(s, dt);
+    for (int a = 0; a < s->dim && f->passed[a]; a++)
+        memset(f->passed[a], 0, (size_t)s->size * sizeof(double));
+    f->has_passed = f->passed[0] != NULL;
     for (int k = 0; k < n; k++) {
         for (int a = 0; a < s->dim; a++)
-            sweep(s, ((int)f->first + a) % s->dim, dt / n);
+            sweep(s, ((int)f->first + a) % s->dim, dt / n, 1.0 / dt);
         f->first = ((int)f->first + 1) % s->dim;
         fraction_bound(s);
     }
     balance(s);
+}
+
+double fraction_passed(const struct fv *s, int64_t c, int a, double at)
+{
+    const struct fraction *f = s->surface->fraction;
+    const double *flow = f->passed[a] + c;
+    return ((1.0 - at) * flow[0] + at * flow[s->grid.part[0].stride[a]]) *
+           fraction_height(s, c, a) / f->volume[c];
 }

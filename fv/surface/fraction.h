@@ -36,6 +36,9 @@ struct fraction {
     double *height[3], *cosine[3][3];
     double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;
+    /* m^dim/s: water through the lower faces in the last advance, for gauges; NULL without any. */
+    double *passed[3];
+    bool has_passed;
     int64_t nair, air_room;
     struct air_cell *air;
     unsigned char *smooth; /* 1: phi resolves the surface here */
@@ -71,6 +74,10 @@ double fraction_volume(const struct fv *s);
 /* fraction_flow.c: sets flow from U, relative to faces that move; for blocks that move before they
  * are put elsewhere, where the divergence of U is not 0. Nothing if it is there. */
 void fraction_set_flows(struct fv *s);
+/* Water that crosses a plane normal to axis a in the uniform cell c, `at' of the way from its lower
+ * to its upper face, per area, m/s; between the faces linear. After an advance, with gauges of
+ * discharge in the scene (has_passed). */
+double fraction_passed(const struct fv *s, int64_t c, int a, double at);
 /* fraction_bounds.c: moves what cells have beyond 1 or below 0 to cells around. Collective. */
 void fraction_bound(struct fv *s);
 /* fraction_level.c: corrects phi towards the planes that have the shares. */
