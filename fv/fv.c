@@ -5,13 +5,10 @@
 #include <stdio.h>
 
 #include "../common/base/base.h"
-#include "../common/run/run.h"
-#include "../common/scene/scene.h"
 #include "../coupler/cpl_partner.h"
 #include "boundary/fv_boundary.h"
 #include "case/fv_case.h"
 #include "coupling/fv_coupling.h"
-#include "grid/fv_grid.h"
 #include "output/fv_output.h"
 #include "surface/fv_surface.h"
 #include "time/fv_time.h"

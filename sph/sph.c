@@ -5,9 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../common/base/base.h"
-#include "../common/run/run.h"
-#include "../common/scene/scene.h"
 #include "../coupler/cpl_partner.h"
 #include "bodies/sph_bodies.h"
 #include "case/sph_case.h"

@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "trimesh.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../base/base.h"

@@ -4,7 +4,6 @@
 
 #include <ctype.h>
 #include <libconfig.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

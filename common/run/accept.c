@@ -12,7 +12,6 @@
 
 #include "../base/base.h"
 #include "../files/files.h"
-#include "../params/params.h"
 
 static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};
 

@@ -8,7 +8,6 @@
 #include <stdio.h>
 
 #include "../base/base.h"
-#include "../files/files.h"
 
 /* Volume of both signs between two rows, linear between them. Of a change of sign between rates a
  * and b after the share a/(a - b) of the interval, each side of it is a triangle. volume[0] is what

@@ -1,7 +1,6 @@
 /* run_view.c - view.py beside a run's output: a script for ParaView that shows all programs of the
  * run; what it knows of the scene stands here, the rest is common/run/view.py.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 

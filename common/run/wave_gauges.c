@@ -11,8 +11,6 @@
 #include <string.h>
 
 #include "../base/base.h"
-#include "../files/files.h"
-#include "../scene/scene.h"
 #include "../waves/waves.h"
 
 /* Of the normal equations: below 0.15 errors of the places and the waves grow threefold, below

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "../base/base.h"
-#include "../waves/waves.h"
 #include "scene_currents.h"
 #include "scene_fluid.h"
 #include "wave_maker.h"

@@ -6,7 +6,6 @@
 #include "sea.h"
 
 #include <math.h>
-#include <stdint.h>
 
 #include "../base/base.h"
 

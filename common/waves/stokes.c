@@ -5,7 +5,6 @@
 #include "stokes.h"
 
 #include <math.h>
-#include <stddef.h>
 
 struct stokes stokes_create(double length, double g, double rho, double amplitude)
 {

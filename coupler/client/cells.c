@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../cpl.h"
-
 enum { FACES = 6, CORNERS = 4, NO = -1 };
 
 /* Corners of the faces in VTK's order (File formats for VTK, version 4.2), -1: a triangle. */

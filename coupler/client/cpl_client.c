@@ -13,8 +13,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "../transport/transport.h"
-
 static const double look_every = 0.05; /* s between looks at whether the others live */
 
 int client_error(struct cpl *c, int code, const char *fmt, ...)

@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "../../common/base/base.h"
 #include "near.h"
 
 static const double least_weight = 1e-6; /* sum w W below which nothing is there */

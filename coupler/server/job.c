@@ -8,7 +8,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/run/run.h"
-#include "../../common/scene/scene.h"
 
 /* clang-format off */
 #define P struct job

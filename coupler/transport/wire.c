@@ -4,7 +4,6 @@
  * 4 % of a core, 10 ms 0.33 %. SPDX-License-Identifier: BSD-3-Clause */
 #include "wire.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -12,7 +12,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../grid/fv_grid.h"
 #include "blocked.h"
 #include "carried.h"
 #include "ghosts.h"

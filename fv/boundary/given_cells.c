@@ -5,7 +5,6 @@
  * such gradient is one list of weights. SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"

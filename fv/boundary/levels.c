@@ -16,7 +16,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
-#include "../grid/fv_grid.h"
 #include "carried.h"
 #include "still.h"
 

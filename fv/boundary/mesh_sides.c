@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../grid/fv_grid.h"
 #include "carried.h"
 #include "levels.h"
 

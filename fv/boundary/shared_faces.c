@@ -4,8 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
-#include <math.h>
-
 #include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 

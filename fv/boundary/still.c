@@ -3,7 +3,6 @@
  * pressure is wanted (outputs, forces, gauges).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "still.h"
-#include "../fv.h"
 
 #include <math.h>
 

@@ -9,8 +9,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
-#include "../grid/fv_grid.h"
-#include "../surface/fv_surface.h"
 
 #define P struct blocked_params
 /* clang-format off */

@@ -9,7 +9,6 @@
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
-#include "../surface/fv_surface.h"
 #include "fv_case.h"
 
 static const char axes[] = "xyz";

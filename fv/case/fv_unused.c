@@ -11,7 +11,6 @@
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../output/fv_output.h"
-#include "../surface/fv_surface.h"
 #include "body_boxes.h"
 #include "fv_case.h"
 #include "fv_facts.h"

@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "../../common/scene/scene.h"
-#include "../boundary/fv_boundary.h"
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "fv_case.h"

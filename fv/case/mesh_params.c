@@ -3,7 +3,6 @@
 #include "../grid/fv_grid.h"
 
 #include "../fv.h"
-#include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
 #include "fv_case.h"
 #include "fv_facts.h"

@@ -8,8 +8,6 @@
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
 #include "../grid/fv_grid.h"
-#include "../output/fv_output.h"
-#include "../surface/fv_surface.h"
 #include "fv_case.h"
 
 static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};

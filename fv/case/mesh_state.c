@@ -4,7 +4,6 @@
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "../operators/fv_operators.h"
-#include "../output/fv_output.h"
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"
 

@@ -1,7 +1,6 @@
 /* shape_velocity.c - velocities that shapes add to the field at the start, in a flow without a
  * surface of its own; with one, surface_steps.c does it. SPDX-License-Identifier: BSD-3-Clause */
 #include "../../common/scene/scene.h"
-#include "../surface/fv_surface.h"
 #include "fv_case.h"
 
 enum { POINTS = 4 }; /* along each edge of a cell: where a shape cuts it, u is that to a 16th */

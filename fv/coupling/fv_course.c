@@ -11,10 +11,8 @@
 
 #include "../../common/base/base.h"
 #include "../../common/files/files.h"
-#include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
-#include "../time/fv_time.h"
 
 /* width: velocity, pressure, and phi with a surface. */
 struct course *course_create(const struct fv *s, struct patch *p, int memory)

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../grid/fv_grid.h"
 
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 

@@ -10,7 +10,6 @@
 #include <stdio.h>
 
 #include "../../common/files/files.h"
-#include "../../common/run/run.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"

@@ -9,7 +9,6 @@
  * make_fringe for all, and with imposed cells hand_over until nothing changes. Every rank does all
  * cells of all blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/base.h"
 #include "mesh_motion.h"
 #include "overset_inside.h"
 

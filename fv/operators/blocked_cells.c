@@ -9,7 +9,6 @@
 
 #include <math.h>
 
-#include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 
 /* The ghosts' rule below and above a cell near boxes, for component q along axis a. */

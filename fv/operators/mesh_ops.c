@@ -8,8 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_ops.h"
 #include "../boundary/fv_boundary.h"
-#include "../fv.h"
-#include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
 #include "operators.h"
 

@@ -10,7 +10,6 @@
 #include "../surface/fv_surface.h"
 #include "helmholtz.h"
 #include "mesh_ops.h"
-#include "operators.h"
 #include "viscous_solver.h"
 
 #include <math.h>

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"

@@ -9,7 +9,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
-#include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"
 #include "../surface/fv_surface.h"
 #include "../time/fv_time.h"

@@ -4,7 +4,6 @@
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "mesh_output.h"
-#include "output.h"
 #include "report.h"
 
 #include <math.h>

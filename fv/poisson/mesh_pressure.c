@@ -10,7 +10,6 @@
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
 #include "../grid/fv_grid.h"
-#include "../operators/fv_operators.h"
 
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>

@@ -10,7 +10,6 @@
 
 #include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
-#include "levelset.h"
 #include "mesh_view.h"
 #include "plane.h"
 

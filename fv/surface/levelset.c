@@ -6,7 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "extension_window.h"
 #include "level_ops.h"

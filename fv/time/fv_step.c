@@ -15,7 +15,6 @@
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
-#include "moving.h"
 #include "newton.h"
 #include "relax.h"
 #include "steps.h"

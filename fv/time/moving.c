@@ -21,8 +21,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/files/files.h"
-#include "../../common/geometry/geometry.h"
-#include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"

@@ -10,7 +10,6 @@
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"
 #include "newton.h"
-#include "stages.h"
 
 /* Flux through a face relative to it. */
 static double relative_flux(const struct fv *s, int a, int64_t face)

@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "../boundary/fv_boundary.h"
-#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"
 

@@ -9,7 +9,6 @@
  * h/(3 d). SPDX-License-Identifier: BSD-3-Clause */
 #include "newton.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../boundary/fv_boundary.h"

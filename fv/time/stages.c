@@ -6,8 +6,6 @@
 #include "stages.h"
 
 #include "../../common/base/base.h"
-#include "../boundary/fv_boundary.h"
-#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"

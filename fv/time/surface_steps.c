@@ -13,7 +13,6 @@
 
 #include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
-#include "../operators/fv_operators.h"
 #include "../poisson/poisson.h"
 #include "moving.h"
 #include "stages.h"

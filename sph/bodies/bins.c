@@ -5,7 +5,6 @@
 #include "bins.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include "../../common/base/base.h"

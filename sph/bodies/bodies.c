@@ -13,7 +13,6 @@
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
 #include "../rigid/sph_rigid.h"
-#include "../walls/sph_walls.h"
 #include "body_courses.h"
 #include "paddles.h"
 

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "bodies.h"

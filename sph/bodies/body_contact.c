@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../../common/geometry/geometry.h"
 #include "bodies.h"
 #include "body_touch.h"
 

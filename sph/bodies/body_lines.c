@@ -7,8 +7,6 @@
 
 #include <string.h>
 
-#include "../../common/geometry/geometry.h"
-
 int body_line_other(const struct scene *c, const struct scene_line *l)
 {
     for (int k = 0; k < c->nbodies && *l->body; k++)

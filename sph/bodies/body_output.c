@@ -5,7 +5,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/files/files.h"
-#include "../../common/geometry/geometry.h"
 #include "bodies.h"
 
 enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };

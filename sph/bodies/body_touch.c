@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../../common/geometry/geometry.h"
 
 struct touch_box {
     double lo[2], hi[2];

@@ -19,7 +19,6 @@
 #include "pack.h"
 #include "rims.h"
 #include "rooms.h"
-#include "sph_params.h"
 #include "surface_rows.h"
 
 /* In [-1, 1), a function of the particle alone, so the same on any number of ranks

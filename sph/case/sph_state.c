@@ -17,12 +17,10 @@
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"
-#include "../sph.h"
 #include "../surface/sph_surface.h"
 #include "../time/sph_time.h"
 #include "../walls/sph_walls.h"
 #include "fill.h"
-#include "sph_params.h"
 
 /* Half a period must hold R and the skin, see check_axis in sph_params.c. */
 static double widest_skin(const struct sph *s)

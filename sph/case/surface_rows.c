@@ -14,11 +14,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"
 #include "../refinement/sph_refinement.h"
-#include "../walls/sph_walls.h"
 #include "first_lattice.h"
 #include "rooms.h"
 

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"

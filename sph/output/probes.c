@@ -15,7 +15,6 @@
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "../surface/sph_surface.h"
-#include "../walls/sph_walls.h"
 #include "discharge_gauge.h"
 #include "shore.h"
 

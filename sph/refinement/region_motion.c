@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../common/base/base.h"
-#include "../../common/files/files.h"
 #include "regions.h"
 #include "regions_parts.h"
 

@@ -4,7 +4,6 @@
  * n]^T dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
-#include "../../common/geometry/geometry.h"
 #include "body_impedance.h"
 
 /* One piece of surface with the impedances `along' its normal and `across' it, rho c dS, kg/s: adds

@@ -8,7 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "surface.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"

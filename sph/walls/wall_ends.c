@@ -7,8 +7,6 @@
 
 #include <math.h>
 
-#include "../../common/scene/scene.h"
-
 /* Ends of segment k of a wall: of its points, or of the side of the domain that it is. */
 static bool segment_of(const struct scene *c, const struct scene_wall *w, int k, double a[2],
                        double b[2])

@@ -6,7 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../../common/scene/scene.h"
 
 /* A segment with the fluid on its left. */
 struct thin_face {

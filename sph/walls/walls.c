@@ -7,7 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

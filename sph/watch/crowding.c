@@ -5,7 +5,6 @@
  * which nobody takes anything from, do not count. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

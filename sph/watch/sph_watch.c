@@ -28,8 +28,6 @@
 
 #include "../../common/base/base.h"
 #include "../../common/files/files.h"
-#include "../../common/scene/scene.h"
-#include "../open_boundaries/sph_open_boundaries.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "../../fv/operators/mesh_ops.h"
-#include "../../fv/operators/viscous_solver.h"
 #include "../../fv/poisson/poisson.h"
 #include "../../fv/time/stages.h"
 #include "../unit/fv/mesh_case.h"

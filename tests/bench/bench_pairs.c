@@ -7,7 +7,6 @@
 #include "../../sph/case/sph_state.h"
 #include "../../sph/output/sph_output.h"
 #include "../../sph/pairs/neighbours.h"
-#include "../../sph/pairs/scheme.h"
 #include "../../sph/pairs/vec.h"
 #include "../../sph/parallel/domain.h"
 #include "../../sph/time/integrate.h"

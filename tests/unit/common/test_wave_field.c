@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-#include "../../../common/base/mem.h"
 #include "../../../common/waves/sea.h"
 #include "../../../common/waves/second_order.h"
 #include "../../../common/waves/wave_field.h"

@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include "../../../fv/boundary/blocked.h"
-#include "../../../fv/surface/levelset.h"
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 

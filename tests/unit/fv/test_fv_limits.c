@@ -8,7 +8,6 @@
 
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/output/output.h"
-#include "../../../fv/surface/levelset.h"
 #include "../../../fv/watch/limits.h"
 #include "../../../fv/watch/watches.h"
 

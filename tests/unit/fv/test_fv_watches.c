@@ -5,7 +5,6 @@
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
-#include "../../../fv/boundary/forcing.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/surface/fraction.h"
 #include "../../../fv/surface/levelset.h"

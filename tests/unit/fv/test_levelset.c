@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/bc.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"

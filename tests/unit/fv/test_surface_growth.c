@@ -5,7 +5,6 @@
 
 #include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
-#include "../../../fv/time/steps.h"
 #include "fv_case.h"
 
 static struct fv *start(struct fv_case *c, const char *const *overrides,

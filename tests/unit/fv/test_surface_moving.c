@@ -5,7 +5,6 @@
 
 #include "mesh_case.h"
 
-#include "../../../fv/boundary/mesh_bc.h"
 #include "../../../fv/grid/overset.h"
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"

@@ -2,7 +2,6 @@
  * gives, for as long as the run lasts, on uniform cells, graded layers and blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../../../fv/boundary/blocked.h"
-#include "../../../fv/boundary/forcing.h"
 #include "../../../fv/time/steps.h"
 #include "../../../fv/watch/watches.h"
 #include "../test.h"

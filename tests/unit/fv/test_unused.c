@@ -10,10 +10,7 @@
 #include "../../../fv/boundary/still.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/fv.h"
-#include "../../../fv/grid/mesh.h"
-#include "../../../fv/output/mesh_output.h"
 #include "../../../fv/output/output.h"
-#include "../../../fv/surface/levelset.h"
 #include "../../../fv/time/steps.h"
 
 enum { STEPS = 4, SEEN_MAX = 4096, TEXT_MAX = 4096, CANDIDATES = 12 };

@@ -4,11 +4,9 @@
 
 #include <stdlib.h>
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/neighbours.h"
-#include "../../../sph/pairs/scheme.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/time/extremes.h"
 #include "../../../sph/time/integrate.h"

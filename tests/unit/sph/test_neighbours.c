@@ -2,8 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <mpi.h>
-
 #include "../../../sph/pairs/vec.h"
 #include "sph_toy.h"
 

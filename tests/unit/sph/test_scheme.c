@@ -2,7 +2,6 @@
  * laws they must keep. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <mpi.h>
 #include <stdlib.h>
 
 #include "../../../sph/pairs/kernel.h"

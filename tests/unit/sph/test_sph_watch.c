@@ -4,10 +4,8 @@
  * what carries the flow. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/bodies/bodies.h"
 #include "../../../sph/case/sph_state.h"
-#include "../../../sph/output/sph_output.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/walls.h"

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/vec3.h"
 #include "../../../common/scene/scene_mesh.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/walls/wall_share.h"

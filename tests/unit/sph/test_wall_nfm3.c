@@ -3,10 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/case/sph_state.h"
-#include "../../../sph/output/sph_output.h"
-#include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
 #include "../../../sph/time/integrate.h"

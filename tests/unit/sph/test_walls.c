@@ -3,13 +3,10 @@
  * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/probes.h"
-#include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/eigenvalue.h"
 #include "../../../sph/pairs/kernel.h"
-#include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
 #include "../../../sph/time/integrate.h"
