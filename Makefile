@@ -95,6 +95,7 @@ $(examples): $(B)/examples/%: $(B)/o/coupler/examples/%.o $(B)/public/libcpl.a #
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
 $(foreach f,$(tests_src),$(eval $(B)/tests/$(basename $(notdir $f)): $(B)/o/$(f:.c=.o)))
+$(filter $(B)/tests/test_%,$(tests_bin)): $(B)/o/tests/unit/unit.o
 $(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a | $(version_o)
 	@mkdir -p $(@D)
 	@echo "LD $@"

@@ -30,18 +30,6 @@ struct gravity still_split(const struct scene *scene)
     return split;
 }
 
-/* rho (|g| level + g.x), Pa; the level is a height against gravity, times |g|. */
-double still_pressure(const struct scene *scene, const struct gravity *split, const double *x)
-{
-    const double *still = split->hydrostatic;
-    double g = 0.0, sum = 0.0;
-    for (int a = 0; a < scene->domain.dim; a++) {
-        g += still[a] * still[a];
-        sum += still[a] * x[a];
-    }
-    return scene->fluid.rho * (sqrt(g) * split->level + sum);
-}
-
 /* From the scene's gravity, whichever axes are periodic. */
 int still_upright(const struct scene *scene)
 {
@@ -70,9 +58,16 @@ double still_creep(const double still[3], double nu, double h)
     return nu > 0.0 ? nu / fall : 0.0;
 }
 
+/* rho (|g| level + g.x); the level is a height against gravity. */
 double fv_still_pressure(const struct fv *s, const double *x)
 {
-    return still_pressure(&s->run->scene, &s->gravity, x);
+    const double *still = s->gravity.hydrostatic;
+    double g = 0.0, sum = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        g += still[a] * still[a];
+        sum += still[a] * x[a];
+    }
+    return s->run->scene.fluid.rho * (sqrt(g) * s->gravity.level + sum);
 }
 
 double fv_still_in_exact(const struct fv *s, const double *x)

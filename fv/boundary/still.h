@@ -25,7 +25,5 @@ bool still_is_inclined(const double still[3]);
  * does; 0 without viscosity, else infinite without gravity. Above STILL_CREEPS water creeps. */
 double still_creep(const double still[3], double nu, double h);
 #define STILL_CREEPS 10.0
-/* The hydrostatic pressure of that gravity at x, Pa. */
-double still_pressure(const struct scene *scene, const struct gravity *g, const double *x);
 
 #endif

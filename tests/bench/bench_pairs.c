@@ -182,17 +182,8 @@ static void whole_run(int cells, int steps)
 {
     struct sph_case c;
     double values[SPH_COLUMNS];
-    sph_case_set(&c, 2, cells);
-    struct scene *e = &c.run.scene;
+    struct scene *e = sph_case_tank(&c, cells, 9.81, 3);
     e->fluid.rho = 1000.0;
-    e->fluid.nu = 0.0;
-    e->fluid.gravity[1] = -9.81;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
-    e->domain.periodic[0] = e->domain.periodic[1] = false;
-    e->nwalls = 3;
-    for (int k = 0; k < 3; k++)
-        e->walls[k].side = SIDE_X_MIN + k;
     e->nshapes = 1;
     e->shapes[0] = (struct scene_shape){.form = SHAPE_BOX, .box = {{0.0, 0.0}, {0.5, 0.5}}};
     c.prm.scheme = SCHEME_RIEMANN;

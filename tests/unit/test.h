@@ -34,23 +34,35 @@ static inline bool is_alone(void)
     return size == 1;
 }
 
-/* main of a unit: runs a list of cmocka_unit_test(..), the second under MPI. A unit that has more
- * to do before or after its tests writes its own. */
-#define TESTS(...)                                                                                 \
-    int main(void)                                                                                 \
+/* A test of a unit, which enlists itself: TEST(what_holds) { .. }. They run under MPI, in the order
+ * of the source; main stands in unit.c. */
+#define TEST(name)                                                                                 \
+    static void name(void **state);                                                                \
+    __attribute__((constructor)) static void enlist_##name(void)                                   \
     {                                                                                              \
-        const struct CMUnitTest tests[] = {__VA_ARGS__};                                           \
-        return cmocka_run_group_tests(tests, NULL, NULL);                                          \
+        unit_enlist(#name, name, __LINE__);                                                        \
+    }                                                                                              \
+    static void name(__attribute__((unused)) void **state)
+void unit_enlist(const char *name, CMUnitTestFunction test, int line);
+
+/* What a unit does before its first test, under MPI; one that has nothing to do has no such
+ * function. */
+void unit_begin(void);
+/* The path of a file for the tests of this unit, its last word `name`: the same on all ranks,
+ * removed at the end. Of use within unit_begin and later; one file a unit. */
+const char *unit_file(const char *name);
+
+/* Largest difference of n numbers over max(1, |a|), on all ranks; infinite if one is NaN. */
+static inline double most_apart(int n, const double *a, const double *b)
+{
+    double most = 0.0;
+    for (int k = 0; k < n; k++) {
+        const double e = fabs(a[k] - b[k]) / fmax(1.0, fabs(a[k]));
+        most = isnan(e) ? INFINITY : fmax(most, e);
     }
-#define TESTS_WITH_MPI(...)                                                                        \
-    int main(int argc, char **argv)                                                                \
-    {                                                                                              \
-        const struct CMUnitTest tests[] = {__VA_ARGS__};                                           \
-        MPI_Init(&argc, &argv);                                                                    \
-        const int failed = cmocka_run_group_tests(tests, NULL, NULL);                              \
-        MPI_Finalize();                                                                            \
-        return failed;                                                                             \
-    }
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return most;
+}
 
 /* |a - b| <= tolerance, absolute; NaN fails. */
 #define assert_close(a, b, tolerance)                                                              \

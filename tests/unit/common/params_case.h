@@ -5,8 +5,6 @@
 
 #include "../test.h"
 
-#include <unistd.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../common/params/parameter_table.h"
 
@@ -86,7 +84,7 @@ static const struct param_group groups[] = {
     {"trees", "Trees", tree_rows, 4, trees, NULL, sizeof trees[0], 2, &ntrees},
 };
 static const char *const others[] = {"alien", "output", NULL};
-static char path[512];
+static const char *path;
 static int rank;
 
 static inline void put_alone(const char *to, const char *text)
@@ -146,20 +144,10 @@ static inline void faulty(const char *text, const char *const *over, int n,
 #define FAULTY(text, n, ...) faulty(text, NULL, n, (const char *const[]){__VA_ARGS__, NULL})
 #define WITH(...) ((const char *const[]){__VA_ARGS__, NULL})
 
-/* Runs the tests on all ranks with files of their own. */
-#define RUN_PARAMS_TESTS(argc, argv, tests)                                                        \
-    do {                                                                                           \
-        const char *dir_ = getenv("TEST_SCRATCH");                                                 \
-        int n_ = (int)getpid();                                                                    \
-        MPI_Init(&(argc), &(argv));                                                                \
-        MPI_Comm_rank(MPI_COMM_WORLD, &rank);                                                      \
-        MPI_Bcast(&n_, 1, MPI_INT, 0, MPI_COMM_WORLD);                                             \
-        snprintf(path, sizeof path, "%s/case of %d.cfg", dir_ ? dir_ : "/tmp", n_);                \
-        const int failed_ = cmocka_run_group_tests(tests, NULL, NULL);                             \
-        if (rank == 0)                                                                             \
-            unlink(path);                                                                          \
-        MPI_Finalize();                                                                            \
-        return failed_;                                                                            \
-    } while (0)
+void unit_begin(void)
+{
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    path = unit_file("case.cfg");
+}
 
 #endif

@@ -19,18 +19,16 @@ static struct accept_series wave(double *room, double a, double shift)
     return (struct accept_series){N, room, room + N};
 }
 
-static void a_series_equals_itself(void **state)
+TEST(a_series_equals_itself)
 {
-    (void)state;
     double room[2 * N];
     const struct accept_series s = wave(room, 1.0, 0.0);
     for (int m = ACCEPT_RMS; m <= ACCEPT_ARRIVAL; m++)
         assert_close(accept_distance(m, s, s, 0.0, 0.9), 0.0, 1e-15);
 }
 
-static void a_higher_series_is_off_by_its_factor(void **state)
+TEST(a_higher_series_is_off_by_its_factor)
 {
-    (void)state;
     double one[2 * N], other[2 * N];
     const struct accept_series ref = wave(one, 1.0, 0.0), run = wave(other, 1.2, 0.0);
     assert_close(accept_distance(ACCEPT_PEAK, run, ref, 0.0, 1.0), 0.2, 1e-12);
@@ -39,18 +37,16 @@ static void a_higher_series_is_off_by_its_factor(void **state)
     assert_close(accept_distance(ACCEPT_RMS, run, ref, 0.0, 2.0), 0.2 / sqrt(2.0) / 2.0, 1e-3);
 }
 
-static void a_late_series_arrives_late(void **state)
+TEST(a_late_series_arrives_late)
 {
-    (void)state;
     double one[2 * N], other[2 * N];
     const struct accept_series ref = wave(one, 1.0, 0.0), run = wave(other, 1.0, 0.1);
     /* half the peak at t = 1/6, or 0.1 later; to a row of 0.01 */
     assert_close(accept_distance(ACCEPT_ARRIVAL, run, ref, 0.0, 1.0), 0.6, 0.07);
 }
 
-static void what_cannot_be_compared_is_no_number(void **state)
+TEST(what_cannot_be_compared_is_no_number)
 {
-    (void)state;
     double one[2 * N], nothing[2 * N];
     const struct accept_series ref = wave(nothing, 0.0, 0.0), run = wave(one, 1.0, 0.0);
     for (int m = ACCEPT_RMS; m <= ACCEPT_ARRIVAL; m++) {
@@ -60,9 +56,8 @@ static void what_cannot_be_compared_is_no_number(void **state)
     }
 }
 
-static void a_table_has_names_without_units(void **state)
+TEST(a_table_has_names_without_units)
 {
-    (void)state;
     char path[] = "/tmp/estran-table-XXXXXX";
     const int fd = mkstemp(path);
     FILE *f = fdopen(fd, "w");
@@ -82,10 +77,9 @@ static void a_table_has_names_without_units(void **state)
 }
 
 /* A line of 5000 numbers is one row. */
-static void a_row_may_be_long(void **state)
+TEST(a_row_may_be_long)
 {
     enum { COLUMNS = 5000 };
-    (void)state;
     char path[] = "/tmp/estran-table-XXXXXX";
     const int fd = mkstemp(path);
     FILE *f = fdopen(fd, "w");
@@ -102,10 +96,3 @@ static void a_row_may_be_long(void **state)
     table_free(&t);
     unlink(path);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_series_equals_itself),
-               cmocka_unit_test(a_higher_series_is_off_by_its_factor),
-               cmocka_unit_test(a_late_series_arrives_late),
-               cmocka_unit_test(what_cannot_be_compared_is_no_number),
-               cmocka_unit_test(a_table_has_names_without_units),
-               cmocka_unit_test(a_row_may_be_long))

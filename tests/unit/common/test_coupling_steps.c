@@ -19,9 +19,8 @@ static void check(double span, double since, double every, double dt)
     assert_true(coupling_steps_off(n, span, since, every) <= 0.5 * span / (double)n * (1.0 + 1e-9));
 }
 
-static void outputs_add_no_more_steps_than_they_are(void **state)
+TEST(outputs_add_no_more_steps_than_they_are)
 {
-    (void)state;
     static const double every[] = {0.0333333, 0.0317, 0.0333334, 0.05, 0.049, 0.0999, 0.01, 0.0071};
     for (size_t k = 0; k < sizeof every / sizeof every[0]; k++)
         for (int q = 1; q <= 200; q++)
@@ -29,9 +28,8 @@ static void outputs_add_no_more_steps_than_they_are(void **state)
     check(1000.0, 0.0, 0.0333333, 0.03);
 }
 
-static void outputs_come_at_their_times_where_steps_allow_it(void **state)
+TEST(outputs_come_at_their_times_where_steps_allow_it)
 {
-    (void)state;
     assert_int_equal(coupling_steps_number(0.1, 0.0, 0.05, 0.03), 4);
     assert_int_equal(coupling_steps_number(0.1, 0.0, 0.0333333, 0.03), 6);
     assert_int_equal(coupling_steps_number(0.24, 0.0, 0.12, 0.025), 10);
@@ -48,9 +46,8 @@ static void outputs_come_at_their_times_where_steps_allow_it(void **state)
 
 /* What a restart leaves to do begins between two outputs: they come at their own times, not at
  * those counted from the restart. */
-static void what_is_left_keeps_the_times_of_outputs(void **state)
+TEST(what_is_left_keeps_the_times_of_outputs)
 {
-    (void)state;
     for (int q = 1; q <= 200; q++) /* an output at 0.03, then every 0.05 */
         check(0.1, 0.02, 0.05, 0.0007 * q);
     const int64_t n = coupling_steps_number(0.7, 0.1, 0.4, 0.15); /* ends 0.3 and 0.7 after it */
@@ -58,13 +55,4 @@ static void what_is_left_keeps_the_times_of_outputs(void **state)
     for (int64_t k = 1; k <= n; k++)
         assert_true(coupling_steps_output(n, k, 0.7, 0.1, 0.4) == (k == 3 || k == 7));
     assert_true(coupling_steps_off(n, 0.7, 0.1, 0.4) == 0.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(outputs_add_no_more_steps_than_they_are),
-        cmocka_unit_test(outputs_come_at_their_times_where_steps_allow_it),
-        cmocka_unit_test(what_is_left_keeps_the_times_of_outputs)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-
 #include "../../../common/base/digits.h"
 
 /* As messages do. */
@@ -16,9 +13,8 @@ static double printed(double x, int digits)
     return atof(text);
 }
 
-static void printed_limits_hold(void **state)
+TEST(printed_limits_hold)
 {
-    (void)state;
     for (int k = 1; k < 4000; k++) {
         const double x = 1e-3 * pow(1.0137, k % 1000) / (1.0 + k / 1000);
         for (int digits = 2; digits < 5; digits++) {
@@ -31,14 +27,11 @@ static void printed_limits_hold(void **state)
     }
 }
 
-static void short_numbers_stay(void **state)
+TEST(short_numbers_stay)
 {
-    (void)state;
     const double shorts[] = {0.29, 0.07, 1.0, 120.0, 0.0011, 9.9e5};
     for (int k = 0; k < 6; k++) {
         assert_close(printed(digits_below(shorts[k], 2), 2), shorts[k], 1e-14);
         assert_close(printed(digits_above(shorts[k], 2), 2), shorts[k], 1e-14);
     }
 }
-
-TESTS(cmocka_unit_test(printed_limits_hold), cmocka_unit_test(short_numbers_stay))

@@ -65,9 +65,8 @@ static double laplace(const struct exact *e, int what, const double *x, double t
     return sum / (12.0 * h * h);
 }
 
-static void velocity_is_free_of_divergence(void **state)
+TEST(velocity_is_free_of_divergence)
 {
-    (void)state;
     double x[3], t, g[3][3];
     for (int f = 0; f < 4; f++) {
         const struct exact e = field(all[f], 0.01);
@@ -80,9 +79,8 @@ static void velocity_is_free_of_divergence(void **state)
     }
 }
 
-static void gradient_and_vorticity_are_slopes_of_velocity(void **state)
+TEST(gradient_and_vorticity_are_slopes_of_velocity)
 {
-    (void)state;
     double x[3], t, g[3][3], most = 0.0;
     for (int f = 0; f < 4; f++) {
         const struct exact e = field(all[f], 0.01);
@@ -101,9 +99,8 @@ static void gradient_and_vorticity_are_slopes_of_velocity(void **state)
 }
 
 /* rho (du/dt + u.grad u) + grad p - rho nu lap u, whose terms are of order 20. */
-static void fields_solve_navier_stokes(void **state)
+TEST(fields_solve_navier_stokes)
 {
-    (void)state;
     double x[3], t;
     for (int f = 0; f < 4; f++)
         for (int viscous = 0; viscous < 2; viscous++) {
@@ -139,9 +136,8 @@ static double mean(const struct exact *e, int what, const double *x, const doubl
     return sum / (18.0 * 18.0 * N * N);
 }
 
-static void averages_are_those_of_fine_quadrature(void **state)
+TEST(averages_are_those_of_fine_quadrature)
 {
-    (void)state;
     static const double sides[3][3] = {{0.3, 0.17, 0.2}, {0.05, 0.4, 0.1}, {0.8, 0.8, 0.8}};
     double x[3], t, u[3], p, w;
     for (int f = 0; f < 4; f++) {
@@ -168,9 +164,8 @@ static void averages_are_those_of_fine_quadrature(void **state)
 }
 
 /* What flows into a cell flows out. */
-static void averages_of_faces_balance(void **state)
+TEST(averages_of_faces_balance)
 {
-    (void)state;
     const double h[3] = {0.3, 0.17, 1.0};
     double x[3], t, u[3], out = 0.0;
     const struct exact e = field(FIELD_TWO_MODES, 0.01);
@@ -199,9 +194,8 @@ static struct exact crossed_wave(void)
 
 /* cos kx cos kz of the still layer 0 < y < 1: the linearised equations, no flow through the planes
  * of symmetry, none at the bottom. */
-static void crossed_waves_solve_the_linearised_equations(void **state)
+TEST(crossed_waves_solve_the_linearised_equations)
 {
-    (void)state;
     const struct exact e = crossed_wave();
     double x[3], t, most = 0.0, period, rate;
     for (int i = 0; i < POINTS; i++) {
@@ -230,9 +224,8 @@ static void crossed_waves_solve_the_linearised_equations(void **state)
 }
 
 /* Midpoint rule over the symmetric piece; the vorticity has the components of x and z. */
-static void enstrophy_of_crossed_waves_is_that_of_their_vorticity(void **state)
+TEST(enstrophy_of_crossed_waves_is_that_of_their_vorticity)
 {
-    (void)state;
     enum { N = 24, M = 400 };
     const struct exact e = crossed_wave();
     double sum = 0.0;
@@ -250,11 +243,3 @@ static void enstrophy_of_crossed_waves_is_that_of_their_vorticity(void **state)
             sum,
         1.0, 1e-3);
 }
-
-TESTS(cmocka_unit_test(velocity_is_free_of_divergence),
-      cmocka_unit_test(gradient_and_vorticity_are_slopes_of_velocity),
-      cmocka_unit_test(fields_solve_navier_stokes),
-      cmocka_unit_test(averages_are_those_of_fine_quadrature),
-      cmocka_unit_test(averages_of_faces_balance),
-      cmocka_unit_test(crossed_waves_solve_the_linearised_equations),
-      cmocka_unit_test(enstrophy_of_crossed_waves_is_that_of_their_vorticity))

@@ -41,9 +41,8 @@ static FILE *table(const char *path)
     return f;
 }
 
-static void decay_is_that_of_the_table(void **state)
+TEST(decay_is_that_of_the_table)
 {
-    (void)state;
     static const double Re[] = {100, 200, 1000};
     const double x[3] = {0.25, 0.0, 0.0}, corner[3] = {0.0, 0.0, 0.0}, top[3] = {0.25, 0.25, 0.0};
     double v[7], u[3], u0[3], p, p0, w, w0;
@@ -69,9 +68,8 @@ static void decay_is_that_of_the_table(void **state)
     assert_true(n > 10);
 }
 
-static void profiles_are_those_of_the_table(void **state)
+TEST(profiles_are_those_of_the_table)
 {
-    (void)state;
     const struct exact e = taylor_green(200);
     double v[5], u[3], p, w;
     int n = 0;
@@ -91,9 +89,8 @@ static void profiles_are_those_of_the_table(void **state)
 }
 
 /* The largest speed of two_modes, less what carries it, is U, about. */
-static void fields_keep_their_scale_and_are_carried(void **state)
+TEST(fields_keep_their_scale_and_are_carried)
 {
-    (void)state;
     struct scene s = {
         .fluid = {.rho = 1.0},
         .domain = {.dim = 2},
@@ -117,9 +114,8 @@ static void fields_keep_their_scale_and_are_carried(void **state)
 }
 
 /* Errors 1 .. 8 of weights 2, the reference 4 everywhere, shared out on the ranks. */
-static void norms_are_those_of_all_ranks(void **state)
+TEST(norms_are_those_of_all_ranks)
 {
-    (void)state;
     struct norm n[2] = {0};
     int rank, size;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -135,8 +131,3 @@ static void norms_are_those_of_all_ranks(void **state)
     assert_close(n->emax, 8.0, 0.0);
     assert_close(norm_rms(n + 1) + norm_mean(n + 1) + norm_relative_l2(n + 1), 0.0, 0.0);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(decay_is_that_of_the_table),
-               cmocka_unit_test(profiles_are_those_of_the_table),
-               cmocka_unit_test(fields_keep_their_scale_and_are_carried),
-               cmocka_unit_test(norms_are_those_of_all_ranks))

@@ -3,10 +3,9 @@
 
 #include "../../../common/base/fit.h"
 
-static void decaying_sine(void **state)
+TEST(decaying_sine)
 {
     struct fit f = {0};
-    (void)state;
     for (int k = 0; k < 2000; k++) {
         const double t = 0.013 * k + 0.002 * sin(k); /* steps that vary */
         fit_add(&f, t, 3.0 * exp(-0.07 * t) * sin(1.3 * t + 0.4));
@@ -16,10 +15,9 @@ static void decaying_sine(void **state)
     fit_free(&f);
 }
 
-static void too_short(void **state)
+TEST(too_short)
 {
     struct fit f = {0};
-    (void)state;
     assert_true(isnan(fit_period(&f)) && isnan(fit_rate(&f)));
     for (int k = 0; k < 10; k++)
         fit_add(&f, k, 1.0 + k);
@@ -30,9 +28,8 @@ static void too_short(void **state)
 }
 
 /* A straight line stays one; what alternates about it shrinks as the formula says. */
-static void smoothing_has_no_lag(void **state)
+TEST(smoothing_has_no_lag)
 {
-    (void)state;
     const double alpha = 0.4, part = alpha / (2.0 - alpha), left = part * (2.0 - part);
     double level = 2.0, rate = 3.0, scatter = 0.0;
     for (int k = 1; k <= 50; k++)
@@ -46,9 +43,8 @@ static void smoothing_has_no_lag(void **state)
 
 /* One spike of a hundred times the scatter moves the level by what two scatters would; a step of
  * that size is followed within 40 values. */
-static void a_spike_is_no_trend(void **state)
+TEST(a_spike_is_no_trend)
 {
-    (void)state;
     double level = 0.0, rate = 0.0, scatter = 0.0;
     for (int k = 0; k < 200; k++)
         fit_smooth(k % 2 ? 1.0 : -1.0, 0.1, 4.0, &level, &rate, &scatter);
@@ -60,6 +56,3 @@ static void a_spike_is_no_trend(void **state)
         fit_smooth(100.0, 0.1, 4.0, &level, &rate, &scatter);
     assert_close(level, 100.0, 1.0);
 }
-
-TESTS(cmocka_unit_test(decaying_sine), cmocka_unit_test(too_short),
-      cmocka_unit_test(smoothing_has_no_lag), cmocka_unit_test(a_spike_is_no_trend))

@@ -56,9 +56,8 @@ static struct param_points blob(const struct placing *p, int n)
     return placed(p, (const double(*)[2])x, n);
 }
 
-static void sense_is_that_of_the_points(void **state)
+TEST(sense_is_that_of_the_points)
 {
-    (void)state;
     for (int trial = 0; trial < 300; trial++) {
         const struct placing p = anywhere();
         struct param_points b = blob(&p, 3 + (int)(97.0 * dice()));
@@ -72,9 +71,8 @@ static void sense_is_that_of_the_points(void **state)
     }
 }
 
-static void a_line_that_crosses_itself_is_found_with_its_place(void **state)
+TEST(a_line_that_crosses_itself_is_found_with_its_place)
 {
-    (void)state;
     static const double eight[][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 2}};
     for (int trial = 0; trial < 200; trial++) {
         const struct placing p = anywhere();
@@ -96,9 +94,8 @@ static void a_line_that_crosses_itself_is_found_with_its_place(void **state)
     }
 }
 
-static void what_is_no_line_is_refused(void **state)
+TEST(what_is_no_line_is_refused)
 {
-    (void)state;
     static const double twice[][2] = {{0, 0}, {1, 0}, {1, 0}, {1, 1}};
     static const double flat[][2] = {{0, 0}, {1, 0}, {2, 0}, {0.5, 0}};
     static const double spike[][2] = {{0, 0}, {1, 0}, {1, 1}, {1, 0.5}, {0, 1}};
@@ -125,9 +122,8 @@ static void what_is_no_line_is_refused(void **state)
     }
 }
 
-static void gaps_and_overlaps_are_told_apart(void **state)
+TEST(gaps_and_overlaps_are_told_apart)
 {
-    (void)state;
     static const double one[][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     static const double beside[][2] = {{1, 0.2}, {1, 0.8}, {2, 0.8}, {2, 0.2}};
     static const double apart[][2] = {{1.01, 0.2}, {1.01, 0.8}, {2, 0.8}, {2, 0.2}};
@@ -191,9 +187,8 @@ static void in_both_senses(const struct placing *p, const double (*x)[2], int n,
     }
 }
 
-static void walls_that_run_the_wrong_way_are_turned(void **state)
+TEST(walls_that_run_the_wrong_way_are_turned)
 {
-    (void)state;
     static const double tank[][2] = {{-1, 1}, {-1, -1}, {1, -1}, {1, 1}};
     static const double in_tank[][2] = {{-1, 0.5}, {-1, -1}, {1, -1}, {1, 0.5}};
     static const double bed[][2] = {{-2.9, -1}, {-0.5, -1}, {0, -0.4}, {0.5, -1}, {2.9, -1}};
@@ -209,9 +204,8 @@ static void walls_that_run_the_wrong_way_are_turned(void **state)
 }
 
 /* An island in water that the shapes let go on through it, and a fillet in a corner. */
-static void walls_with_water_on_both_sides_stay(void **state)
+TEST(walls_with_water_on_both_sides_stay)
 {
-    (void)state;
     static const double island[][2] = {{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};
     static const double fillet[][2] = {{-3, -1}, {-1, -3}};
     static const double sea[][2] = {{-3, -3}, {3, -3}, {3, 3}, {-3, 3}};
@@ -233,9 +227,8 @@ static void walls_with_water_on_both_sides_stay(void **state)
 
 /* A baffle from a side of a tank of walls, with water inside it, too, as a level draws it, and a
  * channel that is drawn into the same tank and holds half of its water. */
-static void baffles_have_their_fluid_outside(void **state)
+TEST(baffles_have_their_fluid_outside)
 {
-    (void)state;
     static const double baffle[][2] = {{-1, 10}, {-1, -3}, {1, -3}, {1, 10}};
     static const double channel[][2] = {{-9, 10}, {-4, -9}, {4, -9}, {9, 10}};
     static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
@@ -262,9 +255,8 @@ static void baffles_have_their_fluid_outside(void **state)
 
 /* A dyke on the floor, whose share of the water a level draws into it, too; a hood that most of the
  * water is under stays as it is drawn, and so does the dyke where nothing says what is down. */
-static void dykes_have_their_fluid_outside(void **state)
+TEST(dykes_have_their_fluid_outside)
 {
-    (void)state;
     static const double dyke[][2] = {{3, -11}, {1, 1}, {-1, 1}, {-3, -11}};
     static const double hood[][2] = {{8, -11}, {8, -1}, {-8, -1}, {-8, -11}};
     static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
@@ -291,9 +283,8 @@ static void dykes_have_their_fluid_outside(void **state)
             }
 }
 
-static void bodies_have_their_fluid_outside(void **state)
+TEST(bodies_have_their_fluid_outside)
 {
-    (void)state;
     for (int trial = 0; trial < 100; trial++) {
         const struct placing p = anywhere();
         struct scene s;
@@ -310,13 +301,3 @@ static void bodies_have_their_fluid_outside(void **state)
         assert_true(scene_is_room(&s, out));
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(sense_is_that_of_the_points),
-               cmocka_unit_test(a_line_that_crosses_itself_is_found_with_its_place),
-               cmocka_unit_test(what_is_no_line_is_refused),
-               cmocka_unit_test(gaps_and_overlaps_are_told_apart),
-               cmocka_unit_test(walls_that_run_the_wrong_way_are_turned),
-               cmocka_unit_test(walls_with_water_on_both_sides_stay),
-               cmocka_unit_test(baffles_have_their_fluid_outside),
-               cmocka_unit_test(dykes_have_their_fluid_outside),
-               cmocka_unit_test(bodies_have_their_fluid_outside))

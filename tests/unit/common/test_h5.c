@@ -3,14 +3,13 @@
 #include "../test.h"
 
 #include <hdf5.h>
-#include <unistd.h>
 
 #include "../../../common/base/mem.h"
 #include "../../../common/files/h5.h"
 
 enum { MOST = 16 };
 
-static char path[512];
+static const char *path;
 static int rank, size;
 
 /* Row i of all, component k. */
@@ -63,9 +62,8 @@ static bool read_rows(int ncomp, double tolerance)
     return all(good);
 }
 
-static void rows_come_back_bit_for_bit(void **state)
+TEST(rows_come_back_bit_for_bit)
 {
-    (void)state;
     for (int ncomp = 1; ncomp <= 3; ncomp++) {
         struct h5 *f = h5_create(MPI_COMM_WORLD, path);
         write_rows(f, ncomp, false);
@@ -75,9 +73,8 @@ static void rows_come_back_bit_for_bit(void **state)
     }
 }
 
-static void single_storage_keeps_24_bits(void **state)
+TEST(single_storage_keeps_24_bits)
 {
-    (void)state;
     struct h5 *f = h5_create(MPI_COMM_WORLD, path);
     write_rows(f, 2, true);
     h5_close(&f);
@@ -86,9 +83,8 @@ static void single_storage_keeps_24_bits(void **state)
 }
 
 /* Rank 0 looks with HDF5 alone: order of the rows, shape and unit. */
-static void shape_order_and_unit_are_what_readers_expect(void **state)
+TEST(shape_order_and_unit_are_what_readers_expect)
 {
-    (void)state;
     struct h5 *f = h5_create(MPI_COMM_WORLD, path);
     write_rows(f, 2, false);
     h5_close(&f);
@@ -121,9 +117,8 @@ static void shape_order_and_unit_are_what_readers_expect(void **state)
     assert_true(all(good));
 }
 
-static void restart_files_know_the_rows_of_each_rank(void **state)
+TEST(restart_files_know_the_rows_of_each_rank)
 {
-    (void)state;
     int64_t first;
     const int64_t n = rows(&first);
     struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
@@ -140,9 +135,8 @@ static void restart_files_know_the_rows_of_each_rank(void **state)
     MPI_Barrier(MPI_COMM_WORLD);
 }
 
-static void what_does_not_fit_is_refused(void **state)
+TEST(what_does_not_fit_is_refused)
 {
-    (void)state;
     double v[3 * (MOST + 1)];
     int64_t first;
     const int64_t n = rows(&first);
@@ -165,9 +159,8 @@ static void what_does_not_fit_is_refused(void **state)
     assert_null(h5_open(MPI_COMM_WORLD, path));
 }
 
-static void no_rows_at_all_are_legal(void **state)
+TEST(no_rows_at_all_are_legal)
 {
-    (void)state;
     struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
     h5_write_real(f, "empty", "m", 0, 2, NULL, false);
     h5_close(&f);
@@ -178,9 +171,8 @@ static void no_rows_at_all_are_legal(void **state)
 
 /* Ranks that did not write it: shares cover all rows once, any range comes back, parts of a sum are
  * summed, what all hold alike is not. */
-static void other_ranks_read_it_too(void **state)
+TEST(other_ranks_read_it_too)
 {
-    (void)state;
     int64_t first, wanted = 0, n;
     double part[2] = {1.0 + rank, 7.0}, same[2];
     (void)rows(&first);
@@ -210,9 +202,8 @@ static void other_ranks_read_it_too(void **state)
 }
 
 /* One rank wrote it, all read it: even shares in the order of the ranks. */
-static void shares_are_even(void **state)
+TEST(shares_are_even)
 {
-    (void)state;
     enum { ROWS = 10 };
     double v[ROWS];
     struct h5 *f = NULL;
@@ -238,28 +229,9 @@ static void shares_are_even(void **state)
     assert_true(all(good));
 }
 
-int main(int argc, char **argv)
+void unit_begin(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_come_back_bit_for_bit),
-        cmocka_unit_test(single_storage_keeps_24_bits),
-        cmocka_unit_test(shape_order_and_unit_are_what_readers_expect),
-        cmocka_unit_test(restart_files_know_the_rows_of_each_rank),
-        cmocka_unit_test(other_ranks_read_it_too),
-        cmocka_unit_test(shares_are_even),
-        cmocka_unit_test(what_does_not_fit_is_refused),
-        cmocka_unit_test(no_rows_at_all_are_legal),
-    };
-    const char *dir = getenv("TEST_SCRATCH");
-    int n = (int)getpid();
-    MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    MPI_Bcast(&n, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    snprintf(path, sizeof path, "%s/a file of %d.h5", dir ? dir : "/tmp", n);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    if (rank == 0)
-        unlink(path);
-    MPI_Finalize();
-    return failed;
+    path = unit_file("file.h5");
 }

@@ -8,7 +8,8 @@
 
 #include "../../../common/files/h5.h"
 
-static char path[512], part[520];
+static const char *path;
+static char part[520];
 static int rank, size;
 
 static bool all(bool good)
@@ -19,9 +20,8 @@ static bool all(bool good)
 
 /* Cells 5 x 4 (x 3), two components: the ranks but the last have slabs in y, the last of several
  * none. Read back as rows by rank 0 alone. */
-static void blocks_make_one_dataset(void **state)
+TEST(blocks_make_one_dataset)
 {
-    (void)state;
     const int cells[3] = {5, 4, 3}, givers = size > 1 ? size - 1 : 1;
     for (int dim = 2; dim <= 3; dim++)
         for (int ncomp = 1; ncomp <= 2; ncomp++) {
@@ -65,9 +65,8 @@ static void blocks_make_one_dataset(void **state)
         }
 }
 
-static void attributes_come_back(void **state)
+TEST(attributes_come_back)
 {
-    (void)state;
     double t = 0.0;
     int64_t step = 0;
     struct h5 *f = h5_create(MPI_COMM_WORLD, path);
@@ -93,9 +92,8 @@ static void attributes_come_back(void **state)
     assert_true(all(rank > 0 || strcmp(text, "two\nlines, ü") == 0));
 }
 
-static void a_file_under_its_name_is_complete(void **state)
+TEST(a_file_under_its_name_is_complete)
 {
-    (void)state;
     int64_t n = 0;
     struct h5 *f = h5_create(MPI_COMM_WORLD, path);
     h5_attribute_int(f, "which", 1);
@@ -113,24 +111,10 @@ static void a_file_under_its_name_is_complete(void **state)
     h5_close(&f);
 }
 
-int main(int argc, char **argv)
+void unit_begin(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_make_one_dataset),
-        cmocka_unit_test(attributes_come_back),
-        cmocka_unit_test(a_file_under_its_name_is_complete),
-    };
-    const char *dir = getenv("TEST_SCRATCH");
-    int n = (int)getpid();
-    MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    MPI_Bcast(&n, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    snprintf(path, sizeof path, "%s/a file of %d.h5", dir ? dir : "/tmp", n);
+    path = unit_file("file.h5");
     snprintf(part, sizeof part, "%s.part", path);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    if (rank == 0)
-        unlink(path);
-    MPI_Finalize();
-    return failed;
 }

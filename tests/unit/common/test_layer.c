@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../common/waves/evolution.h"
 #include "../../../common/waves/steady.h"
@@ -20,9 +16,8 @@ static void below(double value, double bound, const char *what)
 }
 
 /* Against the sums themselves, both signs, fields side by side. */
-static void transforms_are_sums(void **state)
+TEST(transforms_are_sums)
 {
-    (void)state;
     static const int sizes[] = {1, 2, 6, 10, 36, 60, 90};
     enum { INNER = 2, BATCH = 3, BLOCK = INNER * 2 * BATCH };
     double worst = 0.0;
@@ -138,9 +133,8 @@ static void check_steep(const struct steep *of)
     wave_grid_free(&g);
 }
 
-static void steep_waves_have_their_velocities(void **state)
+TEST(steep_waves_have_their_velocities)
 {
-    (void)state;
     static const struct steep of[] = {{0.1, 20.0, 64, 5e-9}, {0.2, 20.0, 64, 6e-9},
                                       {0.3, 20.0, 64, 4e-8}, {0.38, 20.0, 128, 9e-5},
                                       {0.1, 1.0, 64, 4e-8},  {0.12, 0.6, 64, 8e-8}};
@@ -162,9 +156,8 @@ static void bar(const struct wave_grid *g, double *h)
 }
 
 /* F = cos kx cosh k(z + 0.4)/cosh 0.4 k, whose flux through the bed is given. */
-static void uneven_beds_are_met(void **state)
+TEST(uneven_beds_are_met)
 {
-    (void)state;
     enum { N = 768 };
     const int n[2] = {N, 1};
     const double length[2] = {24.0, 24.0}, k = 2.0 * M_PI * 6.0 / 24.0;
@@ -199,9 +192,8 @@ static void uneven_beds_are_met(void **state)
 }
 
 /* A wave along the diagonal of a plane has the velocities that it has along a line. */
-static void planes_turn_lines(void **state)
+TEST(planes_turn_lines)
 {
-    (void)state;
     enum { N = 24 };
     const int n[2] = {N, N};
     const double side = 2.0 * M_PI * sqrt(2.0), length[2] = {side, side};
@@ -289,9 +281,8 @@ static void check_kept(const struct kept *of)
     evolution_free(&e);
 }
 
-static void steady_waves_stay_what_they_are(void **state)
+TEST(steady_waves_stay_what_they_are)
 {
-    (void)state;
     static const struct kept of[] = {{0.2, 20.0, 32, 12, 9, 0, 4, 1e-6, 9e-6},
                                      {0.3, 20.0, 48, 16, 9, 0, 4, 4e-6, 7e-5},
                                      {0.35, 20.0, 64, 24, 9, 0, 4, 7e-6, 8e-5},
@@ -300,9 +291,8 @@ static void steady_waves_stay_what_they_are(void **state)
         check_kept(of + k);
 }
 
-static void orders_in_steepness_keep_them_too(void **state)
+TEST(orders_in_steepness_keep_them_too)
 {
-    (void)state;
     static const struct kept of[] = {{0.1, 20.0, 50, 8, 9, 5, 5, 1.3e-6, 1.6e-6},
                                      {0.2, 20.0, 50, 8, 9, 5, 5, 7.6e-5, 3.8e-5},
                                      {0.3, 20.0, 96, 12, 9, 7, 5, 7.5e-5, 6.3e-5},
@@ -310,8 +300,3 @@ static void orders_in_steepness_keep_them_too(void **state)
     for (int k = 0; k < (SANITIZED ? 1 : 4); k++)
         check_kept(of + k);
 }
-
-TESTS(cmocka_unit_test(transforms_are_sums), cmocka_unit_test(steep_waves_have_their_velocities),
-      cmocka_unit_test(uneven_beds_are_met), cmocka_unit_test(planes_turn_lines),
-      cmocka_unit_test(steady_waves_stay_what_they_are),
-      cmocka_unit_test(orders_in_steepness_keep_them_too))

@@ -3,11 +3,6 @@
  * cannot be read says why. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../common/geometry/outline.h"
 
@@ -56,9 +51,8 @@ static void near(double a, double b, double within)
     assert_true(fabs(a - b) <= within);
 }
 
-static void rows_are_corners(void **state)
+TEST(rows_are_corners)
 {
-    (void)state;
     struct outline is;
     assert_true(read_text("a.csv", "", "# bed\nx, y\n0, 1\n2;1\n4 1\n\n4,3\n", 400, &is));
     assert_int_equal(is.n, 3); /* the one between two others is left out */
@@ -77,9 +71,8 @@ static void rows_are_corners(void **state)
 }
 
 /* The page's lower left corner is the origin. */
-static void drawings_stand_upright(void **state)
+TEST(drawings_stand_upright)
 {
-    (void)state;
     struct outline is;
     assert_true(read_path("M 1 8 H 4 V 6 L 1,6 Z", &is));
     assert_true(is.closed);
@@ -94,9 +87,8 @@ static void drawings_stand_upright(void **state)
 }
 
 /* A circle by arcs and by cubics, a parabola, both by smooth continuation, too. */
-static void curves_are_followed(void **state)
+TEST(curves_are_followed)
 {
-    (void)state;
     struct outline is;
     assert_true(read_path("M 7 4 A 2 2 0 1 1 3 4 A 2 2 0 1 1 7 4 Z", &is));
     near(fabs(area(&is)), 4.0 * M_PI, 0.03);
@@ -111,9 +103,8 @@ static void curves_are_followed(void **state)
     mem_free(is.x);
 }
 
-static void many_corners_become_few(void **state)
+TEST(many_corners_become_few)
 {
-    (void)state;
     static char text[100000];
     struct outline is;
     size_t n = 0;
@@ -126,9 +117,8 @@ static void many_corners_become_few(void **state)
     mem_free(is.x);
 }
 
-static void one_path_of_several(void **state)
+TEST(one_path_of_several)
 {
-    (void)state;
     static const char text[] = "<svg height=\"8\"><path d=\"M 0 0 L 1 0 L 1 1 Z\" id=\"a\"/>"
                                "<polygon points=\"0,0 2,0 2,2 0,2\" id=\"b\"/></svg>";
     struct outline is;
@@ -150,7 +140,3 @@ static void one_path_of_several(void **state)
                            400, &is));
     assert_non_null(strstr(why, "transform"));
 }
-
-TESTS(cmocka_unit_test(rows_are_corners), cmocka_unit_test(drawings_stand_upright),
-      cmocka_unit_test(curves_are_followed), cmocka_unit_test(many_corners_become_few),
-      cmocka_unit_test(one_path_of_several))

@@ -2,9 +2,8 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "params_case.h"
 
-static void defaults_fill_what_is_not_given(void **state)
+TEST(defaults_fill_what_is_not_given)
 {
-    (void)state;
     sound("format = 1;\nbox: { size = 3; };\nalien: { anything = 1; };\n", NULL);
     assert_close(box.size, 3.0, 0);
     assert_close(box.lo[0] + 10 * box.lo[1] + 100 * box.lo[2], 21.0, 0);
@@ -18,9 +17,8 @@ static void defaults_fill_what_is_not_given(void **state)
     assert_true(has_box);
 }
 
-static void values_of_every_kind_are_read(void **state)
+TEST(values_of_every_kind_are_read)
 {
-    (void)state;
     sound("box: { size = 0.25; lo = (-1, 2.5, 3); hold = ((-1, -2), (1, 2)); count = 12; cells = "
           "(3, 5, 7);\n"
           "  kind = \"blue\"; on = false; axes = (true, false, true); name = \"a ü b\"; };\n"
@@ -40,9 +38,8 @@ static void values_of_every_kind_are_read(void **state)
     assert_int_equal(items[0].kind + 10 * items[1].kind, 1);
 }
 
-static void ends_of_a_range_are_allowed_and_no_more(void **state)
+TEST(ends_of_a_range_are_allowed_and_no_more)
 {
-    (void)state;
     sound("box: { size = 0.1; };", NULL);
     sound("box: { size = 10; count = 1000000000L; };", NULL);
     FAULTY("box: { size = 0.0999; };", 1, ":1: box.size: ", "0.1", "10", " m");
@@ -56,10 +53,9 @@ static void ends_of_a_range_are_allowed_and_no_more(void **state)
 }
 
 /* Lists of groups within a group, one group within it, and a text for a list of one. */
-static void groups_within_groups(void **state)
+TEST(groups_within_groups)
 {
     struct faults f;
-    (void)state;
     struct params *p =
         read_case("trees: ( { turn = 2; powers = (1, 2, 3); parts = ( { x = 3; }, {} ); "
                   "root = { x = 4; }; }, { turn = (1, 2, 3); powers = 7; parts = \"a b\"; } );\n",
@@ -95,25 +91,12 @@ static void groups_within_groups(void **state)
     FAULTY("trees: ( { root = ( {} ); } );", 1, "trees.[0].root: expected a group");
 }
 
-static void all_faults_are_found_at_once(void **state)
+TEST(all_faults_are_found_at_once)
 {
-    (void)state;
     FAULTY("format = 2;\nbox: {\n  sise = 1;\n  kind = \"grey\";\n};\nbxo: { };\nitems: ( { weigth "
            "= 1; } );\n",
            5, ".cfg:1: format: ", ".cfg:3: box.sise: unknown key; did you mean `size'",
            ".cfg:4: box.kind: ", "red|green|blue", ".cfg:6: bxo: unknown group; did you mean `box'",
            ".cfg:7: items.weigth: unknown key; did you mean `weight'");
     FAULTY("box: { size = 1; zzzzzzzz = 1; };", 1, "box.zzzzzzzz: unknown key");
-}
-
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(defaults_fill_what_is_not_given),
-        cmocka_unit_test(values_of_every_kind_are_read),
-        cmocka_unit_test(ends_of_a_range_are_allowed_and_no_more),
-        cmocka_unit_test(groups_within_groups),
-        cmocka_unit_test(all_faults_are_found_at_once),
-    };
-    RUN_PARAMS_TESTS(argc, argv, tests);
 }

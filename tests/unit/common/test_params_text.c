@@ -2,11 +2,10 @@
  * read again. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "params_case.h"
 
-#include <math.h>
+#include <unistd.h>
 
-static void the_command_line_goes_before_the_file(void **state)
+TEST(the_command_line_goes_before_the_file)
 {
-    (void)state;
     const char *text = "box: { size = 1; kind = \"red\"; };";
     sound(text,
           WITH("box.size=2", "box.size=0.5", "box.cells=64x32", "box.kind=blue", "box.on=false",
@@ -31,9 +30,8 @@ static void the_command_line_goes_before_the_file(void **state)
 }
 
 /* "walls.[0].kind" is how messages name a key: so it can be given, too. */
-static void the_command_line_reaches_into_lists(void **state)
+TEST(the_command_line_reaches_into_lists)
 {
-    (void)state;
     const char *text =
         "items: ({ weight = 1; }, { weight = 3; });\n"
         "trees: ({ }, { parts = ({ x = 1; file = \"a\"; }, { x = 2; }); root = { x = 3; }; });\n";
@@ -57,9 +55,8 @@ static void the_command_line_reaches_into_lists(void **state)
 }
 
 /* A list or a group as a whole, of any depth, in place of the file's or where it has none. */
-static void the_command_line_gives_whole_lists(void **state)
+TEST(the_command_line_gives_whole_lists)
 {
-    (void)state;
     const char *text = "items: ({ weight = 1; }, { weight = 3; }); box: { size = 1; };\n";
     sound(text, WITH("items=()"));
     assert_int_equal(nitems, 0);
@@ -91,10 +88,9 @@ static unsigned long long hash(const char *text, const char *const *over)
     return h;
 }
 
-static void the_hash_is_of_the_case_and_not_of_its_output(void **state)
+TEST(the_hash_is_of_the_case_and_not_of_its_output)
 {
-    (void)state;
-    char included[sizeof path + 8];
+    char included[600];
     snprintf(included, sizeof included, "%.*spart.inc", (int)(strrchr(path, '/') + 1 - path), path);
     const char *a = "box: { size = 1.0000000001; };", *b = "box: { size = 1.0000000002; };";
     const char *c = "box: {\n@include \"part.inc\"\n};";
@@ -111,9 +107,8 @@ static void the_hash_is_of_the_case_and_not_of_its_output(void **state)
     unlink(included);
 }
 
-static void the_text_of_a_case_can_be_read_again(void **state)
+TEST(the_text_of_a_case_can_be_read_again)
 {
-    (void)state;
     struct faults f;
     struct params *p = read_case(
         "box: { size = 0.1000000000000001; hold = ((-1, 0.3), (1, 2)); axes = (true, true);\n"
@@ -141,9 +136,8 @@ static void the_text_of_a_case_can_be_read_again(void **state)
     mem_free(text);
 }
 
-static void a_given_key_that_is_not_used_is_a_fault(void **state)
+TEST(a_given_key_that_is_not_used_is_a_fault)
 {
-    (void)state;
     struct faults f;
     struct params *p = read_case("box: {\n  size = 1;\n};\nitems: ( { weight = 3; }, { kind = "
                                  "\"soft\"; weight = 2.5; } );",
@@ -170,9 +164,8 @@ static void a_given_key_that_is_not_used_is_a_fault(void **state)
     mem_free(f.text);
 }
 
-static void the_default_asks_for_nothing(void **state)
+TEST(the_default_asks_for_nothing)
 {
-    (void)state;
     struct faults f;
     struct params *p =
         read_case("box: { size = 1; lo = (1, 2); cells = (4, 4); kind = \"green\"; on "
@@ -192,9 +185,8 @@ static void the_default_asks_for_nothing(void **state)
     mem_free(f.text);
 }
 
-static void a_fault_between_keys_stands_at_its_key(void **state)
+TEST(a_fault_between_keys_stands_at_its_key)
 {
-    (void)state;
     struct faults f;
     struct params *p = read_case("box: {\n  size = 1;\n  count = 3;\n};", WITH("box.size=2"), &f);
     params_fault(p, &f, "box.count", "too %s", "few");
@@ -216,9 +208,8 @@ static void a_fault_between_keys_stands_at_its_key(void **state)
 
 /* Numbers by expressions of the variables of group `let', in vectors, lists and on the command
  * line. */
-static void numbers_are_expressions_of_variables(void **state)
+TEST(numbers_are_expressions_of_variables)
 {
-    (void)state;
     const char *text =
         "let: { H = 0.3; n = 30; dx = \"H/n\"; };\n"
         "box: { size = \"100*dx\"; lo = (\"-H\", 2); count = \"H/0.1\"; name = \"H\"; };\n"
@@ -248,9 +239,8 @@ static void numbers_are_expressions_of_variables(void **state)
     assert_true(hash(text, NULL) != hash(text, WITH("let.n=60")));
 }
 
-static void a_fault_of_an_expression_says_what_is_known(void **state)
+TEST(a_fault_of_an_expression_says_what_is_known)
 {
-    (void)state;
     FAULTY("let: { Hight = 0.3;\n  dx = \"Hihgt/3\"; };\nbox: { size = 1; };", 1,
            ".cfg:2: let.dx: `Hihgt' in \"Hihgt/3\" is not known: did you mean `Hight'?; known "
            "here: Hight\n");
@@ -269,21 +259,4 @@ static void a_fault_of_an_expression_says_what_is_known(void **state)
     FAULTY("box: { size = \"H\"; };", 1, "`H' in \"H\" is not known; no variable is defined");
     faulty("let: { H = 1; };\nbox: { size = \"H\"; };", WITH("let.h=3"), 1,
            WITH("-p let.h=3: let.h: no such variable in the case; known here: H\n"));
-}
-
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_command_line_goes_before_the_file),
-        cmocka_unit_test(the_command_line_reaches_into_lists),
-        cmocka_unit_test(the_command_line_gives_whole_lists),
-        cmocka_unit_test(the_hash_is_of_the_case_and_not_of_its_output),
-        cmocka_unit_test(the_text_of_a_case_can_be_read_again),
-        cmocka_unit_test(a_given_key_that_is_not_used_is_a_fault),
-        cmocka_unit_test(the_default_asks_for_nothing),
-        cmocka_unit_test(a_fault_between_keys_stands_at_its_key),
-        cmocka_unit_test(numbers_are_expressions_of_variables),
-        cmocka_unit_test(a_fault_of_an_expression_says_what_is_known),
-    };
-    RUN_PARAMS_TESTS(argc, argv, tests);
 }

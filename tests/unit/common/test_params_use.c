@@ -2,8 +2,6 @@
  * list of a list, too. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <unistd.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../common/params/params_use.h"
 
@@ -58,7 +56,7 @@ static const struct param rows[] = {
 /* clang-format on */
 static const struct param_group group = {
     "thing", "A thing", rows, sizeof rows / sizeof rows[0], &thing, NULL, 0, 0, NULL};
-static char path[256];
+static const char *path;
 
 /* Reads the case and asks all conditions: n faults are expected, the first of which has the text.
  */
@@ -81,9 +79,8 @@ static void faulty(const char *text, unsigned long long facts, int n, const char
     params_free(&p);
 }
 
-static void choices_and_keys_of_the_group(void **state)
+TEST(choices_and_keys_of_the_group)
 {
-    (void)state;
     faulty("radius = 2; at = (1, 1); file = \"a\"; other = \"b\";", 0, 0, "");
     faulty("form = \"flat\"; radius = 2;", 0, 1, "thing.radius: is not used: it is not round");
     faulty("form = \"flat\"; radius = 1;", 0, 0, ""); /* the default, which is so */
@@ -94,18 +91,16 @@ static void choices_and_keys_of_the_group(void **state)
     faulty("at = (1, 1); other = \"b\";", 0, 1, "thing.other: is not used: no first file");
 }
 
-static void facts_of_the_run(void **state)
+TEST(facts_of_the_run)
 {
-    (void)state;
     faulty("draught = 1;", 0, 1, "thing.draught: is not used: it is dry");
     faulty("draught = 1;", FACT(WET), 1, "is not used: shallow");
     faulty("draught = 1; form = \"flat\";", FACT(WET), 0, "");
     faulty("draught = 1;", FACT(DEEP), 0, "");
 }
 
-static void lists_in_a_group_and_the_plane(void **state)
+TEST(lists_in_a_group_and_the_plane)
 {
-    (void)state;
     faulty("marks = ( { size = 1; }, { size = 1; weight = 4; } );", 0, 1,
            "thing.marks.[1].size: is not used: it is heavy");
     faulty("hollow = true; marks = ( { size = 1; weight = 4; } );", 0, 1, "hollow things have");
@@ -121,9 +116,8 @@ static const char *words(const char *key)
     return "no such key";
 }
 
-static void the_manual_has_them_in_words(void **state)
+TEST(the_manual_has_them_in_words)
 {
-    (void)state;
     assert_string_equal(words("form"), "");
     assert_string_equal(words("radius"), "form = round");
     assert_string_equal(words("edge"), "form other than round; without hollow");
@@ -131,17 +125,4 @@ static void the_manual_has_them_in_words(void **state)
     assert_string_equal(words("draught"), "water or depth; depth or form = flat");
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(choices_and_keys_of_the_group),
-                                       cmocka_unit_test(facts_of_the_run),
-                                       cmocka_unit_test(lists_in_a_group_and_the_plane),
-                                       cmocka_unit_test(the_manual_has_them_in_words)};
-    const char *dir = getenv("TEST_SCRATCH");
-    MPI_Init(&argc, &argv);
-    snprintf(path, sizeof path, "%s/use_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    MPI_Finalize();
-    return failed;
-}
+void unit_begin(void) { path = unit_file("use.cfg"); }

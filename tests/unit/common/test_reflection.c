@@ -4,8 +4,6 @@
 #include "../test.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 
 #include "../../../common/waves/reflection.h"
 #include "../../../common/waves/wave_statistics.h"
@@ -46,9 +44,8 @@ static double ratio(int n, double R, double k_off, double noise)
     return cabs(r.back) / cabs(r.onward);
 }
 
-static void waves_are_told_apart(void **state)
+TEST(waves_are_told_apart)
 {
-    (void)state;
     near(ratio(3, 0.3, 0.0, 0.0), 0.3, 1e-9);
     near(ratio(2, 0.05, 0.0, 0.0), 0.05, 1e-9);
     near(ratio(3, 0.05, 0.0, 0.01), 0.05, 0.003);
@@ -57,9 +54,8 @@ static void waves_are_told_apart(void **state)
 }
 
 /* Two gauges: Goda & Suzuki's closed form; half a length apart tells nothing. */
-static void two_gauges_are_goda_and_suzukis(void **state)
+TEST(two_gauges_are_goda_and_suzukis)
 {
-    (void)state;
     const double x[2] = {0.2, 0.31}, k = 2.0 * M_PI, d = k * (x[1] - x[0]);
     const double complex A[2] = {1.0 + 0.2 * I, 0.4 - 0.9 * I};
     const struct reflection r = reflection_separate(2, x, A, k);
@@ -72,9 +68,8 @@ static void two_gauges_are_goda_and_suzukis(void **state)
     near(reflection_separate(2, half, A, k).condition, 0.0, 1e-12);
 }
 
-static void wave_numbers_are_found(void **state)
+TEST(wave_numbers_are_found)
 {
-    (void)state;
     const double x[4] = {0.0, 0.1, 0.27, 0.8}, k = 2.0 * M_PI;
     double complex A[4];
     for (int g = 0; g < 4; g++)
@@ -84,9 +79,8 @@ static void wave_numbers_are_found(void **state)
 
 /* Heights of a sum of two waves of 1 and 1.2 Hz: their beats; a sine has one height. The spectrum
  * holds the variance and peaks where the wave is. */
-static void heights_and_spectra(void **state)
+TEST(heights_and_spectra)
 {
-    (void)state;
     static double t[N], v[N];
     double f[SPECTRUM_BINS], S[SPECTRUM_BINS], sum = 0.0;
     for (int i = 0; i < N; i++) {
@@ -108,6 +102,3 @@ static void heights_and_spectra(void **state)
     near(sum, 0.005, 1e-4);
     near(f[peak], 1.0, 0.06);
 }
-
-TESTS(cmocka_unit_test(waves_are_told_apart), cmocka_unit_test(two_gauges_are_goda_and_suzukis),
-      cmocka_unit_test(wave_numbers_are_found), cmocka_unit_test(heights_and_spectra))

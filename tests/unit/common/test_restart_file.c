@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <unistd.h>
-
 #include "../../../common/files/h5.h"
 #include "../../../common/run/run_files.h"
 
@@ -42,25 +40,19 @@ static bool opens(int meaning)
     return is;
 }
 
-static void test_meaning(void **state)
+TEST(test_meaning)
 {
-    (void)state;
     assert_true(opens(3));
     assert_false(opens(2));
     assert_false(opens(4));
     assert_false(opens(UNSAID));
 }
 
-int main(int argc, char **argv)
+void unit_begin(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_meaning)};
     const char *scratch = getenv("TEST_SCRATCH");
-    MPI_Init(&argc, &argv);
     r = (struct run){.comm = MPI_COMM_WORLD, .name = "toy", .scene = {.time = {.end = 1.0}}};
     MPI_Comm_rank(r.comm, &r.rank);
     MPI_Comm_size(r.comm, &r.size);
     snprintf(r.dir, sizeof r.dir, "%s", scratch ? scratch : ".");
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
 }

@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-
 #include "../../../common/scene/scene_speed.h"
 
 /* With bodies that follow motion files taken to be at rest. */
@@ -33,9 +31,8 @@ static struct scene column(double height)
     return s;
 }
 
-static void water_falls_from_its_top_to_the_bottom(void **state)
+TEST(water_falls_from_its_top_to_the_bottom)
 {
-    (void)state;
     struct scene s = column(0.6);
     assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 0.6), 1e-12);
     assert_close(scene_speed_of(&s, 0.0, 0.0).pressure, 9.81 * 0.6, 1e-12);
@@ -47,9 +44,8 @@ static void water_falls_from_its_top_to_the_bottom(void **state)
     assert_close(speed_of(&s), sqrt(2.0 * 9.81), 1e-12);
 }
 
-static void a_column_scales_with_its_units(void **state)
+TEST(a_column_scales_with_its_units)
 {
-    (void)state;
     struct scene s = column(0.6), small = s;
     for (int a = 0; a < 2; a++) {
         small.domain.max[a] *= 1e-3;
@@ -59,9 +55,8 @@ static void a_column_scales_with_its_units(void **state)
 }
 
 /* Between plates p = 12 nu U L/h^2 holds the stream back, whichever axis it flows along. */
-static void a_channel_holds_its_stream_back(void **state)
+TEST(a_channel_holds_its_stream_back)
 {
-    (void)state;
     struct scene s = box(); /* 2 m along x */
     s.fluid.nu = 0.1;
     s.nwalls = 4;
@@ -78,9 +73,8 @@ static void a_channel_holds_its_stream_back(void **state)
     assert_close(scene_speed_of(&s, 0.0, 0.0).viscous, 0.1 * 3.0 / 1.0, 1e-12);
 }
 
-static void water_below_one_level_does_not_fall(void **state)
+TEST(water_below_one_level_does_not_fall)
 {
-    (void)state;
     struct scene s = box();
     s.fluid.gravity[1] = -9.81;
     s.nshapes = 1;
@@ -93,9 +87,8 @@ static void water_below_one_level_does_not_fall(void **state)
     assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 0.5), 1e-12);
 }
 
-static void a_closed_full_tank_has_its_static_pressure(void **state)
+TEST(a_closed_full_tank_has_its_static_pressure)
 {
-    (void)state;
     struct scene s = box();
     s.fluid.gravity[1] = -9.81;
     assert_close(speed_of(&s), sqrt(9.81), 1e-12);
@@ -104,9 +97,8 @@ static void a_closed_full_tank_has_its_static_pressure(void **state)
     assert_close(speed_of(&s), 0.2, 1e-12);
 }
 
-static void what_carries_a_field_counts(void **state)
+TEST(what_carries_a_field_counts)
 {
-    (void)state;
     struct scene s = box();
     s.initial.field = FIELD_TAYLOR_GREEN;
     s.initial.U = 1.0;
@@ -121,9 +113,8 @@ static void what_carries_a_field_counts(void **state)
     assert_close(speed_of(&s), 2.0, 1e-12);
 }
 
-static void walls_bodies_and_inlets_count(void **state)
+TEST(walls_bodies_and_inlets_count)
 {
-    (void)state;
     struct scene s = box();
     s.nwalls = 1;
     s.walls[0] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_NO_SLIP, .velocity = {4.0}};
@@ -151,9 +142,8 @@ static void walls_bodies_and_inlets_count(void **state)
     assert_close(speed_of(&s), 4.0, 1e-12);
 }
 
-static void a_force_along_a_periodic_axis_meets_friction_or_the_end(void **state)
+TEST(a_force_along_a_periodic_axis_meets_friction_or_the_end)
 {
-    (void)state;
     struct scene s = box();
     s.domain.periodic[0] = true;
     s.fluid.gravity[0] = 0.8;
@@ -169,9 +159,8 @@ static void a_force_along_a_periodic_axis_meets_friction_or_the_end(void **state
     assert_close(speed_of(&s), 0.4, 1e-12);
 }
 
-static void outlets_of_unequal_pressure_make_a_jet(void **state)
+TEST(outlets_of_unequal_pressure_make_a_jet)
 {
-    (void)state;
     struct scene s = box();
     s.nwalls = 2;
     s.walls[0] = (struct scene_wall){.side = SIDE_X_MIN, .kind = WALL_OUTFLOW, .pressure = 2000.0};
@@ -187,9 +176,8 @@ static void outlets_of_unequal_pressure_make_a_jet(void **state)
     }
 }
 
-static void waves_fall_from_crest_to_trough(void **state)
+TEST(waves_fall_from_crest_to_trough)
 {
-    (void)state;
     struct scene s = box();
     s.domain.periodic[0] = true;
     s.fluid.gravity[1] = -1.0;
@@ -204,9 +192,8 @@ static void waves_fall_from_crest_to_trough(void **state)
 
 /* nu U/L of Morris, Fox & Zhu (1997); to the spacing in the corners of a lid, as far as 1/k in a
  * periodic field; what falls makes none. */
-static void slow_flows_have_the_pressure_of_friction(void **state)
+TEST(slow_flows_have_the_pressure_of_friction)
 {
-    (void)state;
     struct scene s = box();
     s.fluid.nu = 5.0;
     s.nwalls = 2;
@@ -228,15 +215,3 @@ static void slow_flows_have_the_pressure_of_friction(void **state)
     s.fluid.nu = 5.0;
     assert_true(scene_speed_of(&s, 0.0, 0.1).viscous == 0.0);
 }
-
-TESTS(cmocka_unit_test(a_channel_holds_its_stream_back),
-      cmocka_unit_test(water_falls_from_its_top_to_the_bottom),
-      cmocka_unit_test(a_column_scales_with_its_units),
-      cmocka_unit_test(water_below_one_level_does_not_fall),
-      cmocka_unit_test(a_closed_full_tank_has_its_static_pressure),
-      cmocka_unit_test(what_carries_a_field_counts),
-      cmocka_unit_test(walls_bodies_and_inlets_count),
-      cmocka_unit_test(a_force_along_a_periodic_axis_meets_friction_or_the_end),
-      cmocka_unit_test(outlets_of_unequal_pressure_make_a_jet),
-      cmocka_unit_test(waves_fall_from_crest_to_trough),
-      cmocka_unit_test(slow_flows_have_the_pressure_of_friction))

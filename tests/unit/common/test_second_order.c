@@ -3,9 +3,6 @@
  * sea's tables meet the surface and transport nothing. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../common/waves/sea.h"
 #include "../../../common/waves/second_order.h"
@@ -19,9 +16,8 @@ static void near(double a, double b, double within)
     assert_true(fabs(a - b) <= within);
 }
 
-static void a_wave_with_itself_is_stokes(void **state)
+TEST(a_wave_with_itself_is_stokes)
 {
-    (void)state;
     static const double depths[] = {0.3, 1.0, 50.0};
     for (int d = 0; d < 3; d++) {
         const double w = 2.0 * M_PI / 1.3, h = depths[d], k[2] = {waves_number(w, g, h), 0.0},
@@ -32,9 +28,8 @@ static void a_wave_with_itself_is_stokes(void **state)
 }
 
 /* (k2 + k1)/2 and -(k2 - k1)/2, as far as a depth of 1000 m is deep for the difference. */
-static void deep_water_has_its_limits(void **state)
+TEST(deep_water_has_its_limits)
 {
-    (void)state;
     const double w1 = 5.0, w2 = 6.0, k1[2] = {w1 * w1 / g, 0.0}, k2[2] = {w2 * w2 / g, 0.0};
     near(bound_wave_of(k1, k2, w1, w2, 1, g, 1e3).eta, 0.5 * (k1[0] + k2[0]), 1e-9);
     near(bound_wave_of(k1, k2, w1, w2, -1, g, 1e3).eta, -0.5 * (k2[0] - k1[0]), 1e-9);
@@ -121,9 +116,8 @@ static double residual(double a, bool second)
     return most;
 }
 
-static void the_surface_is_met_to_third_order(void **state)
+TEST(the_surface_is_met_to_third_order)
 {
-    (void)state;
     const double first = log2(residual(0.002, false) / residual(0.001, false)),
                  second = log2(residual(0.002, true) / residual(0.001, true));
     near(first, 2.0, 0.05);
@@ -136,9 +130,8 @@ enum { COMPONENTS = 40 };
 
 /* 40 waves of a group, as f from 0.3 to 1.2 Hz with a peak of 2 s over 1 m: 3.7 % by the double
  * sum. */
-static void second_order_adds_to_a_focused_crest(void **state)
+TEST(second_order_adds_to_a_focused_crest)
 {
-    (void)state;
     double a[COMPONENTS], w[COMPONENTS], k[COMPONENTS][2], sum = 0.0, second = 0.0;
     for (int i = 0; i < COMPONENTS; i++) {
         const double f = 0.3 + 0.9 * i / (COMPONENTS - 1);
@@ -178,9 +171,8 @@ static struct wave_spec sea_of(double height, double length, double depth)
 
 /* More components than frequencies, shallow and deep, level and velocities on it, against the
  * double sum. */
-static void interpolated_pairs_are_pairs(void **state)
+TEST(interpolated_pairs_are_pairs)
 {
-    (void)state;
     for (int deep = 0; deep < 2; deep++) {
         const double h = deep ? 4.0 : 0.4;
         const struct wave_spec of = sea_of(0.06, 2.0, h);
@@ -250,9 +242,8 @@ static double leaves_its_surface(double height, int order)
     return most;
 }
 
-static void tables_meet_the_surface(void **state)
+TEST(tables_meet_the_surface)
 {
-    (void)state;
     const double first = leaves_its_surface(0.04, 1), second = leaves_its_surface(0.04, 2),
                  half = leaves_its_surface(0.02, 2);
     print_message("rest over height: %.3g, of second order %.3g, at half the height %.3g\n", first,
@@ -261,9 +252,8 @@ static void tables_meet_the_surface(void **state)
     near(log2(second / half), 3.0, 0.25);
 }
 
-static void seas_transport_nothing(void **state)
+TEST(seas_transport_nothing)
 {
-    (void)state;
     const struct wave_spec of = sea_of(0.06, 2.0, 0.5);
     struct waves *w = waves_create(&of);
     enum { TIMES = SANITIZED ? 10 : 400, PARTS = 60 };
@@ -284,9 +274,8 @@ static void seas_transport_nothing(void **state)
 }
 
 /* A group of second order stands higher than its linear crest; far from it water is at rest. */
-static void groups_stand_in_still_water(void **state)
+TEST(groups_stand_in_still_water)
 {
-    (void)state;
     struct wave_spec of = sea_of(0.12, 0.0, 1.0);
     of.kind = WAVE_FOCUSED;
     of.length = 0.0;
@@ -306,9 +295,3 @@ static void groups_stand_in_still_water(void **state)
     near(u[0], 0.0, 0.02 * w->speed);
     waves_free(&w);
 }
-
-TESTS(cmocka_unit_test(a_wave_with_itself_is_stokes), cmocka_unit_test(deep_water_has_its_limits),
-      cmocka_unit_test(the_surface_is_met_to_third_order),
-      cmocka_unit_test(second_order_adds_to_a_focused_crest),
-      cmocka_unit_test(interpolated_pairs_are_pairs), cmocka_unit_test(tables_meet_the_surface),
-      cmocka_unit_test(seas_transport_nothing), cmocka_unit_test(groups_stand_in_still_water))

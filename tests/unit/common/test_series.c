@@ -6,7 +6,7 @@
 
 #include "../../../common/files/series.h"
 
-static char path[512];
+static const char *path;
 static const char *const columns[] = {"t [s]", "dt [s]", "Ma"};
 
 /* The file at path; static buffer. */
@@ -30,18 +30,16 @@ static void write_rows(bool keep, double t_restart, int first, int n, double dt)
     assert_null(s);
 }
 
-static void a_row_has_its_columns(void **state)
+TEST(a_row_has_its_columns)
 {
-    (void)state;
     write_rows(false, 0, 1, 2, 0.25);
     assert_string_equal(text(), "t [s],dt [s],Ma\n0.25,0.25,0.1\n0.5,0.25,0.2\n");
     write_rows(false, 0, 1, 1, 0.5); /* a new run begins anew */
     assert_string_equal(text(), "t [s],dt [s],Ma\n0.5,0.5,0.1\n");
 }
 
-static void a_row_is_on_disk_at_once(void **state)
+TEST(a_row_is_on_disk_at_once)
 {
-    (void)state;
     struct series *s = series_create(path, 3, columns, false, 0);
     series_row(s, (double[]){1, 2, 3});
     assert_string_equal(text(), "t [s],dt [s],Ma\n1,2,3\n");
@@ -50,9 +48,8 @@ static void a_row_is_on_disk_at_once(void **state)
 
 /* Whatever was written after the restart file, the series goes on as if there had been no stop; dt
  * is no short decimal, so that the digits of the file are rounded. */
-static void a_restart_leaves_no_trace(void **state)
+TEST(a_restart_leaves_no_trace)
 {
-    (void)state;
     static char whole[4096];
     for (int at = 1; at < 40; at++) {
         const double dt = (at % 2 ? 2.0 : 1.0) / (3 * at);
@@ -63,26 +60,23 @@ static void a_restart_leaves_no_trace(void **state)
     }
 }
 
-static void a_restart_without_an_old_file_begins_one(void **state)
+TEST(a_restart_without_an_old_file_begins_one)
 {
-    (void)state;
     unlink(path);
     write_rows(true, 3.0, 1, 1, 0.5);
     assert_string_equal(text(), "t [s],dt [s],Ma\n0.5,0.5,0.1\n");
 }
 
-static void other_ranks_write_nothing(void **state)
+TEST(other_ranks_write_nothing)
 {
-    (void)state;
     struct series *s = series_create(NULL, 3, columns, false, 0);
     series_row(s, (double[]){1, 2, 3});
     series_free(&s);
     assert_null(s);
 }
 
-static void keys_with_dots_are_nested(void **state)
+TEST(keys_with_dots_are_nested)
 {
-    (void)state;
     struct summary *s = summary_create();
     summary_text(s, "status", "a \"b\" \\ c\n");
     summary_real(s, "errors.all", INFINITY); /* no member of error */
@@ -120,9 +114,8 @@ static void count_numbers(void *ctx, const char *key, double v)
     snprintf(seen + strlen(seen), 100 - strlen(seen), "%s=%g ", key, v);
 }
 
-static void numbers_are_found_and_listed_in_order(void **state)
+TEST(numbers_are_found_and_listed_in_order)
 {
-    (void)state;
     struct summary *s = summary_create();
     double v = -1;
     char seen[100] = "";
@@ -145,9 +138,8 @@ static void numbers_are_found_and_listed_in_order(void **state)
 }
 
 /* Eight bodies and 24 gauges of long names make a header of more than any buffer. */
-static void a_long_header_survives_a_restart(void **state)
+TEST(a_long_header_survives_a_restart)
 {
-    (void)state;
     enum { MANY = 200 };
     static char names[MANY][80];
     const char *list[MANY];
@@ -171,21 +163,4 @@ static void a_long_header_survives_a_restart(void **state)
     assert_int_equal(commas, 3 * (MANY - 1));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_row_has_its_columns),
-        cmocka_unit_test(a_row_is_on_disk_at_once),
-        cmocka_unit_test(a_restart_leaves_no_trace),
-        cmocka_unit_test(a_long_header_survives_a_restart),
-        cmocka_unit_test(a_restart_without_an_old_file_begins_one),
-        cmocka_unit_test(other_ranks_write_nothing),
-        cmocka_unit_test(keys_with_dots_are_nested),
-        cmocka_unit_test(numbers_are_found_and_listed_in_order),
-    };
-    const char *dir = getenv("TEST_SCRATCH");
-    snprintf(path, sizeof path, "%s/a list of %d.csv", dir ? dir : "/tmp", (int)getpid());
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    return failed;
-}
+void unit_begin(void) { path = unit_file("list.csv"); }

@@ -2,14 +2,11 @@
  * Bernoulli's equation, no divergence, gradients. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-
 #include "../../../common/waves/steady.h"
 
 /* c^2 k/g = 1 + e^2 + e^4/2 + e^6/4 - ... in deep water, e = kH/2 (Stokes's expansion). */
-static void deep_waves_have_stokes_speed(void **state)
+TEST(deep_waves_have_stokes_speed)
 {
-    (void)state;
     for (int m = 1; m <= 3; m++) {
         struct steady w;
         const double e = 0.1 * m, k = 2.0 * M_PI, g = 9.81;
@@ -20,9 +17,8 @@ static void deep_waves_have_stokes_speed(void **state)
 }
 
 /* Speeds from a solution of Babenko's equation (Clamond & Dutykh 2013), residual 1e-13. */
-static void solitary_waves_have_their_speed(void **state)
+TEST(solitary_waves_have_their_speed)
 {
-    (void)state;
     static const double at[3][2] = {{0.1, 1.048548}, {0.2, 1.094345}, {0.3, 1.137523}};
     for (int m = 0; m < 3; m++) {
         struct steady w;
@@ -83,9 +79,8 @@ static void judge(const struct steady *w, double depth, double x)
     }
 }
 
-static void fields_obey_euler(void **state)
+TEST(fields_obey_euler)
 {
-    (void)state;
     struct steady w;
     assert_true(steady_create(&w, false, 1.0, 4.19, 0.27, 0.3, 1.0, 1.0)); /* kd 1.5, ka 0.2 */
     for (int m = 0; m < 9; m++)
@@ -96,14 +91,9 @@ static void fields_obey_euler(void **state)
 }
 
 /* What is too high to exist is said so. */
-static void there_is_a_highest_wave(void **state)
+TEST(there_is_a_highest_wave)
 {
-    (void)state;
     struct steady w;
     assert_false(steady_create(&w, false, 5.0, 1.0, 0.15, 0.0, 9.81, 1.0)); /* 0.141 */
     assert_false(steady_create(&w, true, 1.0, 0.0, 0.9, 0.0, 9.81, 1.0));   /* 0.833 */
 }
-
-TESTS(cmocka_unit_test(deep_waves_have_stokes_speed),
-      cmocka_unit_test(solitary_waves_have_their_speed), cmocka_unit_test(fields_obey_euler),
-      cmocka_unit_test(there_is_a_highest_wave))

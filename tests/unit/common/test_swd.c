@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include <complex.h>
-#include <math.h>
 #include <unistd.h>
 
 #include "../../../common/waves/wave_field.h"
@@ -83,9 +82,8 @@ static const char *write_file(int shape, double magic)
 }
 
 /* Linear theory holds to the steepness, 2e-3; the tables to less. */
-static void files_give_their_waves(void **state)
+TEST(files_give_their_waves)
 {
-    (void)state;
     const char *path = write_file(2, 37.0221);
     struct wave_spec of = {.kind = WAVE_FILE,
                            .depth = depth,
@@ -132,9 +130,8 @@ static void refused(const char *path, const char *what)
     assert_non_null(strstr(error, what));
 }
 
-static void bad_files_are_told(void **state)
+TEST(bad_files_are_told)
 {
-    (void)state;
     char error[300];
     double a, b;
     refused("no such file.swd", "cannot be read");
@@ -154,5 +151,3 @@ static void bad_files_are_told(void **state)
     refused(path, "byte 80: the file ends before its header does");
     remove(path);
 }
-
-TESTS(cmocka_unit_test(files_give_their_waves), cmocka_unit_test(bad_files_are_told))

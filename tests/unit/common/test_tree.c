@@ -54,9 +54,8 @@ static bool meets(const struct trimesh *m, int t, const double *lo, const double
     return true;
 }
 
-static void boxes_find_what_all_triangles_find(void **state)
+TEST(boxes_find_what_all_triangles_find)
 {
-    (void)state;
     enum { N = 300 };
     struct trimesh m = cloud(N);
     struct tree *tree = tree_create(&m);
@@ -102,9 +101,8 @@ static double to_triangle(const struct trimesh *m, int t, const double *x)
     return above ? fabs(height) : least;
 }
 
-static void nearest_is_the_nearest(void **state)
+TEST(nearest_is_the_nearest)
 {
-    (void)state;
     enum { N = 300 };
     struct trimesh m = cloud(N);
     struct tree *tree = tree_create(&m);
@@ -143,9 +141,8 @@ static struct trimesh from_lists(int nv, const double (*x)[3], int nt, const int
 
 /* A spike with a sharp re-entrant base: the normal of the nearest face alone goes wrong in one
  * point of five. */
-static void pseudonormal_knows_the_side_of_a_spike(void **state)
+TEST(pseudonormal_knows_the_side_of_a_spike)
 {
-    (void)state;
     const double x[5][3] = {{0, 0, 0}, {1, 0, 0}, {.5, .9, 0}, {.5, .3, 3}, {.52, .32, .25}};
     const int v[6][3] = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 0}};
     struct trimesh m = from_lists(5, x, 6, v);
@@ -168,9 +165,8 @@ static void pseudonormal_knows_the_side_of_a_spike(void **state)
     trimesh_free(&m);
 }
 
-static void winding_is_one_inside_and_nought_outside(void **state)
+TEST(winding_is_one_inside_and_nought_outside)
 {
-    (void)state;
     const double lo[3] = {0, 0, 0}, hi[3] = {2, 1, 1};
     struct trimesh m = trimesh_box(lo, hi, 3);
     double worst = 0.0;
@@ -185,9 +181,8 @@ static void winding_is_one_inside_and_nought_outside(void **state)
 }
 
 /* Without its lid a tank's winding number is 1/2 on the lid's plane, more below, less above. */
-static void open_tank_has_one_half_on_its_lid(void **state)
+TEST(open_tank_has_one_half_on_its_lid)
 {
-    (void)state;
     const double lo[3] = {0, 0, 0}, hi[3] = {2, 1, 1};
     struct trimesh m = trimesh_box(lo, hi, 2);
     int kept = 0;
@@ -219,9 +214,8 @@ static void open_tank_has_one_half_on_its_lid(void **state)
 }
 
 /* Segments meet a closed surface as often as they change sides; none slips through an edge. */
-static void segments_do_not_slip_through(void **state)
+TEST(segments_do_not_slip_through)
 {
-    (void)state;
     const double c[3] = {0.1, -0.2, 0.3};
     struct trimesh m = trimesh_sphere(c, 1.0, 3);
     struct tree *tree = tree_create(&m);
@@ -254,9 +248,8 @@ static void segments_do_not_slip_through(void **state)
 }
 
 /* A turned, shifted box: its volume, centre and inertia are known. */
-static void solids_are_those_of_a_box(void **state)
+TEST(solids_are_those_of_a_box)
 {
-    (void)state;
     const double lo[3] = {-0.5, -1.0, -1.5}, hi[3] = {0.5, 1.0, 1.5}, shift[3] = {500, -300, 20};
     const double q = 0.6, c = cos(q), s = sin(q);
     const double Q[3][3] = {{c, -s, 0}, {s * c, c * c, -s}, {s * s, s * c, c}};
@@ -286,9 +279,8 @@ static void solids_are_those_of_a_box(void **state)
 }
 
 /* Inscribed spheres fall short at second order; a prism has the volume of its base. */
-static void builders_close_their_solids(void **state)
+TEST(builders_close_their_solids)
 {
-    (void)state;
     const double o[3] = {1, 2, 3}, lo[3] = {0, 0, 0}, hi[3] = {1, 2, 3};
     const double L[6][2] = {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
     double before = 0.0;
@@ -318,9 +310,8 @@ static void builders_close_their_solids(void **state)
 }
 
 /* Two boxes, one of them open: parts, rims, and two that share an edge: a junction. */
-static void parts_rims_and_junctions_are_counted(void **state)
+TEST(parts_rims_and_junctions_are_counted)
 {
-    (void)state;
     const double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1}, far_lo[3] = {3, 0, 0}, far_hi[3] = {4, 1, 1};
     struct trimesh m = trimesh_box(lo, hi, 1), more = trimesh_box(far_lo, far_hi, 2);
     more.ntriangles--;
@@ -341,12 +332,3 @@ static void parts_rims_and_junctions_are_counted(void **state)
     assert_int_equal(m.clashes, 1);
     trimesh_free(&m);
 }
-
-TESTS(cmocka_unit_test(boxes_find_what_all_triangles_find),
-      cmocka_unit_test(nearest_is_the_nearest),
-      cmocka_unit_test(pseudonormal_knows_the_side_of_a_spike),
-      cmocka_unit_test(winding_is_one_inside_and_nought_outside),
-      cmocka_unit_test(open_tank_has_one_half_on_its_lid),
-      cmocka_unit_test(segments_do_not_slip_through), cmocka_unit_test(solids_are_those_of_a_box),
-      cmocka_unit_test(builders_close_their_solids),
-      cmocka_unit_test(parts_rims_and_junctions_are_counted))

@@ -5,17 +5,15 @@
 #include "../../../common/run/program.h"
 #include "../../../common/run/watch.h"
 
-static void a_falling_energy_gains_nothing(void **state)
+TEST(a_falling_energy_gains_nothing)
 {
-    (void)state;
     struct watch_budget b = {.n = 0};
     for (int step = 0; step < 1000; step++)
         assert_close(watch_budget_gain(&b, step, 2.0 - 1e-3 * step), 0.0, 0.0);
 }
 
-static void a_gain_is_that_of_the_last_hundred_steps(void **state)
+TEST(a_gain_is_that_of_the_last_hundred_steps)
 {
-    (void)state;
     struct watch_budget b = {.n = 0};
     double gain = 0.0;
     for (int step = 0; step <= 1000; step++)
@@ -26,9 +24,8 @@ static void a_gain_is_that_of_the_last_hundred_steps(void **state)
     assert_close(gain, 0.0, 0.0);
 }
 
-static void every_tenth_step_is_enough(void **state)
+TEST(every_tenth_step_is_enough)
 {
-    (void)state;
     struct watch_budget b = {.n = 0};
     double gain = 0.0;
     for (int step = 0; step <= 1000; step += 10)
@@ -36,9 +33,8 @@ static void every_tenth_step_is_enough(void **state)
     assert_true(gain <= 0.1001 && gain >= 0.0899);
 }
 
-static void a_level_warns_and_another_stops(void **state)
+TEST(a_level_warns_and_another_stops)
 {
-    (void)state;
     struct diagnosis d = {.bad = false};
     struct watch w = {.key = "x", .what = "x", .likely = "-", .warn = 0.01, .stop = 0.1};
     assert_false(watch_judge(&w, 0.001, 0.0, 0, &d));
@@ -52,9 +48,8 @@ static void a_level_warns_and_another_stops(void **state)
 }
 
 /* What was too large for a while is a warning; what still is at the end is no sound run. */
-static void a_run_that_ends_beyond_the_warning_is_not_sound(void **state)
+TEST(a_run_that_ends_beyond_the_warning_is_not_sound)
 {
-    (void)state;
     const double last[] = {0.001, 0.02, NAN};
     for (int k = 0; k < 3; k++)
         for (int q = 0; q < 2; q++) {
@@ -70,9 +65,3 @@ static void a_run_that_ends_beyond_the_warning_is_not_sound(void **state)
             summary_free(&s);
         }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_falling_energy_gains_nothing),
-               cmocka_unit_test(a_gain_is_that_of_the_last_hundred_steps),
-               cmocka_unit_test(every_tenth_step_is_enough),
-               cmocka_unit_test(a_level_warns_and_another_stops),
-               cmocka_unit_test(a_run_that_ends_beyond_the_warning_is_not_sound))

@@ -3,18 +3,15 @@
 #include "../test.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 #include "../../../common/scene/exact.h"
 
-static void eigenvalues(void **state)
+TEST(eigenvalues)
 {
     /* Collocation of the original equations (Chebyshev), H = g = 1. */
     static const struct {
         double kH, Re, re, im;
     } known[] = {{0.5 * M_PI, 500.0, -0.014629189, 1.195190510}};
-    (void)state;
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++) {
         const struct wave w =
             wave_create(1.0, 2.0 * M_PI / known[k].kH, 1.0, 1.0 / known[k].Re, 1.0, 0.05);
@@ -28,11 +25,10 @@ static void eigenvalues(void **state)
 }
 
 /* Linear momentum and continuity by differences, in the layers and between them. */
-static void wave_solves_its_equations(void **state)
+TEST(wave_solves_its_equations)
 {
     const struct wave w = wave_create(1.0, 4.0, 1.0, 1.0 / 500.0, 1.0, 0.05);
     const double h = 1e-4, t = 0.7;
-    (void)state;
     for (int k = 0; k < 20; k++) {
         const double x = 0.3 + 0.07 * k, y = -0.99 + 0.05 * k;
         double u[2], e[2], W[2], n[2], s[2], b[2], a[2], pe, pw, pn, ps, dummy;
@@ -71,9 +67,8 @@ static struct scene channel(int field)
 
 /* Water of real viscosity: its layers are millimetres, cells beyond the crest and
  * the bottom are not. */
-static void thin_layers_do_not_grow_beyond_the_water(void **state)
+TEST(thin_layers_do_not_grow_beyond_the_water)
 {
-    (void)state;
     const struct wave w = wave_create(0.6, 2.0, 9.81, 1e-6, 1000.0, 0.03);
     for (int j = -80; j <= 60; j++) {
         double u[2], vorticity;
@@ -82,11 +77,10 @@ static void thin_layers_do_not_grow_beyond_the_water(void **state)
     }
 }
 
-static void channels(void **state)
+TEST(channels)
 {
     const double y[3] = {0.3, 0.5, 0.0}, wall[3] = {0.0, 1.0, 0.0}, h = 1e-4;
     double u[3], before[3], after[3], above[3], below[3], w;
-    (void)state;
     for (int field = FIELD_POISEUILLE; field <= FIELD_COUETTE; field++) {
         const struct scene s = channel(field);
         const struct exact e = exact_create(&s);
@@ -108,14 +102,13 @@ static void channels(void **state)
     }
 }
 
-static void patch_and_drop(void **state)
+TEST(patch_and_drop)
 {
     struct scene s = {.fluid = {.rho = 1.0, .central = 1.0},
                       .domain = {.dim = 2},
                       .initial = {.field = FIELD_PATCH, .U = 1.0, .L = 1.0, .level = LEVEL_TOP}};
     const double centre[3] = {0.0, 0.0, 0.0}, side[3] = {0.5, 0.1, 0.0};
     double u[3], p;
-    (void)state;
     struct exact e = exact_create(&s);
     exact_point(&e, centre, 0.0, u, &p, NULL);
     assert_true(fabs(p + 0.1473427) < 2e-5);
@@ -129,22 +122,20 @@ static void patch_and_drop(void **state)
 }
 
 /* By collocation in time and depth, t sqrt(g/H) = 0 and 34.5: the integral of w^2 over a wave. */
-static void enstrophy_of_the_layer(void **state)
+TEST(enstrophy_of_the_layer)
 {
     const struct wave w = wave_create(1.0, 4.0, 1.0, 1.0 / 500.0, 1.0, 0.05);
-    (void)state;
     assert_close(8.0 * wave_enstrophy(&w, 0.0), 8.564256622 * 0.0025, 1e-6);
     assert_close(8.0 * wave_enstrophy(&w, 34.5), 8.564256622 * 0.0025 * 0.2623700089, 1e-6);
 }
 
 /* What stokes.h promises: a divergence-free velocity, v the surface's rate of change for a crest
  * that travels at omega/k, no pressure on the surface, and the weight of the water far below. */
-static void stokes_wave_travels(void **state)
+TEST(stokes_wave_travels)
 {
     const struct stokes w = stokes_create(1.0, 1.0, 1.0, 0.1);
     const double h = 1e-5;
     double mean = 0.0;
-    (void)state;
     for (int i = 0; i < 64; i++) {
         const double x = i / 64.0, first = w.a * cos(w.k * x), y = stokes_eta(&w, x);
         double u[2], e[2], W[2], n[2], s[2], p;
@@ -167,11 +158,10 @@ static void stokes_wave_travels(void **state)
 
 /* Pivots that depend on units left the root of a viscous wave with six digits, others in other
  * units. */
-static void waves_are_the_same_in_other_units(void **state)
+TEST(waves_are_the_same_in_other_units)
 {
     const double L = 32.0, U = 0.0625, H = 0.17578125, length = 0.48828125,
                  nu = 0.40444735510869156;
-    (void)state;
     const struct wave a = wave_create(H, length, 9.81, nu, 1000.0, 0.0067);
     const struct wave b =
         wave_create(L * H, L * length, U * U / L * 9.81, L * U * nu, 1.0, L * 0.0067);
@@ -182,9 +172,3 @@ static void waves_are_the_same_in_other_units(void **state)
     for (int k = 0; k < 2; k++)
         assert_close(v[k] / U, u[k], 1e-12 * 0.0067 * cabs(a.s));
 }
-
-TESTS(cmocka_unit_test(waves_are_the_same_in_other_units), cmocka_unit_test(eigenvalues),
-      cmocka_unit_test(wave_solves_its_equations), cmocka_unit_test(stokes_wave_travels),
-      cmocka_unit_test(enstrophy_of_the_layer),
-      cmocka_unit_test(thin_layers_do_not_grow_beyond_the_water), cmocka_unit_test(channels),
-      cmocka_unit_test(patch_and_drop))

@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_absorber.h"
@@ -46,9 +45,8 @@ static struct wave_absorber *absorber(double h, double period, double hinge, dou
     return a;
 }
 
-static void nothing_of_its_own_waves_comes_back(void **state)
+TEST(nothing_of_its_own_waves_comes_back)
 {
-    (void)state;
     for (int flap = 0; flap < 2; flap++)
         for (double period = 0.8; period < 4.0; period *= 1.5) {
             struct wave_absorber *a = absorber(0.5, period, flap ? 0.1 : -1.0, 0.03);
@@ -61,9 +59,8 @@ static void nothing_of_its_own_waves_comes_back(void **state)
 
 /* In long waves the water goes with the wall: no mode stands beside it, and the amplitude over the
  * displacement is k h, by volume (Galvin 1964). */
-static void a_slow_piston_has_no_modes_beside_it(void **state)
+TEST(a_slow_piston_has_no_modes_beside_it)
 {
-    (void)state;
     struct wave_absorber *slow = absorber(0.5, 30.0, -1.0, 0.0),
                          *fast = absorber(0.5, 1.0, -1.0, 0.0);
     assert_true(fabs(slow->beside) < 1e-2 * slow->made);
@@ -75,9 +72,8 @@ static void a_slow_piston_has_no_modes_beside_it(void **state)
 
 /* Steps of the equations of the header under a level e^(i(wt + kx)) that comes in: with what runs
  * off and stands beside it, X goes to i/c times that, so that all is taken up. */
-static void steps_go_where_the_theory_has_it(void **state)
+TEST(steps_go_where_the_theory_has_it)
 {
-    (void)state;
     struct wave_absorber *a = absorber(0.5, 1.5, -1.0, 0.04);
     const double dt = 1.5 / 4000.0, w = a->omega;
     const double complex in = cexp(I * a->k * a->distance), wanted = I / a->made;
@@ -98,7 +94,3 @@ static void steps_go_where_the_theory_has_it(void **state)
     assert_close(cimag(sum), cimag(wanted), 1e-2);
     wave_absorber_free(&a);
 }
-
-TESTS(cmocka_unit_test(nothing_of_its_own_waves_comes_back),
-      cmocka_unit_test(a_slow_piston_has_no_modes_beside_it),
-      cmocka_unit_test(steps_go_where_the_theory_has_it))

@@ -4,8 +4,6 @@
  * share a field too. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-
 #include "../../../common/waves/sea.h"
 #include "../../../common/waves/second_order.h"
 #include "../../../common/waves/wave_field.h"
@@ -62,9 +60,8 @@ static void compare(double height, double depth, int evolve, double *first, doub
 
 /* What the sum of second order leaves falls as the cube of the height, what the first leaves as its
  * square. */
-static void groups_are_of_second_order(void **state)
+TEST(groups_are_of_second_order)
 {
-    (void)state;
     static const double depths[] = {4.0, 0.2};
     for (int d = 0; d < (SANITIZED ? 0 : 2); d++)
         for (int evolve = d ? EVOLVE_HOS : EVOLVE_FULL; evolve <= EVOLVE_HOS; evolve++) {
@@ -119,9 +116,8 @@ static void check_water(const struct wave_spec *of, double t0, int places, const
     waves_free(&w);
 }
 
-static void water_stays_water(void **state)
+TEST(water_stays_water)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_SEA, 0.03, 3.0, EVOLVE_FULL);
     check_water(&of, SANITIZED ? -7.9 : 0.0, SANITIZED ? 1 : 12, "deep sea");
     if (SANITIZED)
@@ -137,9 +133,8 @@ static void water_stays_water(void **state)
     check_water(&of, -7.9, 2, "sea of several directions");
 }
 
-static void bits_do_not_depend_on_who_asks(void **state)
+TEST(bits_do_not_depend_on_who_asks)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_FOCUSED, 0.04, 0.5, EVOLVE_FULL);
     of.zone = 1.0;
     of.rate = 20.0;
@@ -176,6 +171,3 @@ static void bits_do_not_depend_on_who_asks(void **state)
     waves_free(&one);
     waves_free(&other);
 }
-
-TESTS(cmocka_unit_test(groups_are_of_second_order), cmocka_unit_test(water_stays_water),
-      cmocka_unit_test(bits_do_not_depend_on_who_asks))

@@ -5,8 +5,6 @@
 #include "../test.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 #include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_maker.h"
@@ -38,9 +36,8 @@ static struct wave_spec spec(int kind, double height, double length, double dept
 }
 
 /* Against steady.h itself, inside and on the surface, deep and shallow; above it as on it. */
-static void tables_give_the_wave(void **state)
+TEST(tables_give_the_wave)
 {
-    (void)state;
     static const double depths[] = {0.1, 0.5, 4.0};
     for (int d = 0; d < 3; d++) {
         struct wave_spec of = spec(WAVE_REGULAR, 0.5 * waves_limit(depths[d], 1.0), 1.0, depths[d]);
@@ -66,9 +63,8 @@ static void tables_give_the_wave(void **state)
 
 /* Numbers of waves on a current satisfy omega = sqrt(g k tanh kh) + k U; deep water against them is
  * held from g/(4 |U|) on; the group velocity is the slope of the frequency. */
-static void currents_change_lengths(void **state)
+TEST(currents_change_lengths)
 {
-    (void)state;
     static const double U[] = {0.3, -0.2, -0.6, 2.0};
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 3; j++) {
@@ -87,9 +83,8 @@ static void currents_change_lengths(void **state)
 }
 
 /* Of one period at rest: that of still water of the length found, seen from the water. */
-static void currents_carry_the_wave(void **state)
+TEST(currents_carry_the_wave)
 {
-    (void)state;
     for (int i = 0; i < 4; i++) {
         const double U = i & 1 ? -0.2 : 0.3;
         struct wave_spec of = spec(WAVE_REGULAR, 0.03, 0.0, 0.16), still = of;
@@ -120,9 +115,8 @@ static void currents_carry_the_wave(void **state)
 
 /* A group meets at its place and time over the ground, with its bound waves; each component runs
  * at its frequency at rest. */
-static void groups_focus_on_currents(void **state)
+TEST(groups_focus_on_currents)
 {
-    (void)state;
     for (int i = 0; i < 4; i++) {
         struct wave_spec of = spec(WAVE_FOCUSED, 0.03, 0.0, 0.5);
         of.period = 1.2;
@@ -153,9 +147,8 @@ static void groups_focus_on_currents(void **state)
     }
 }
 
-static void currents_that_hold_waves_are_refused(void **state)
+TEST(currents_that_hold_waves_are_refused)
 {
-    (void)state;
     char text[256];
     const char *key = "";
     struct wave_spec of = spec(WAVE_REGULAR, 0.01, 0.0, 0.5);
@@ -179,9 +172,8 @@ static void currents_that_hold_waves_are_refused(void **state)
 }
 
 /* Depth and phase averages of a closed tank's wave: int u dz over a period is 0. */
-static void closed_tanks_transport_nothing(void **state)
+TEST(closed_tanks_transport_nothing)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_REGULAR, 0.05, 1.0, 0.3);
     struct waves *w = waves_create(&of);
     double flux = 0.0, size = 0.0;
@@ -200,9 +192,8 @@ static void closed_tanks_transport_nothing(void **state)
     waves_free(&w);
 }
 
-static void periods_are_met(void **state)
+TEST(periods_are_met)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_REGULAR, 0.1, 0.0, 0.6);
     of.period = 1.3;
     struct waves *w = waves_create(&of);
@@ -216,9 +207,8 @@ static void periods_are_met(void **state)
 }
 
 /* Too high, both or neither of length and period. */
-static void waves_that_break_are_refused(void **state)
+TEST(waves_that_break_are_refused)
 {
-    (void)state;
     const char *key;
     char text[256];
     struct wave_spec of = spec(WAVE_REGULAR, 0.4, 2.0, 0.6);
@@ -235,9 +225,8 @@ static void waves_that_break_are_refused(void **state)
 }
 
 /* Variance is Hs^2/16 over the time after which it repeats itself. */
-static void seas_have_their_height(void **state)
+TEST(seas_have_their_height)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
     struct waves *w = waves_create(&of);
     double square = 0.0;
@@ -275,9 +264,8 @@ static void seas_have_their_height(void **state)
 }
 
 /* cos^2s(b/2) has the mean cosine s/(s+1); as many to the left as to the right. */
-static void directions_have_their_spread(void **state)
+TEST(directions_have_their_spread)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
     of.repeat = 3000.0;
     for (int i = 0; i < 2; i++) {
@@ -298,9 +286,8 @@ static void directions_have_their_spread(void **state)
 }
 
 /* Level and velocities of a short-crested sea against its sum; div u = 0. */
-static void short_crests_are_their_sum(void **state)
+TEST(short_crests_are_their_sum)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
     of.spread = 10.0;
     of.window[1][1] = 2.0;
@@ -333,9 +320,8 @@ static void short_crests_are_their_sum(void **state)
     waves_free(&w);
 }
 
-static void groups_focus(void **state)
+TEST(groups_focus)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_FOCUSED, 0.12, 2.0, 1.0);
     of.at[0] = 1.5;
     of.at[1] = 12.0;
@@ -351,9 +337,8 @@ static void groups_focus(void **state)
     waves_free(&w);
 }
 
-static void bits_do_not_depend_on_who_asks(void **state)
+TEST(bits_do_not_depend_on_who_asks)
 {
-    (void)state;
     struct wave_spec of = spec(WAVE_SEA, 0.06, 2.0, 0.5);
     struct waves *one = waves_create(&of), *other = waves_create(&of);
     double u[3], v[3];
@@ -372,9 +357,8 @@ static void bits_do_not_depend_on_who_asks(void **state)
 /* Without a zone all comes back, and long ones send on what u_w says. Of one length R is that of
  * waves.md's exact solution within a factor (0.008 to 0.02 at the best rate); half as long ten
  * times as much. */
-static void zones_answer_as_they_should(void **state)
+TEST(zones_answer_as_they_should)
 {
-    (void)state;
     const double k = 2.0 * M_PI, h = 1.0 / k, w = sqrt(9.81 * k * tanh(1.0));
     const struct zone_response bare = zone_response(w, k, 1.0, 9.81, h, 0.5, 1e-9),
                                half = zone_response(w, k, 1.0, 9.81, h, 0.5, 2.0 * w),
@@ -389,9 +373,8 @@ static void zones_answer_as_they_should(void **state)
 }
 
 /* Biesel's transfer functions of pistons and of flaps hinged on the floor, kh 0.3, 1, 3. */
-static void paddles_have_biesels_ratios(void **state)
+TEST(paddles_have_biesels_ratios)
 {
-    (void)state;
     static const double kh[] = {0.3, 1.0, 3.0}, piston[] = {0.2999, 0.9818, 1.9326},
                         flap[] = {0.1511, 0.5281, 1.3495};
     for (int i = 0; i < 3; i++) {
@@ -399,12 +382,3 @@ static void paddles_have_biesels_ratios(void **state)
         near(wave_maker_ratio(2.0 * kh[i], 0.5, 0.0), flap[i], 1e-4);
     }
 }
-
-TESTS(cmocka_unit_test(tables_give_the_wave), cmocka_unit_test(currents_change_lengths),
-      cmocka_unit_test(currents_carry_the_wave), cmocka_unit_test(groups_focus_on_currents),
-      cmocka_unit_test(currents_that_hold_waves_are_refused),
-      cmocka_unit_test(closed_tanks_transport_nothing), cmocka_unit_test(periods_are_met),
-      cmocka_unit_test(waves_that_break_are_refused), cmocka_unit_test(seas_have_their_height),
-      cmocka_unit_test(directions_have_their_spread), cmocka_unit_test(short_crests_are_their_sum),
-      cmocka_unit_test(groups_focus), cmocka_unit_test(bits_do_not_depend_on_who_asks),
-      cmocka_unit_test(zones_answer_as_they_should), cmocka_unit_test(paddles_have_biesels_ratios))

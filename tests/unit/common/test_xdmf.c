@@ -7,7 +7,7 @@
 
 #include "../../../common/files/xdmf.h"
 
-static char path[512];
+static const char *path;
 static const struct xdmf_field fields[] = {{"velocity", 2}, {"pressure", 1}, {"force", 3}};
 
 /* The file at path; static buffer. */
@@ -82,9 +82,8 @@ static void add(struct xdmf *x, int k, double t, int dim)
         xdmf_points(x, t, file, 1000 + k, dim, 3, fields);
 }
 
-static void the_judge_of_form_can_say_no(void **state)
+TEST(the_judge_of_form_can_say_no)
 {
-    (void)state;
     assert_true(well_formed("<?xml version=\"1.0\" ?>\n<A><B c=\"1\"/></A>\n"));
     assert_false(well_formed("<?xml version=\"1.0\" ?>\n<A><B c=\"1\"></A>\n"));
     assert_false(well_formed("<?xml version=\"1.0\" ?>\n<A><B></A></B>\n"));
@@ -93,9 +92,8 @@ static void the_judge_of_form_can_say_no(void **state)
     assert_false(well_formed("<?xml version=\"1.0\" ?>\n<A>"));
 }
 
-static void the_file_is_whole_after_each_snapshot(void **state)
+TEST(the_file_is_whole_after_each_snapshot)
 {
-    (void)state;
     char name[64], part[520];
     snprintf(part, sizeof part, "%s.part", path);
     for (int dim = 2; dim <= 3; dim++) {
@@ -116,9 +114,8 @@ static void the_file_is_whole_after_each_snapshot(void **state)
 }
 
 /* Order of axes is that of the data sets: x last. Nodes are one more than cells. */
-static void entries_say_what_readers_need(void **state)
+TEST(entries_say_what_readers_need)
 {
-    (void)state;
     struct xdmf *x = xdmf_create(path, false, 0);
     add(x, 1, 0.1, 2);
     assert_int_equal(count("\"2DSMesh\" Dimensions=\"5 9\""), 1);
@@ -148,9 +145,8 @@ static void entries_say_what_readers_need(void **state)
 }
 
 /* Restarted at entry `at', the file is at the end as if there had been no stop. */
-static void a_restart_leaves_no_trace(void **state)
+TEST(a_restart_leaves_no_trace)
 {
-    (void)state;
     static char whole[1 << 16];
     const double dt = 1.0 / 3.0;
     struct xdmf *x = xdmf_create(path, false, 0);
@@ -180,17 +176,4 @@ static void a_restart_leaves_no_trace(void **state)
     xdmf_free(&x);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_judge_of_form_can_say_no),
-        cmocka_unit_test(the_file_is_whole_after_each_snapshot),
-        cmocka_unit_test(entries_say_what_readers_need),
-        cmocka_unit_test(a_restart_leaves_no_trace),
-    };
-    const char *dir = getenv("TEST_SCRATCH");
-    snprintf(path, sizeof path, "%s/a list of %d.xdmf", dir ? dir : "/tmp", (int)getpid());
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    return failed;
-}
+void unit_begin(void) { path = unit_file("list.xdmf"); }

@@ -18,9 +18,8 @@ static void affine(const double *x, int n, double *y)
 static const double determinant =
     1.5 * (0.8 * 2.0 - 0.3 * 0.2) - 0.4 * (0.1 * 2.0 + 0.3 * 0.3) - 0.2 * (0.1 * 0.2 + 0.8 * 0.3);
 
-static void polyhedra_have_their_volumes(void **state)
+TEST(polyhedra_have_their_volumes)
 {
-    (void)state;
     static const struct {
         int n;
         double x[24], centroid[3], volume;
@@ -48,9 +47,8 @@ static void polyhedra_have_their_volumes(void **state)
     }
 }
 
-static void polygons_have_theirs(void **state)
+TEST(polygons_have_theirs)
 {
-    (void)state;
     double x[300], centroid[3], volume;
     for (int i = 0; i < 100; i++) { /* an L, its sides cut, turned round */
         static const double l[7][2] = {{0, 0}, {0, 2}, {1, 2}, {1, 1}, {3, 1}, {3, 0}, {0, 0}};
@@ -73,9 +71,8 @@ static void polygons_have_theirs(void **state)
 }
 
 /* Two hexahedra with a bent face in common: together what the surface around both holds. */
-static void cells_that_share_a_bent_face_add_up(void **state)
+TEST(cells_that_share_a_bent_face_add_up)
 {
-    (void)state;
     srand(5);
     for (int k = 0; k < 100; k++) {
         double a[24] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1};
@@ -92,9 +89,8 @@ static void cells_that_share_a_bent_face_add_up(void **state)
     }
 }
 
-static void what_is_no_cell_has_no_volume(void **state)
+TEST(what_is_no_cell_has_no_volume)
 {
-    (void)state;
     const double x[24] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3};
     double centroid[3], volume;
     const int n[] = {0, 2, 4, 7, 9};
@@ -105,7 +101,3 @@ static void what_is_no_cell_has_no_volume(void **state)
         assert_true(volume == 0.0);
     }
 }
-
-TESTS(cmocka_unit_test(polyhedra_have_their_volumes), cmocka_unit_test(polygons_have_theirs),
-      cmocka_unit_test(cells_that_share_a_bent_face_add_up),
-      cmocka_unit_test(what_is_no_cell_has_no_volume))

@@ -2,10 +2,6 @@
  * the targets that sources are asked for. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../coupler/mapping/map.h"
 #include "../../../coupler/transport/region.h"
@@ -85,25 +81,22 @@ static double worst(map_points *map, int dim, int n, double disturb, double R,
     return e;
 }
 
-static void shepard_keeps_constants_also_at_edges(void **state)
+TEST(shepard_keeps_constants_also_at_edges)
 {
-    (void)state;
     assert_true(worst(map_shepard, 2, 20, 0.5, 0.15, one, 0.0, 1.0) < 1e-13);
     assert_true(worst(map_shepard, 3, 10, 0.5, 0.25, one, 0.0, 1.0) < 1e-13);
 }
 
-static void mls_keeps_linear_functions(void **state)
+TEST(mls_keeps_linear_functions)
 {
-    (void)state;
     assert_true(worst(map_mls, 2, 20, 0.5, 0.2, linear, 0.02, 0.98) < 1e-12);
     assert_true(worst(map_mls, 3, 10, 0.5, 0.35, linear, 0.05, 0.95) < 1e-12);
     assert_true(worst(map_shepard, 2, 20, 0.5, 0.2, linear, 0.02, 0.98) > 1e-3);
 }
 
 /* With R a fixed number of spacings: Shepard first order on disordered points, MLS second. */
-static void orders_are_one_and_two(void **state)
+TEST(orders_are_one_and_two)
 {
-    (void)state;
     double s[2], m[2];
     for (int k = 0; k < 2; k++) {
         const int n = 20 << (2 * k);
@@ -114,9 +107,8 @@ static void orders_are_one_and_two(void **state)
     assert_true(log2(m[0] / m[1]) / 2.0 > 1.7);
 }
 
-static void kernel_integrates_to_one_and_has_its_moments(void **state)
+TEST(kernel_integrates_to_one_and_has_its_moments)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         const double R = 0.8, dr = R / 4000;
         double sum = 0.0, second = 0.0;
@@ -135,9 +127,8 @@ static void kernel_integrates_to_one_and_has_its_moments(void **state)
 
 /* Fine particles, one coarse cell: with the radius of the moment rule the sum is the cell's mean,
  * not the value at its centre. */
-static void moment_rule_gives_cell_averages(void **state)
+TEST(moment_rule_gives_cell_averages)
 {
-    (void)state;
     const double h = 0.2, a = 3.0, b = 2.0, x[2] = {0.45, 0.55};
     struct map_cloud c = lattice(2, 160, 0.0, 1, 0);
     double v;
@@ -153,9 +144,8 @@ static void moment_rule_gives_cell_averages(void **state)
     map_cloud_free(&c);
 }
 
-static void order_of_sources_leaves_no_trace(void **state)
+TEST(order_of_sources_leaves_no_trace)
 {
-    (void)state;
     map_points *const maps[] = {map_shepard, map_mls};
     for (int dim = 2; dim <= 3; dim++)
         for (int k = 0; k < 2; k++) {
@@ -179,9 +169,8 @@ static void order_of_sources_leaves_no_trace(void **state)
         }
 }
 
-static void empty_places_are_masked(void **state)
+TEST(empty_places_are_masked)
 {
-    (void)state;
     struct map_cloud c = lattice(2, 10, 0.0, 1, 0), none = {0};
     const double x[4] = {0.5, 0.5, 3.0, 3.0};
     double v[2];
@@ -198,9 +187,8 @@ static void empty_places_are_masked(void **state)
 }
 
 /* Points on a line leave MLS without a second direction: Shepard answers. */
-static void mls_falls_back_where_points_lie_on_a_line(void **state)
+TEST(mls_falls_back_where_points_lie_on_a_line)
 {
-    (void)state;
     struct map_cloud c = lattice(2, 20, 0.0, 1, 0);
     for (long i = 0; i < c.n; i++)
         c.x[2 * i + 1] = 0.5;
@@ -214,9 +202,8 @@ static void mls_falls_back_where_points_lie_on_a_line(void **state)
     map_cloud_free(&c);
 }
 
-static void regions_hold_what_is_within_reach(void **state)
+TEST(regions_hold_what_is_within_reach)
 {
-    (void)state;
     const double period[3] = {1.0, 0.0, 0.0}, R = 0.07;
     double t[3 * TARGETS], image[27][3];
     for (int dim = 2; dim <= 3; dim++) {
@@ -246,9 +233,8 @@ static void regions_hold_what_is_within_reach(void **state)
     }
 }
 
-static void cells_of_a_box_have_their_margin(void **state)
+TEST(cells_of_a_box_have_their_margin)
 {
-    (void)state;
     const double origin[3] = {1.0, 0.0, 0.0}, h[3] = {0.1, 0.1, 1.0};
     const double lo[3] = {1.25, 0.05, 0.0}, hi[3] = {1.31, 0.95, 0.0}, none[3] = {1.0, 0.0, 0.0};
     const int cells[3] = {10, 10, 1}, closed[3] = {0}, open[3] = {1, 1, 0};
@@ -273,9 +259,8 @@ static void cells_of_a_box_have_their_margin(void **state)
     assert_int_equal(last[0] - first[0], 10 + 2 * 3 + 1);
 }
 
-static void nearest_takes_the_nearest_and_of_equals_the_lowest_id(void **state)
+TEST(nearest_takes_the_nearest_and_of_equals_the_lowest_id)
 {
-    (void)state;
     double x[3 * TARGETS], v[TARGETS];
     unsigned char mask[TARGETS];
     for (int dim = 2; dim <= 3; dim++) {
@@ -307,9 +292,8 @@ static void nearest_takes_the_nearest_and_of_equals_the_lowest_id(void **state)
 }
 
 /* sum_i g_i (D s)_i = sum_j s_j (C g)_j: dealing out is the transpose of gathering. */
-static void dealing_is_the_transpose_of_a_consistent_mapping(void **state)
+TEST(dealing_is_the_transpose_of_a_consistent_mapping)
 {
-    (void)state;
     map_points *const gather[] = {map_shepard, map_mls, map_nearest};
     const enum map_dealing deal[] = {MAP_DEAL_SHEPARD, MAP_DEAL_MLS, MAP_DEAL_NEAREST};
     const double open[3] = {0.0, 0.0, 0.0};
@@ -352,9 +336,8 @@ static void dealing_is_the_transpose_of_a_consistent_mapping(void **state)
 
 /* The share of a part of the targets is the same, bit by bit, as in the whole; nothing is lost by
  * sources far from all targets, nor over a periodic side. */
-static void dealing_loses_nothing_and_knows_no_ranks(void **state)
+TEST(dealing_loses_nothing_and_knows_no_ranks)
 {
-    (void)state;
     const double period[3] = {1.0, 0.0, 0.0};
     for (int k = 0; k < 3; k++) {
         double whole[100], part[100], sum = 0.0, wanted = 0.0;
@@ -389,15 +372,3 @@ static void dealing_loses_nothing_and_knows_no_ranks(void **state)
         map_cloud_free(&s);
     }
 }
-
-TESTS(cmocka_unit_test(shepard_keeps_constants_also_at_edges),
-      cmocka_unit_test(mls_keeps_linear_functions), cmocka_unit_test(orders_are_one_and_two),
-      cmocka_unit_test(kernel_integrates_to_one_and_has_its_moments),
-      cmocka_unit_test(moment_rule_gives_cell_averages),
-      cmocka_unit_test(order_of_sources_leaves_no_trace), cmocka_unit_test(empty_places_are_masked),
-      cmocka_unit_test(mls_falls_back_where_points_lie_on_a_line),
-      cmocka_unit_test(nearest_takes_the_nearest_and_of_equals_the_lowest_id),
-      cmocka_unit_test(dealing_is_the_transpose_of_a_consistent_mapping),
-      cmocka_unit_test(dealing_loses_nothing_and_knows_no_ranks),
-      cmocka_unit_test(regions_hold_what_is_within_reach),
-      cmocka_unit_test(cells_of_a_box_have_their_margin))

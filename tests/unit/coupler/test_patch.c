@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <time.h>
 
 #include "../../../coupler/client/cpl_patch.h"
@@ -115,16 +112,14 @@ static void check_exact(int dim, bool is_cubic, function *f)
     patch_clear(&p);
 }
 
-static void linear_is_exact_on_products_of_linear(void **state)
+TEST(linear_is_exact_on_products_of_linear)
 {
-    (void)state;
     check_exact(2, false, bilinear);
     check_exact(3, false, trilinear);
 }
 
-static void cubic_is_exact_on_cubics_given_their_averages(void **state)
+TEST(cubic_is_exact_on_cubics_given_their_averages)
 {
-    (void)state;
     check_exact(2, true, cubic);
     check_exact(3, true, cubic3);
 }
@@ -149,9 +144,8 @@ static double order(bool is_cubic, bool of_slope)
     return o;
 }
 
-static void orders_are_two_and_four_and_one_less_for_slopes(void **state)
+TEST(orders_are_two_and_four_and_one_less_for_slopes)
 {
-    (void)state;
     assert_true(order(false, false) > 1.9);
     assert_true(order(false, true) > 0.9);
     assert_true(order(true, false) > 3.7);
@@ -159,9 +153,8 @@ static void orders_are_two_and_four_and_one_less_for_slopes(void **state)
 }
 
 /* check/bilinear.py of the methods: [6.6] in its printed form, on the dual cell. */
-static void linear_is_the_printed_formula(void **state)
+TEST(linear_is_the_printed_formula)
 {
-    (void)state;
     struct client_patch p = make(2, 2, 0.25, false);
     p.n[1] = 2;
     fill(&p, wave, NULL, true);
@@ -182,9 +175,8 @@ static void linear_is_the_printed_formula(void **state)
     patch_clear(&p);
 }
 
-static void outside_is_as_at_the_nearest_place(void **state)
+TEST(outside_is_as_at_the_nearest_place)
 {
-    (void)state;
     struct client_patch p = make(2, 8, 0.1, true);
     fill(&p, cubic, NULL, false);
     patch_prepare(&p);
@@ -200,9 +192,8 @@ static void outside_is_as_at_the_nearest_place(void **state)
     patch_clear(&p);
 }
 
-static void periodic_patches_find_every_image(void **state)
+TEST(periodic_patches_find_every_image)
 {
-    (void)state;
     const int n = 20;
     const double lo[3] = {-0.2, 0.4, 0.0}, hi[3] = {0.3, 1.4, 0.0};
     struct client_patch p = {
@@ -229,9 +220,8 @@ static void periodic_patches_find_every_image(void **state)
 }
 
 /* Two patches of one grid agree to the last bit where both are far from their edges. */
-static void bits_do_not_depend_on_the_patch(void **state)
+TEST(bits_do_not_depend_on_the_patch)
 {
-    (void)state;
     const double x[3] = {1.5123, 0.4567, 0.0};
     double v[2];
     for (int m = 0; m < 2; m++) {
@@ -246,9 +236,8 @@ static void bits_do_not_depend_on_the_patch(void **state)
     assert_memory_equal(&v[0], &v[1], sizeof v[0]);
 }
 
-static void thin_patches_and_many_components_work(void **state)
+TEST(thin_patches_and_many_components_work)
 {
-    (void)state;
     for (int n = 1; n <= 4; n++) {
         struct client_patch p = {
             .dim = 2, .ncomp = 5, .cubic = true, .n = {n, 5 - n, 1}, .spacing = {1, 1, 1}};
@@ -271,9 +260,8 @@ static void thin_patches_and_many_components_work(void **state)
 }
 
 /* All points of a stage share one time; another time, another course. */
-static void values_follow_a_cubic_in_time(void **state)
+TEST(values_follow_a_cubic_in_time)
 {
-    (void)state;
     struct client_patch p = make(2, 6, 0.1, true);
     fill(&p, cubic, cubic, false);
     for (size_t i = 0; i < patch_size(&p); i++) {
@@ -293,9 +281,8 @@ static void values_follow_a_cubic_in_time(void **state)
     patch_clear(&p);
 }
 
-static void report_speed(void **state)
+TEST(report_speed)
 {
-    (void)state;
     enum { N = 4000, TIMES = 20 };
     static double x[3 * N], v[4 * N], grad[12 * N];
     for (int dim = 2; dim <= 3; dim++)
@@ -319,13 +306,3 @@ static void report_speed(void **state)
                 patch_clear(&p);
             }
 }
-
-TESTS(cmocka_unit_test(linear_is_exact_on_products_of_linear),
-      cmocka_unit_test(cubic_is_exact_on_cubics_given_their_averages),
-      cmocka_unit_test(orders_are_two_and_four_and_one_less_for_slopes),
-      cmocka_unit_test(linear_is_the_printed_formula),
-      cmocka_unit_test(outside_is_as_at_the_nearest_place),
-      cmocka_unit_test(periodic_patches_find_every_image),
-      cmocka_unit_test(bits_do_not_depend_on_the_patch),
-      cmocka_unit_test(thin_patches_and_many_components_work),
-      cmocka_unit_test(values_follow_a_cubic_in_time), cmocka_unit_test(report_speed))

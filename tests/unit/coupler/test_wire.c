@@ -3,11 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <mpi.h>
-#include <setjmp.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "../../../coupler/cpl.h"
@@ -41,9 +36,8 @@ static struct wire to_myself(void)
     return w;
 }
 
-static void what_is_packed_is_taken(void **state)
+TEST(what_is_packed_is_taken)
 {
-    (void)state;
     struct wire w = to_myself();
     struct pack p;
     char text[6];
@@ -69,9 +63,8 @@ static void what_is_packed_is_taken(void **state)
 }
 
 /* Messages above 1 GiB travel in pieces; here in pieces of 1000 bytes, between others. */
-static void long_messages_arrive_in_pieces(void **state)
+TEST(long_messages_arrive_in_pieces)
 {
-    (void)state;
     struct wire w = to_myself();
     struct pack p;
     w.piece = 1000;
@@ -95,9 +88,8 @@ static void long_messages_arrive_in_pieces(void **state)
     assert_true(wire_flushed(&w));
 }
 
-static void a_message_shorter_than_it_says_is_found(void **state)
+TEST(a_message_shorter_than_it_says_is_found)
 {
-    (void)state;
     static struct wire w;
     static struct message *m;
     struct pack p;
@@ -114,9 +106,8 @@ static void a_message_shorter_than_it_says_is_found(void **state)
     message_free(&m);
 }
 
-static void a_foreign_message_is_found(void **state)
+TEST(a_foreign_message_is_found)
 {
-    (void)state;
     static struct wire w;
     struct pack p;
     w = to_myself();
@@ -129,9 +120,8 @@ static void a_foreign_message_is_found(void **state)
     }
 }
 
-static void waiting_leaves_the_processor_alone(void **state)
+TEST(waiting_leaves_the_processor_alone)
 {
-    (void)state;
     struct wire w = to_myself();
     struct backoff backoff;
     const clock_t before = clock();
@@ -146,9 +136,8 @@ static void waiting_leaves_the_processor_alone(void **state)
 }
 
 /* Names in an order that is neither that of ranks nor of the alphabet. */
-static void programs_find_each_other_by_name(void **state)
+TEST(programs_find_each_other_by_name)
 {
-    (void)state;
     static const char *const names[] = {"zeta", "coupler", "alpha", "coupler"};
     int rank, size;
     struct handshake h;
@@ -196,10 +185,3 @@ static void programs_find_each_other_by_name(void **state)
         continue;
     MPI_Barrier(MPI_COMM_WORLD);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(what_is_packed_is_taken),
-               cmocka_unit_test(long_messages_arrive_in_pieces),
-               cmocka_unit_test(a_message_shorter_than_it_says_is_found),
-               cmocka_unit_test(a_foreign_message_is_found),
-               cmocka_unit_test(waiting_leaves_the_processor_alone),
-               cmocka_unit_test(programs_find_each_other_by_name))

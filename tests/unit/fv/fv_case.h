@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "../../../common/base/mem.h"
@@ -15,6 +16,8 @@
 #include "../../../fv/fv.h"
 #include "../../../fv/output/output.h"
 #include "../../../fv/time/steps.h"
+
+#define CLOSED "domain.periodic=(false,false,false)"
 
 struct fv_case {
     struct run run;
@@ -29,7 +32,32 @@ static inline void fv_case_path(const char *suffix, char *path, size_t size)
     snprintf(path, size, "%s/fv_%d%s", dir ? dir : P_tmpdir, (int)getpid(), suffix);
 }
 
-/* overrides: NULL-terminated; may be NULL. */
+/* Reads the text of a case, with overrides (NULL-terminated; may be NULL), through the file at path
+ * into r. The keys' rows stay in fv_case_groups. Faults are added to f; returns the parameters, for
+ * params_free. */
+static struct param_group fv_case_groups[SCENE_GROUPS + FV_GROUPS];
+static inline struct params *fv_case_read(struct run *r, MPI_Comm comm, const char *path,
+                                          const char *text, const char *const *overrides,
+                                          struct faults *f)
+{
+    int n = 0;
+    FILE *file = fopen(path, "w");
+    if (!file || fputs(text, file) < 0 || fclose(file) != 0)
+        abort();
+    while (overrides && overrides[n])
+        n++;
+    *r = (struct run){.comm = comm, .name = "fv"};
+    MPI_Comm_rank(comm, &r->rank);
+    MPI_Comm_size(comm, &r->size);
+    scene_groups(&r->scene, fv_case_groups);
+    memcpy(fv_case_groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
+    struct params *p = params_read(comm, path, n, overrides, fv_case_groups,
+                                   SCENE_GROUPS + FV_GROUPS, (const char *const[]){NULL}, f);
+    r->params = p;
+    return p;
+}
+
+/* The case of the head, with overrides (NULL-terminated; may be NULL). */
 static inline void fv_case_set(struct fv_case *c, MPI_Comm comm, const char *const *overrides)
 {
     static const char text[] =
@@ -39,29 +67,26 @@ static inline void fv_case_set(struct fv_case *c, MPI_Comm comm, const char *con
         "domain: { dim = 2; min = (0, 0, 0); max = (1, 1, 1); periodic = (true, true, true); };\n"
         "initial: { field = \"taylor_green\"; U = 1.0; L = 1.0; };\n"
         "fv: { cells = (32, 32, 32); };\n";
-    struct param_group groups[SCENE_GROUPS + FV_GROUPS];
     struct faults faults = {0};
     char path[1024];
-    int n = 0;
-    *c = (struct fv_case){.run = {.comm = comm, .name = "fv"}};
-    MPI_Comm_rank(comm, &c->run.rank);
-    MPI_Comm_size(comm, &c->run.size);
+    c->s = NULL;
     fv_case_path(".cfg", path, sizeof path);
-    FILE *file = fopen(path, "w");
-    if (!file || fputs(text, file) < 0 || fclose(file) != 0)
-        abort();
-    while (overrides && overrides[n])
-        n++;
-    scene_groups(&c->run.scene, groups);
-    for (int k = 0; k < FV_GROUPS; k++)
-        groups[SCENE_GROUPS + k] = fv_groups[k];
-    struct params *p = params_read(comm, path, n, overrides, groups, SCENE_GROUPS + FV_GROUPS,
-                                   (const char *const[]){NULL}, &faults);
+    struct params *p = fv_case_read(&c->run, comm, path, text, overrides, &faults);
     params_report(&faults);
     if (faults.n > 0)
         abort();
     params_free(&p);
+    c->run.params = NULL;
     remove(path);
+}
+
+/* Makes walls of this kind of all sides that are not periodic. */
+static inline void fv_case_close(struct fv_case *c, enum wall_kind kind)
+{
+    struct scene *scene = &c->run.scene;
+    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
+        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
+            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
 }
 
 static inline struct fv *fv_case_start(struct fv_case *c, struct h5 *f)
@@ -114,6 +139,19 @@ static inline double fv_case_error_at(int n, const char *const *common, const ch
         all[m++] = more;
     all[m] = NULL;
     return fv_case_error(all, t_stop);
+}
+
+/* Sum of the velocity along x over all cells of all ranks, with weights that differ from cell to
+ * cell. */
+static inline double fv_case_weighted(const struct fv *s)
+{
+    double sum = 0.0, x[3];
+    BLOCK_CELLS (&s->b, i, j, k, c) {
+        block_centre(&s->b, i, j, k, x);
+        sum += sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][c];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    return sum;
 }
 
 static inline double fv_case_order(double coarse, double fine) { return log2(coarse / fine); }

@@ -1,12 +1,11 @@
-/* surface_case.h - small flows with a free surface for the tests of the implicit integrators.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* surface_case.h - small flows with a free surface for the tests of the level set and of the
+ * integrators. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef TESTS_SURFACE_CASE_H
 #define TESTS_SURFACE_CASE_H
 
 #include "../../../fv/surface/levelset.h"
 #include "fv_case.h"
 
-#define CLOSED "domain.periodic=(false,false,false)"
 #define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
 #define BDF2 "fv.integrator=\"bdf2\""
 #define NEWTON "fv.integrator=\"newton\""
@@ -22,12 +21,9 @@ static inline struct fv *start(struct fv_case *c, MPI_Comm comm, const char *con
                                const struct scene_shape *shape, enum wall_kind kind)
 {
     fv_case_set(c, comm, overrides);
-    struct scene *scene = &c->run.scene;
-    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
-        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
-            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
+    fv_case_close(c, kind);
     if (shape)
-        scene->shapes[scene->nshapes++] = *shape;
+        c->run.scene.shapes[c->run.scene.nshapes++] = *shape;
     return fv_case_start(c, NULL);
 }
 

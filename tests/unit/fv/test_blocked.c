@@ -4,8 +4,6 @@
  * rounding. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <string.h>
-
 #include "../../../fv/boundary/blocked.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/flow_measures.h"
@@ -14,7 +12,6 @@
 #include "../../../fv/watch/watches.h"
 #include "fv_case.h"
 
-#define CLOSED "domain.periodic=(false,false,false)"
 #define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
 
 static struct blocked_params boxes[2]; /* of the next start */
@@ -35,12 +32,9 @@ static void add_box(const char *name, const double *min, const double *max, enum
 /* Of a case that is set. */
 static struct fv *start_set(struct fv_case *c, const struct scene_shape *shape, enum wall_kind kind)
 {
-    struct scene *scene = &c->run.scene;
-    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
-        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
-            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
+    fv_case_close(c, kind);
     if (shape)
-        scene->shapes[scene->nshapes++] = *shape;
+        c->run.scene.shapes[c->run.scene.nshapes++] = *shape;
     memcpy(blocked_given, boxes, sizeof boxes);
     blocked_given_count = nboxes;
     nboxes = 0;
@@ -60,9 +54,8 @@ static void end(struct fv_case *c)
     blocked_given_count = 0;
 }
 
-static void still_water_stays(void **state)
+TEST(still_water_stays)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int kind = WALL_SLIP; kind <= WALL_NO_SLIP; kind++) {
             struct fv_case c;
@@ -129,9 +122,8 @@ static double oscillation(bool between, bool deep, enum wall_kind kind)
 }
 
 /* The same flow as in a tank whose walls are the domain's sides, but for corner terms of O(h^2). */
-static void boxes_are_walls(void **state)
+TEST(boxes_are_walls)
 {
-    (void)state;
     for (int deep = 0; deep < 2; deep++)
         for (int kind = WALL_SLIP; kind <= WALL_NO_SLIP; kind++) {
             const double sides = oscillation(false, deep, kind),
@@ -143,9 +135,8 @@ static void boxes_are_walls(void **state)
 }
 
 /* A wall of one cell: no water and no pressure passes, whatever the stencils reach. */
-static void thin_wall_parts_basins(void **state)
+TEST(thin_wall_parts_basins)
 {
-    (void)state;
     struct fv_case c;
     const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.3, 0.8, 0}}};
     BOX("wall", WALL_SLIP, 0.5, 0, 0, 0.55, 1, 0);
@@ -169,9 +160,8 @@ static double level_at(const struct fv *s, double x)
 
 /* Two shafts round a core: each has the level of its own shape, whatever box lies between, and the
  * energy of what then swings is that of the fall. */
-static void shafts_have_their_own_levels(void **state)
+TEST(shafts_have_their_own_levels)
 {
-    (void)state;
     struct fv_case c;
     const struct scene_shape left = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.5, 0.65, 0}}},
                              right = {.form = SHAPE_BOX, .box = {{0.5, 0, 0}, {1, 0.55, 0}}};
@@ -192,9 +182,8 @@ static void shafts_have_their_own_levels(void **state)
 
 /* The height of the surface, over what stands on the floor and what hangs in the water, beside it,
  * and the ground where there is no water. */
-static void gauges_read_over_boxes(void **state)
+TEST(gauges_read_over_boxes)
 {
-    (void)state;
     static const struct {
         double water, top, x, level; /* of the water, the sill; the gauge and what it reads */
     } all[] = {{0.4, 0.2, 0.45, 0.4},
@@ -221,9 +210,8 @@ static void gauges_read_over_boxes(void **state)
     }
 }
 
-static void duct_has_its_parabola(void **state)
+TEST(duct_has_its_parabola)
 {
-    (void)state;
     struct fv_case c;
     double most = 0.0, turned = 0.0, x[3], force[FLOW_BODIES_MAX][4], all[4];
     BOX("floor", WALL_NO_SLIP, -1, -0.5, 0, 2, 0, 0);
@@ -262,9 +250,8 @@ static void duct_has_its_parabola(void **state)
 
 /* Steady flow that a body force drives past a bar in a duct: bar and walls take the force on what
  * flows, 0.1 (4 - 0.25). */
-static void bar_and_walls_take_the_weight(void **state)
+TEST(bar_and_walls_take_the_weight)
 {
-    (void)state;
     struct fv_case c;
     double bar[FLOW_BODIES_MAX][4], all[4];
     BOX("bar", WALL_NO_SLIP, 0.75, 0.75, 0, 1.25, 1.25, 0);
@@ -286,9 +273,8 @@ static void bar_and_walls_take_the_weight(void **state)
 
 /* A stream through boxes in a periodic domain loses energy, whoever has it; the watch of what a
  * flow has over its mean knows that a box stirs it. */
-static void stream_loses_energy(void **state)
+TEST(stream_loses_energy)
 {
-    (void)state;
     for (int bdf2 = 0; bdf2 < 2; bdf2++) {
         struct fv_case c;
         double row[FV_CASE_ROW], before = INFINITY;
@@ -326,7 +312,7 @@ static double discharge(const struct fv *s, const double *open)
 
 /* An inflow that starts at once through an orifice: the flow of the start and that of each step
  * carry the inflow's discharge through it, at no more than some times its mean speed there. */
-static void orifice_starts(void **state)
+TEST(orifice_starts)
 {
     static const struct {
         const char *cells, *dim, *by;
@@ -336,7 +322,6 @@ static void orifice_starts(void **state)
         {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"rk3\"", 2.0, {0.0, 0.2}, 0.2},
         {"fv.cells=(40,40)", "domain.dim=2", "fv.integrator=\"bdf2\"", 0.5, {0.4, 0.6}, 0.2},
         {"fv.cells=(20,20,8)", "domain.dim=3", "fv.integrator=\"rk3\"", 0.3, {0.4, 0.6}, 0.2}};
-    (void)state;
     for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_WORLD,
@@ -397,9 +382,8 @@ static void sums_on(MPI_Comm comm, int dim, double sums[6])
     end(&c);
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     if (is_alone())
         return;
     for (int dim = 2; dim <= 3; dim++) {
@@ -414,11 +398,3 @@ static void ranks_agree(void **state)
                       alone[4]);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(still_water_stays), cmocka_unit_test(boxes_are_walls),
-               cmocka_unit_test(thin_wall_parts_basins),
-               cmocka_unit_test(shafts_have_their_own_levels),
-               cmocka_unit_test(gauges_read_over_boxes), cmocka_unit_test(duct_has_its_parabola),
-               cmocka_unit_test(stream_loses_energy),
-               cmocka_unit_test(bar_and_walls_take_the_weight), cmocka_unit_test(orifice_starts),
-               cmocka_unit_test(ranks_agree))

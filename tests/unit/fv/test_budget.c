@@ -46,9 +46,8 @@ static void force_of(struct fv *s, double *force)
 }
 
 /* Vortices in a duct: along it the walls take what the flow loses; in a box both ways. */
-static void walls_take_what_the_flow_loses(void **state)
+TEST(walls_take_what_the_flow_loses)
 {
-    (void)state;
     double sums[4], force[3];
     struct fv_case c;
     fv_case_set(
@@ -66,9 +65,8 @@ static void walls_take_what_the_flow_loses(void **state)
 }
 
 /* The same of all four walls of a cavity, pressures in its corners too, whose steady sum is 0. */
-static void so_do_walls_of_a_cavity(void **state)
+TEST(so_do_walls_of_a_cavity)
 {
-    (void)state;
     double sums[4], force[3];
     struct fv_case c;
     fv_case_set(&c, MPI_COMM_WORLD,
@@ -105,9 +103,8 @@ static double largest_divergence(struct fv *s)
 #define UNEVEN "mapping = \"stretched\"; stretch = (-1.0, -1.0); "
 /* In a box and along a duct whose walls go on over joins, periods and cuts between ranks: fluxes
  * beside a wall are the same on both sides of them. */
-static void so_do_walls_of_blocks(void **state)
+TEST(so_do_walls_of_blocks)
 {
-    (void)state;
     static const struct {
         const char *name, *blocks, *periodic, *dim;
         int along;
@@ -156,9 +153,8 @@ static void so_do_walls_of_blocks(void **state)
 }
 
 /* Between two cylinders, from a flow that knows nothing of them. */
-static void so_do_curved_walls(void **state)
+TEST(so_do_curved_walls)
 {
-    (void)state;
     double sums[4], force[3];
     struct mesh_case c;
     struct fv *s = mesh_case_start(
@@ -176,7 +172,3 @@ static void so_do_curved_walls(void **state)
         assert_true(fabs(force[a]) > 1e-3 && fabs(sums[a] + force[a]) < 1e-10 * sums[3]);
     mesh_case_end(&c, &s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(walls_take_what_the_flow_loses),
-               cmocka_unit_test(so_do_walls_of_a_cavity), cmocka_unit_test(so_do_walls_of_blocks),
-               cmocka_unit_test(so_do_curved_walls))

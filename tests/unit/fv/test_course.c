@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <string.h>
-
 #include "../../../fv/boundary/forcing.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/coupling/fv_course.h"
@@ -54,9 +52,8 @@ static double worst(const struct course *c, int nterms, int ncomp, int degree, i
     return most;
 }
 
-static void velocity_follows_cubics_and_pressure_lines(void **state)
+TEST(velocity_follows_cubics_and_pressure_lines)
 {
-    (void)state;
     static const double t[COURSE_LEVELS] = {0.7, 0.55, 0.3};
     struct fv_case k;
     struct fv *s = start(&k);
@@ -85,9 +82,8 @@ static void velocity_follows_cubics_and_pressure_lines(void **state)
 
 /* Without trials [6.9-6.10]: value and slope now, exact of parabolas whatever the steps; a trial is
  * not made. */
-static void lines_have_the_slope_of_parabolas(void **state)
+TEST(lines_have_the_slope_of_parabolas)
 {
-    (void)state;
     static const double t[COURSE_LEVELS] = {0.7, 0.55, 0.3};
     struct fv_case k;
     struct fv *s = start(&k);
@@ -118,9 +114,8 @@ static void lines_have_the_slope_of_parabolas(void **state)
     fv_free(&k.s);
 }
 
-static void forced_values_follow_parabolas(void **state)
+TEST(forced_values_follow_parabolas)
 {
-    (void)state;
     struct fv_case k;
     struct fv *s = start(&k);
     struct forcing *f = s->forcing;
@@ -167,9 +162,8 @@ static void run(struct fv_case *k, const char *integrator, bool tries)
     course_free(&c);
 }
 
-static void a_trial_leaves_no_trace(void **state)
+TEST(a_trial_leaves_no_trace)
 {
-    (void)state;
     static const char *const integrators[] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\"",
                                               "fv.integrator=\"newton\""};
     for (int m = 0; m < 3; m++) {
@@ -186,8 +180,3 @@ static void a_trial_leaves_no_trace(void **state)
         fv_free(&b.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(velocity_follows_cubics_and_pressure_lines),
-               cmocka_unit_test(lines_have_the_slope_of_parabolas),
-               cmocka_unit_test(forced_values_follow_parabolas),
-               cmocka_unit_test(a_trial_leaves_no_trace))

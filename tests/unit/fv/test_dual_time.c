@@ -39,7 +39,7 @@ static void start_duct(struct fv_case *c)
     wall_add(c, SIDE_Y_MAX, WALL_SLIP, 0.0);
 }
 
-static void it_solves_newtons_equations(void **state)
+TEST(it_solves_newtons_equations)
 {
     static const char *const cases[][8] = {
         {TIGHT, MODES, "fv.cells=(24,16)", NULL},
@@ -50,7 +50,6 @@ static void it_solves_newtons_equations(void **state)
         {TIGHT, "domain.dim=3", "fv.cells=(8,12,6)", NULL},
         {TIGHT, CLOSED, "fv.cells=(12,8)", "initial.field=\"rest\"", NULL},
         {TIGHT, CLOSED, "fv.cells=(12,20)", "fv.graded=(0.6,10)", "initial.field=\"rest\"", NULL}};
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         struct fv_case c[2];
         for (int with = 0; with < 2; with++) {
@@ -73,7 +72,7 @@ static void it_solves_newtons_equations(void **state)
 }
 
 /* Joined, turned over another one, and a ring with walls whose cells are flat. */
-static void it_does_on_blocks(void **state)
+TEST(it_does_on_blocks)
 {
     static const char *const blocks[] = {
         "{ name = \"w\"; cells = (8, 16); max = (0.5, 1.0); i_min = \"periodic\"; i_max = "
@@ -86,7 +85,6 @@ static void it_does_on_blocks(void **state)
         "{ name = \"ring\"; mapping = \"annulus\"; i_min = \"wall\"; i_max = \"wall\"; j_min = "
         "\"joined\"; j_max = \"joined\"; radius = (0.5, 1.0); spin = (2.0, -0.5); cells = (24, "
         "16); }"};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct mesh_case c[2];
         struct fv *s[2];
@@ -106,12 +104,11 @@ static void it_does_on_blocks(void **state)
 /* Taylor-Green, dt and h halved together, at the default tolerance: second order, as in theory, and
  * no more than a tenth beside Newton's method. The projection has another error, and the difference
  * between both falls as fast. */
-static void taylor_green_is_second_order(void **state)
+TEST(taylor_green_is_second_order)
 {
     static const char *const dual[] = {NEWTON, DUAL, "fv.cfl=0.5", NULL},
                              *const newton[] = {NEWTON, "fv.cfl=0.5", NULL},
                              *const projection[] = {"fv.integrator=\"bdf2\"", "fv.cfl=0.5", NULL};
-    (void)state;
     if (SANITIZED)
         skip();
     double e[2], difference[2];
@@ -129,10 +126,9 @@ static void taylor_green_is_second_order(void **state)
 }
 
 /* Few pseudo steps, or long ones that grow: the step is halved, and then the reason is told. */
-static void what_does_not_converge_is_told(void **state)
+TEST(what_does_not_converge_is_told)
 {
     static const char *const bad[] = {"fv.pseudo_steps=3", "fv.pseudo_cfl=5"};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         struct diagnosis d = {0};
@@ -147,7 +143,3 @@ static void what_does_not_converge_is_told(void **state)
         fv_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(it_solves_newtons_equations), cmocka_unit_test(it_does_on_blocks),
-               cmocka_unit_test(taylor_green_is_second_order),
-               cmocka_unit_test(what_does_not_converge_is_told))

@@ -62,9 +62,8 @@ static double error_with(const char *const *overrides)
     return e;
 }
 
-static void fluxes_are_the_partners(void **state)
+TEST(fluxes_are_the_partners)
 {
-    (void)state;
     const double coarse = error_with((const char *const[]){"fv.cells=(16,16)", NULL});
     const double fine = error_with((const char *const[]){"fv.cells=(32,32)", NULL});
     assert_true(fine < 1e-3);
@@ -72,21 +71,19 @@ static void fluxes_are_the_partners(void **state)
 }
 
 /* Beltrami's flow does not change along its components: no error but rounding. */
-static void and_in_3d(void **state)
+TEST(and_in_3d)
 {
-    (void)state;
     assert_true(error_with((const char *const[]){"domain.dim=3", "initial.field=\"beltrami\"",
                                                  "fv.cells=(12,12,16)", NULL}) < 1e-14);
 }
 
 /* What a partner has too much does not drive the flow to an outlet: a source of 1/s within leaves
  * the outline without net flux. */
-static void an_outlet_feels_no_source(void **state)
+TEST(an_outlet_feels_no_source)
 {
     static const double box[2][3] = {{0.25, 0.25, 0.0}, {0.75, 0.75, 1.0}};
     struct fv_case c;
     double net[2] = {0.0, 0.0};
-    (void)state;
     fv_case_set(&c, MPI_COMM_WORLD,
                 (const char *const[]){CLOSED, "initial.field=\"uniform\"", "initial.velocity=(1,0)",
                                       "fv.cells=(16,16)", NULL});
@@ -115,6 +112,3 @@ static void an_outlet_feels_no_source(void **state)
     assert_true(fabs(net[0]) < 1e-14 && net[1] > 0.1);
     fv_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(fluxes_are_the_partners), cmocka_unit_test(and_in_3d),
-               cmocka_unit_test(an_outlet_feels_no_source))

@@ -112,28 +112,25 @@ static double vortex(int dim, int n)
 }
 
 /* Without a divergence sweeps keep 0 <= C <= 1 and the sum to rounding; first to second order. */
-static void disc_in_a_vortex(void **state)
+TEST(disc_in_a_vortex)
 {
-    (void)state;
     const double coarse = vortex(2, 32), fine = vortex(2, 64);
     print_message("disc: %.4f, %.4f\n", coarse, fine);
     assert_true(fine < 0.55 * coarse && fine < 0.03);
 }
 
-static void sphere_in_a_vortex(void **state)
+TEST(sphere_in_a_vortex)
 {
-    (void)state;
     const double coarse = vortex(3, 16), fine = SANITIZED ? 0.0 : vortex(3, 32);
     print_message("sphere: %.4f, %.4f\n", coarse, fine);
     assert_true(fine < 0.6 * coarse && fine < 0.06);
 }
 
 /* A column's level is that of its water, whatever steps phi has beyond its band. */
-static void air_beyond_the_band_is_dry(void **state)
+TEST(air_beyond_the_band_is_dry)
 {
     const struct scene_shape below = {.form = SHAPE_BELOW, .level = 0.31};
     struct fv_case c;
-    (void)state;
     struct fv *s =
         start(&c, MPI_COMM_WORLD,
               (const char *const[]){SURFACE, "fluid.gravity=(0,-1)", "fv.volume=\"shift\"", NULL},
@@ -150,9 +147,8 @@ static void air_beyond_the_band_is_dry(void **state)
 
 /* A column that collapses in mid-tank and reaches both walls at once pushes to no side: none of its
  * halves is computed first. */
-static void column_stays_even(void **state)
+TEST(column_stays_even)
 {
-    (void)state;
     const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0.8, 0, 0}, {1.2, 0.6, 0}}};
     struct diagnosis d = {0};
     double force[FLOW_BODIES_MAX][4], all[4], aside = 0.0, down = 0.0;
@@ -195,9 +191,8 @@ static const char *odd(const struct scene_shape *shape, int steps)
 
 /* A drop of a few cells, a surface through the corners of cells, a full tank; water that is finer
  * than the cells may stop the run, but says so. */
-static void odd_water_runs_or_says_why_not(void **state)
+TEST(odd_water_runs_or_says_why_not)
 {
-    (void)state;
     static const struct scene_shape runs[] = {
         {.form = SHAPE_DISC, .centre = {0.5, 0.52, 0}, .radius = 0.1},
         {.form = SHAPE_BELOW, .level = 0.5},
@@ -213,7 +208,3 @@ static void odd_water_runs_or_says_why_not(void **state)
     odd(&speck, 6);
     assert_non_null(odd(&none, 1));
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(disc_in_a_vortex), cmocka_unit_test(sphere_in_a_vortex),
-               cmocka_unit_test(air_beyond_the_band_is_dry), cmocka_unit_test(column_stays_even),
-               cmocka_unit_test(odd_water_runs_or_says_why_not))

@@ -59,9 +59,8 @@ static void reads_the_cubic(struct fv_case *c, double low, double high, double t
     blocked_given_count = 0;
 }
 
-static void cells_and_layers(void **state)
+TEST(cells_and_layers)
 {
-    (void)state;
     struct fv_case c;
     fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
     reads_the_cubic(&c, 0.0, 1.0, 2.0);
@@ -70,9 +69,8 @@ static void cells_and_layers(void **state)
     reads_the_cubic(&c, 0.0, 1.0, 2.0);
 }
 
-static void beside_a_box(void **state)
+TEST(beside_a_box)
 {
-    (void)state;
     struct fv_case c;
     blocked_given[0] = (struct blocked_params){
         .name = "sill", .min = {0, 0, 0}, .max = {1, 0.25, 0}, .kind = WALL_NO_SLIP};
@@ -81,9 +79,8 @@ static void beside_a_box(void **state)
     reads_the_cubic(&c, 0.25, 1.0, 2.0);
 }
 
-static void under_a_surface(void **state)
+TEST(under_a_surface)
 {
-    (void)state;
     struct fv_case c;
     fv_case_set(&c, MPI_COMM_WORLD,
                 (const char *const[]){REST, "fv.surface=\"yes\"", "fluid.gravity=(0,-9.81)",
@@ -94,9 +91,8 @@ static void under_a_surface(void **state)
 }
 
 /* A gauge on the face between water and air is in the water, on whichever side it stands. */
-static void between_water_and_air(void **state)
+TEST(between_water_and_air)
 {
-    (void)state;
     for (int side = 0; side < 2; side++) {
         struct fv_case c;
         double value[2];
@@ -147,18 +143,16 @@ static double stretched_error(int n)
     return most;
 }
 
-static void stretched_blocks(void **state)
+TEST(stretched_blocks)
 {
-    (void)state;
     const double coarse = stretched_error(16), fine = stretched_error(32);
     print_message("stretched: %.3g, %.3g\n", coarse, fine);
     assert_true(log2(coarse / fine) > 3.0);
 }
 
 /* Gauges of levels tell heights against gravity, whichever way it points. */
-static void levels_on_blocks(void **state)
+TEST(levels_on_blocks)
 {
-    (void)state;
     for (int way = -1; way <= 1; way += 2) {
         struct mesh_case c;
         double level;
@@ -182,9 +176,8 @@ static void levels_on_blocks(void **state)
 }
 
 /* Between curved cells, too, water at rest stands as high as it was given, or up to a roof. */
-static void rings_tell_the_level(void **state)
+TEST(rings_tell_the_level)
 {
-    (void)state;
     struct mesh_case c;
     double value[3];
     mesh_case_read(&c, MPI_COMM_WORLD,
@@ -207,8 +200,3 @@ static void rings_tell_the_level(void **state)
     assert_close(value[2], -0.303, 1e-4);
     mesh_case_end(&c, &s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(cells_and_layers), cmocka_unit_test(beside_a_box),
-               cmocka_unit_test(under_a_surface), cmocka_unit_test(between_water_and_air),
-               cmocka_unit_test(stretched_blocks), cmocka_unit_test(levels_on_blocks),
-               cmocka_unit_test(rings_tell_the_level))

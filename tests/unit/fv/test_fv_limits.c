@@ -39,9 +39,8 @@ static void holds(const char *const *overrides, double t)
     assert_true(own < 2.0 * small);
 }
 
-static void rk3_holds_in_every_direction(void **state)
+TEST(rk3_holds_in_every_direction)
 {
-    (void)state;
     holds((const char *const[]){CARRIED, "initial.velocity=(3,3)", "fluid.nu=1e-4", NULL}, 0.4);
     holds((const char *const[]){CARRIED, "initial.velocity=(-3,1.5)", "fluid.nu=0", NULL}, 0.4);
     holds((const char *const[]){CARRIED, "initial.velocity=(0,3)", "fluid.nu=1e-6", NULL}, 0.4);
@@ -56,10 +55,9 @@ static void rk3_holds_in_every_direction(void **state)
 }
 
 /* Vortices that break up on eight cells a side, after 17 turns, lose energy and gain none. */
-static void rk3_holds_where_nothing_is_resolved(void **state)
+TEST(rk3_holds_where_nothing_is_resolved)
 {
     static const char *const nu[] = {"fluid.nu=0", "fluid.nu=3e-5"};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -73,10 +71,9 @@ static void rk3_holds_where_nothing_is_resolved(void **state)
 }
 
 /* Its own step follows the cell Reynolds number: here 0.5, 50 and 5000. Of second order in time. */
-static void bdf2_holds_at_any_viscosity(void **state)
+TEST(bdf2_holds_at_any_viscosity)
 {
     static const char *const nu[] = {"fluid.nu=0.1", "fluid.nu=1e-3", "fluid.nu=1e-5"};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const double e = error_at((const char *const[]){CARRIED, "initial.velocity=(0.5,0.25)",
                                                         nu[k], "fv.integrator=\"bdf2\"", NULL},
@@ -86,21 +83,19 @@ static void bdf2_holds_at_any_viscosity(void **state)
     }
 }
 
-static void newton_holds_without_viscosity(void **state)
+TEST(newton_holds_without_viscosity)
 {
-    (void)state;
     const char *const all[] = {CARRIED, "initial.velocity=(3,3)", "fluid.nu=0",
                                "fv.integrator=\"newton\"", NULL};
     assert_true(error_at(all, 0.0, 0.1) < 0.05); /* of second order in time */
 }
 
-static void blocks_hold(void **state)
+TEST(blocks_hold)
 {
     static const char waving[] =
         "{ name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC "cells = (32, 32); }";
     static const char *const step[] = {"fv.cfl=0", "fv.cfl=0.28"};
     double e[2][3];
-    (void)state;
     for (int k = 0; k < 2; k++)
         mesh_case_errors(
             waving, (const char *const[]){"initial.velocity=(3,3)", "fluid.nu=1e-5", step[k], NULL},
@@ -110,9 +105,8 @@ static void blocks_hold(void **state)
 }
 
 /* Gravity in a periodic box, a lid, pressures: the first steps are no longer than the others. */
-static void starts_from_rest_hold(void **state)
+TEST(starts_from_rest_hold)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -134,10 +128,9 @@ static void starts_from_rest_hold(void **state)
 }
 
 /* A channel of Re 1000: what leaves is not amplified. */
-static void convective_outflow_holds(void **state)
+TEST(convective_outflow_holds)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){CLOSED, "initial.field=\"rest\"", "fluid.nu=1e-3",
                                       "domain.max=(4,1)", "fv.cells=(64,16)", NULL});
@@ -155,10 +148,9 @@ static void convective_outflow_holds(void **state)
 }
 
 /* A uniform stream: what is not uniform leaves it, and nothing is left that products could hold. */
-static void streams_without_residual_hold(void **state)
+TEST(streams_without_residual_hold)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){"initial.field=\"uniform\"", "initial.velocity=(-0.649,0)",
                                       "initial.U=0.649", "fluid.nu=0", "domain.max=(1.1875,0.5625)",
@@ -192,9 +184,8 @@ static struct fv *wave_or_column(struct fv_case *c, bool column)
 
 /* The wave is never faster than the inviscid one, a omega; the column than what falls through its
  * height. */
-static void viscous_surfaces_hold(void **state)
+TEST(viscous_surfaces_hold)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         struct fv *s = wave_or_column(&c, k == 1);
@@ -209,10 +200,9 @@ static void viscous_surfaces_hold(void **state)
 }
 
 /* The amplitude of errors, initial.U, is no part of a step. */
-static void unit_of_errors_sets_no_step(void **state)
+TEST(unit_of_errors_sets_no_step)
 {
     double dt[2];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -230,12 +220,11 @@ static void unit_of_errors_sets_no_step(void **state)
 /* A lid over a fluid so viscous that it is steady within a step that the flow alone would allow
  * (Re = 0.01): five times L^2/nu after its start the flow is that of the implicit solver, which
  * solves pressure and friction together. Steps of 1.1 cells: a sixth of its energy. */
-static void viscous_starts_hold(void **state)
+TEST(viscous_starts_hold)
 {
     static const char *const integrators[] = {"fv.integrator=\"newton\"", "fv.integrator=\"rk3\"",
                                               "fv.integrator=\"bdf2\""};
     double row[FV_CASE_ROW], energy[3];
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -257,11 +246,10 @@ static void viscous_starts_hold(void **state)
 
 /* Pressures on both ends of a channel a thousand times as long as it is high: the step knows how
  * far they are apart, not how near the walls, and the flow is Poiseuille's, u = dp H^2/(8 mu L). */
-static void thin_channels_take_few_steps(void **state)
+TEST(thin_channels_take_few_steps)
 {
     struct fv_case c;
     double most = 0.0;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){"initial.field=\"rest\"", CLOSED, "domain.max=(1,0.001)",
                                       "fluid.nu=1e-6", "fv.cells=(16,16)", "time.end=3", NULL});
@@ -278,13 +266,3 @@ static void thin_channels_take_few_steps(void **state)
     assert_close(most, 1.0, 0.01); /* average of a cell beside the axis: 1 - 0.0052 */
     fv_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(rk3_holds_where_nothing_is_resolved),
-               cmocka_unit_test(rk3_holds_in_every_direction),
-               cmocka_unit_test(bdf2_holds_at_any_viscosity),
-               cmocka_unit_test(newton_holds_without_viscosity), cmocka_unit_test(blocks_hold),
-               cmocka_unit_test(starts_from_rest_hold), cmocka_unit_test(convective_outflow_holds),
-               cmocka_unit_test(streams_without_residual_hold),
-               cmocka_unit_test(viscous_surfaces_hold), cmocka_unit_test(viscous_starts_hold),
-               cmocka_unit_test(thin_channels_take_few_steps),
-               cmocka_unit_test(unit_of_errors_sets_no_step))

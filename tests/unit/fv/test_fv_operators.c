@@ -34,12 +34,10 @@ static double phase(const struct plane_wave *w, const double *x)
 static void fill_wave(const struct block *b, const struct plane_wave *w, double *q)
 {
     double x[3];
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, k, x);
-                q[block_at(b, i, j, k)] = w->mean[0] * w->mean[1] * w->mean[2] * cos(phase(w, x));
-            }
+    BLOCK_CELLS (b, i, j, k, at) {
+        block_centre(b, i, j, k, x);
+        q[at] = w->mean[0] * w->mean[1] * w->mean[2] * cos(phase(w, x));
+    }
     block_halo(b, 1, &q);
 }
 
@@ -72,14 +70,12 @@ static double error_of(struct fv *s, enum what what, int a)
         gradient(s, s->u[0], a, CONTINUE_CUBIC, out);
     else
         viscous_apply(s, s->u[0], out);
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                block_centre(b, i, j, k, x);
-                const double v = wanted(b, &w, x, what, a) * (what == LAPLACE ? s->nu : 1.0);
-                most = fmax(most, fabs(out[block_at(b, i, j, k)] - v));
-                scale = fmax(scale, fabs(v));
-            }
+    BLOCK_CELLS (b, i, j, k, at) {
+        block_centre(b, i, j, k, x);
+        const double v = wanted(b, &w, x, what, a) * (what == LAPLACE ? s->nu : 1.0);
+        most = fmax(most, fabs(out[at] - v));
+        scale = fmax(scale, fabs(v));
+    }
     return most / scale;
 }
 
@@ -105,27 +101,20 @@ static void has_order_four(int dim, enum what what)
     }
 }
 
-static void face_values_have_order_four(void **state)
+TEST(face_values_have_order_four)
 {
-    (void)state;
     has_order_four(2, VALUE);
     has_order_four(3, VALUE);
 }
 
-static void gradient_has_order_four(void **state)
+TEST(gradient_has_order_four)
 {
-    (void)state;
     has_order_four(2, GRADIENT);
     has_order_four(3, GRADIENT);
 }
 
-static void viscous_operator_has_order_four(void **state)
+TEST(viscous_operator_has_order_four)
 {
-    (void)state;
     has_order_four(2, LAPLACE);
     has_order_four(3, LAPLACE);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(face_values_have_order_four),
-               cmocka_unit_test(gradient_has_order_four),
-               cmocka_unit_test(viscous_operator_has_order_four))

@@ -28,10 +28,9 @@ static void errors_fall(const char *const *common, const char *more, double t, d
 /* At CFL 1, as the case has it. The default of tol_viscous falls with the cells, or its error would
  * stay where that of the cells falls (from 64 to 128 by 2.5 orders, and not at all in vorticity).
  */
-static void taylor_green_converges(void **state)
+TEST(taylor_green_converges)
 {
     static const char *const step[] = {"fv.cfl=1", NULL};
-    (void)state;
     const double e16 = fv_case_error_at(16, step, NULL, 1.0),
                  e32 = fv_case_error_at(32, step, NULL, 1.0);
     print_message("16: %.3g, order to 32 %.2f\n", e16, fv_case_order(e16, e32));
@@ -45,26 +44,23 @@ static void taylor_green_converges(void **state)
     assert_true(fv_case_order(e64, e128) >= 3.0); /* that of time */
 }
 
-static void carried_waves_converge(void **state)
+TEST(carried_waves_converge)
 {
-    (void)state;
     errors_fall((const char *const[]){TWO_MODES, NULL}, NULL, 1.0, 5e-3, 3.5e-4, 3.5);
 }
 
-static void hole_keeps_the_order(void **state)
+TEST(hole_keeps_the_order)
 {
-    (void)state;
     errors_fall((const char *const[]){TWO_MODES, NULL}, "fv.hole=((0.3125,0.3125),(0.6875,0.6875))",
                 1.0, 5e-3, 3.5e-4, 3.5);
 }
 
 /* One, two and three free cells between a hole and the sides: continued by lower polynomials. */
-static void narrow_gaps_are_stable(void **state)
+TEST(narrow_gaps_are_stable)
 {
     static const char *const holes[] = {"fv.hole=((0.03,0.03),(0.97,0.97))",
                                         "fv.hole=((0.06,0.06),(0.94,0.94))",
                                         "fv.hole=((0.09,0.09),(0.91,0.91))"};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const double e = fv_case_error(
             (const char *const[]){TWO_MODES, holes[k], "domain.periodic=(false,false)", NULL}, 1.0);
@@ -74,10 +70,9 @@ static void narrow_gaps_are_stable(void **state)
 }
 
 /* Cells deep in a hole hold no flow: they must not set the step of one that decays. */
-static void hole_does_not_limit_the_step(void **state)
+TEST(hole_does_not_limit_the_step)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_WORLD,
                 (const char *const[]){"fv.hole=((0.125,0.125),(0.875,0.875))", NULL});
     fv_case_start(&c, NULL);
@@ -87,20 +82,18 @@ static void hole_does_not_limit_the_step(void **state)
 }
 
 /* At half the largest step: at CFL 1 the error of time lowers the order to 3.4 (fv/README.md). */
-static void closed_sides_keep_the_order(void **state)
+TEST(closed_sides_keep_the_order)
 {
     const char *const common[] = {TWO_MODES, "fv.cfl=0.5", NULL};
-    (void)state;
     errors_fall(common, "domain.periodic=(false,false)", 1.0, 5e-3, 3.5e-4, 3.5);
     errors_fall(common, "domain.periodic=(true,false)", 1.0, 5e-3, 3.5e-4, 3.5);
 }
 
 /* Against the same cells with a much smaller step, so that only time differs. */
-static void bdf2_has_order_two(void **state)
+TEST(bdf2_has_order_two)
 {
     static const char *const cfl[3] = {"fv.cfl=0.4", "fv.cfl=0.2", "fv.cfl=0.025"};
     struct fv_case c[3];
-    (void)state;
     for (int k = 0; k < 3; k++) {
         fv_case_set(c + k, MPI_COMM_WORLD,
                     (const char *const[]){TWO_MODES, "fv.cells=(32,32)", "fv.integrator=\"bdf2\"",
@@ -124,13 +117,12 @@ static void bdf2_has_order_two(void **state)
 
 /* One layer after the other equals the 2D run; multigrid takes another path, so solves are tight.
  */
-static void plane_flow_is_the_same_in_3d(void **state)
+TEST(plane_flow_is_the_same_in_3d)
 {
     static const char *const cells[2] = {"fv.cells=(24,24)", "fv.cells=(24,24,6)"};
     static const char *const dims[2] = {"domain.dim=2", "domain.dim=3"};
     struct fv_case c[2];
     double most = 0.0;
-    (void)state;
     for (int k = 0; k < 2; k++) {
         fv_case_set(c + k, MPI_COMM_WORLD,
                     (const char *const[]){TWO_MODES, cells[k], dims[k], "fv.integrator=\"bdf2\"",
@@ -140,14 +132,12 @@ static void plane_flow_is_the_same_in_3d(void **state)
         assert_true(fv_case_run(c + k, 8, 1.0));
     }
     const struct block *b = &c[1].s->b;
-    for (int k = 0; k < b->n[2]; k++)
-        for (int j = 0; j < b->n[1]; j++)
-            for (int i = 0; i < b->n[0]; i++) {
-                const int64_t at = block_at(b, i, j, k), flat = block_at(&c[0].s->b, i, j, 0);
-                for (int a = 0; a < 2; a++)
-                    most = fmax(most, fabs(c[1].s->u[a][at] - c[0].s->u[a][flat]));
-                most = fmax(most, fabs(c[1].s->u[2][at]));
-            }
+    BLOCK_CELLS (b, i, j, k, at) {
+        const int64_t flat = block_at(&c[0].s->b, i, j, 0);
+        for (int a = 0; a < 2; a++)
+            most = fmax(most, fabs(c[1].s->u[a][at] - c[0].s->u[a][flat]));
+        most = fmax(most, fabs(c[1].s->u[2][at]));
+    }
     print_message("largest difference %.3g m/s\n", most);
     assert_close(most, 0.0, 1e-10);
     for (int k = 0; k < 2; k++)
@@ -156,9 +146,8 @@ static void plane_flow_is_the_same_in_3d(void **state)
 
 /* rk3's first two projections are one cycle of multigrid, which differs in 3D: the error must not.
  */
-static void rk3_is_as_good_in_3d(void **state)
+TEST(rk3_is_as_good_in_3d)
 {
-    (void)state;
     const double flat =
         fv_case_error((const char *const[]){TWO_MODES, "fv.cells=(32,32)", NULL}, 0.25);
     const double solid = fv_case_error(
@@ -166,11 +155,3 @@ static void rk3_is_as_good_in_3d(void **state)
     print_message("2D %.3g, 3D %.3g\n", flat, solid);
     assert_true(fabs(solid - flat) < 0.1 * flat);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(taylor_green_converges), cmocka_unit_test(carried_waves_converge),
-               cmocka_unit_test(hole_keeps_the_order),
-               cmocka_unit_test(closed_sides_keep_the_order),
-               cmocka_unit_test(narrow_gaps_are_stable),
-               cmocka_unit_test(hole_does_not_limit_the_step), cmocka_unit_test(bdf2_has_order_two),
-               cmocka_unit_test(plane_flow_is_the_same_in_3d),
-               cmocka_unit_test(rk3_is_as_good_in_3d))

@@ -20,15 +20,11 @@ static void take_sums(struct fv *s, bool good, double *sums)
     sums[1] = row[1];
     sums[2] = row[3];
     sums[3] = sums[4] = 0.0;
-    for (int k = 0; k < s->b.n[2]; k++)
-        for (int j = 0; j < s->b.n[1]; j++)
-            for (int i = 0; i < s->b.n[0]; i++) {
-                const int64_t at = block_at(&s->b, i, j, k);
-                block_centre(&s->b, i, j, k, x);
-                sums[3] += s->u[0][at];
-                sums[4] +=
-                    sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][at] + x[0] * s->u[1][at];
-            }
+    BLOCK_CELLS (&s->b, i, j, k, at) {
+        block_centre(&s->b, i, j, k, x);
+        sums[3] += s->u[0][at];
+        sums[4] += sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][at] + x[0] * s->u[1][at];
+    }
     MPI_Allreduce(MPI_IN_PLACE, sums + 3, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
@@ -43,13 +39,7 @@ static void sums_on(MPI_Comm comm, const char *const *overrides, double *sums)
 
 static void assert_same_sums(const double *a, const double *b)
 {
-    double most = 0.0;
-    for (int k = 0; k < SUMS; k++) {
-        const double e = fabs(a[k] - b[k]) / fmax(1.0, fabs(a[k]));
-        most = e <= most ? most : e;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    assert_close(most, 0.0, 1e-9);
+    assert_close(most_apart(SUMS, a, b), 0.0, 1e-9);
 }
 
 static void agree(const char *const *overrides)
@@ -60,29 +50,22 @@ static void agree(const char *const *overrides)
     assert_same_sums(alone, shared);
 }
 
-static void ranks_agree_in_2d(void **state)
+TEST(ranks_agree_in_2d)
 {
-    (void)state;
     agree((const char *const[]){TWO_MODES, NULL});
     agree((const char *const[]){TWO_MODES, "fv.integrator=\"bdf2\"", "fv.cfl=0.5", NULL});
 }
 
-static void ranks_agree_with_a_hole(void **state)
-{
-    (void)state;
-    agree((const char *const[]){TWO_MODES, HOLE, NULL});
-}
+TEST(ranks_agree_with_a_hole) { agree((const char *const[]){TWO_MODES, HOLE, NULL}); }
 
-static void ranks_agree_with_closed_sides(void **state)
+TEST(ranks_agree_with_closed_sides)
 {
-    (void)state;
     agree((const char *const[]){TWO_MODES, "domain.periodic=(false,false)", NULL});
     agree((const char *const[]){TWO_MODES, "domain.periodic=(false,true)", HOLE, NULL});
 }
 
-static void ranks_agree_in_3d(void **state)
+TEST(ranks_agree_in_3d)
 {
-    (void)state;
     agree((const char *const[]){TWO_MODES, "domain.dim=3", "fv.cells=(16,16,12)", NULL});
     agree((const char *const[]){TWO_MODES, "domain.dim=3", "fv.cells=(16,16,12)",
                                 "fv.hole=((0.25,0.25,0.25),(0.75,0.75,0.75))", NULL});
@@ -132,12 +115,11 @@ static void goes_on_bit_for_bit(const char *const *overrides)
 }
 
 /* Among them grids that coarsen to odd numbers of cells. */
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
     static const char *const flat[] = {"fv.cells=(32,32)", "fv.cells=(26,32)", "fv.cells=(20,28)"};
     static const char *const solid[] = {"fv.cells=(16,16,16)", "fv.cells=(16,16,12)",
                                         "fv.cells=(14,12,16)"};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         goes_on_bit_for_bit((const char *const[]){TWO_MODES, HOLE, flat[k], NULL});
         goes_on_bit_for_bit((const char *const[]){TWO_MODES, "domain.dim=3", solid[k], NULL});
@@ -198,9 +180,8 @@ static void goes_on_on_others(const char *const *overrides)
     remove(path);
 }
 
-static void other_ranks_go_on(void **state)
+TEST(other_ranks_go_on)
 {
-    (void)state;
     goes_on_on_others((const char *const[]){TWO_MODES, HOLE, NULL});
     goes_on_on_others((const char *const[]){TWO_MODES, "domain.periodic=(false,true)", NULL});
     goes_on_on_others(
@@ -210,10 +191,9 @@ static void other_ranks_go_on(void **state)
 }
 
 /* A file of another grid says which one. */
-static void another_grid_is_refused(void **state)
+TEST(another_grid_is_refused)
 {
     enum { SIZE = 1024 };
-    (void)state;
     char path[SIZE];
     double sums[SUMS];
     struct fv_case c;
@@ -226,8 +206,3 @@ static void another_grid_is_refused(void **state)
     MPI_Barrier(MPI_COMM_WORLD);
     remove(path);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_with_a_hole),
-               cmocka_unit_test(ranks_agree_with_closed_sides), cmocka_unit_test(ranks_agree_in_3d),
-               cmocka_unit_test(restart_is_exact), cmocka_unit_test(other_ranks_go_on),
-               cmocka_unit_test(another_grid_is_refused))

@@ -29,13 +29,12 @@ static double product(const struct fv *s, const double *x, const double *y)
 }
 
 /* x.Ly = y.Lx and x.Lx < 0, which conjugate gradients need; also next to forced cells. */
-static void viscous_operator_is_symmetric(void **state)
+TEST(viscous_operator_is_symmetric)
 {
     static const char *const cases[3][6] = {
         {"fv.cells=(16,12)", "domain.max=(1.0,1.3)", NULL},
         {"domain.dim=3", "fv.cells=(12,10,8)", "domain.max=(1.0,1.3,0.5)", NULL},
         {"fv.cells=(32,32)", "fv.hole=((0.3125,0.3125),(0.6875,0.6875))", NULL}};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_WORLD, cases[k]);
@@ -51,12 +50,11 @@ static void viscous_operator_is_symmetric(void **state)
     }
 }
 
-static void uniform_flow_stays(void **state)
+TEST(uniform_flow_stays)
 {
     static const char *const dims[] = {"domain.dim=2", "domain.dim=3"};
     static const char *const ways[] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\""};
     static const double wanted_u[3] = {0.7, -0.4, 0.3};
-    (void)state;
     for (int q = 0; q < 4; q++) {
         struct fv_case c;
         double most = 0.0;
@@ -78,14 +76,13 @@ static void uniform_flow_stays(void **state)
 }
 
 /* From a rough start; the divergence it had and the one that a step leaves, both times h. */
-static void step_leaves_no_divergence(void **state)
+TEST(step_leaves_no_divergence)
 {
     static const char *const cases[3][6] = {
         {"fv.cells=(32,32)", "fv.tol_pressure=1e-10", NULL},
         {"fv.cells=(32,32)", "fv.tol_pressure=1e-10", "fv.hole=((0.3125,0.3125),(0.6875,0.6875))",
          NULL},
         {"fv.cells=(16,16,8)", "fv.tol_pressure=1e-10", "domain.dim=3", NULL}};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct fv_case c;
         double row[FV_CASE_ROW];
@@ -108,10 +105,9 @@ static void step_leaves_no_divergence(void **state)
 }
 
 /* Energy only falls when the step changes by ten and back. */
-static void steps_may_change_tenfold(void **state)
+TEST(steps_may_change_tenfold)
 {
     static const char *const ways[] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\""};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         double row[FV_CASE_ROW], last;
@@ -132,7 +128,3 @@ static void steps_may_change_tenfold(void **state)
         fv_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(viscous_operator_is_symmetric),
-               cmocka_unit_test(uniform_flow_stays), cmocka_unit_test(step_leaves_no_divergence),
-               cmocka_unit_test(steps_may_change_tenfold))

@@ -27,10 +27,9 @@ static void is_sound(const char *what, const struct watches *w)
 }
 
 /* At a sum of 1.6 and 2, beyond the limit of 1.262. */
-static void gained_energy_ends_a_run(void **state)
+TEST(gained_energy_ends_a_run)
 {
     static const double cfl[2] = {1.6, 2.0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -46,7 +45,7 @@ static void gained_energy_ends_a_run(void **state)
 }
 
 /* Energy that grows from nothing, by 1.01 a step, ends a run on blocks that overlap. */
-static void growing_rest_ends_a_run(void **state)
+TEST(growing_rest_ends_a_run)
 {
     static const char over[] = "{ name = \"back\"; cells = (20, 14); max = (1.0, 0.7); i_min = "
                                "\"slip\"; i_max = \"slip\"; "
@@ -56,7 +55,6 @@ static void growing_rest_ends_a_run(void **state)
     const struct scene_shape water = {.form = SHAPE_BELOW, .level = 0.363};
     struct mesh_case c;
     struct diagnosis d = {0};
-    (void)state;
     mesh_case_read(
         &c, MPI_COMM_WORLD, over,
         (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"", NULL});
@@ -75,7 +73,7 @@ static void growing_rest_ends_a_run(void **state)
 
 /* Water that swings over the edge of a shelf, at half the step, whose hundred steps end at rest:
  * the work of gravity is that of what the surface does, not of averages beside the edge. */
-static void edges_make_no_energy(void **state)
+TEST(edges_make_no_energy)
 {
     static const char shelf[] =
         "{ name = \"deep\"; cells = (32, 16); max = (1.0, 0.5); i_max = \"slip\"; j_max = "
@@ -89,7 +87,6 @@ static void edges_make_no_energy(void **state)
     static const double corner[4][2] = {{-1, -1}, {-1, 0.68}, {3, 0.72}, {3, -1}};
     struct mesh_case c;
     struct diagnosis d = {0};
-    (void)state;
     memcpy(water.points.x, corner, sizeof corner);
     mesh_case_read(&c, MPI_COMM_WORLD, shelf,
                    (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"",
@@ -107,11 +104,10 @@ static void edges_make_no_energy(void **state)
     mesh_case_end(&c, &s);
 }
 
-static void blocks_are_watched(void **state)
+TEST(blocks_are_watched)
 {
     static const char waving[] =
         "{ name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC "cells = (24, 24); }";
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct mesh_case c;
         struct fv *s = mesh_case_start(
@@ -129,10 +125,9 @@ static void blocks_are_watched(void **state)
 
 /* v = 0.1 (-1)^i needs no pressure and nothing carries it away: it stays in an inviscid flow
  * without bias. */
-static void waves_of_two_cells_are_seen(void **state)
+TEST(waves_of_two_cells_are_seen)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF, (const char *const[]){"fluid.nu=0", "fv.upwind=0", NULL});
     struct fv *s = fv_case_start(&c, NULL);
     BLOCK_CELLS (&s->b, i, j, k, at)
@@ -146,9 +141,8 @@ static void waves_of_two_cells_are_seen(void **state)
 
 /* A flow that swings is at rest now and then, and has no pressure when it is fastest: what is left
  * then, a thousandth of its size, is no wave of two cells; a tenth of its size is one. */
-static void a_swing_that_turns_is_sound(void **state)
+TEST(a_swing_that_turns_is_sound)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         struct diagnosis d = {0};
@@ -168,10 +162,9 @@ static void a_swing_that_turns_is_sound(void **state)
     }
 }
 
-static void sudden_growth_is_seen(void **state)
+TEST(sudden_growth_is_seen)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF, NULL);
     struct fv *s = fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 8, 100.0));
@@ -189,9 +182,8 @@ static void sudden_growth_is_seen(void **state)
 
 /* A lid, and vortices that leave through an outflow of either kind: work of walls, fluxes of energy
  * and of pressure are in the budget. */
-static void walls_and_openings_are_in_the_budget(void **state)
+TEST(walls_and_openings_are_in_the_budget)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -214,17 +206,15 @@ static void walls_and_openings_are_in_the_budget(void **state)
 }
 
 /* A film of 0.64 cells that a slope makes run off, without shares of water. */
-static void lost_water_is_not_accepted(void **state)
+TEST(lost_water_is_not_accepted)
 {
     struct fv_case c;
     double volume = 0.0;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
                                       "fluid.gravity=(2,-9.81)", "fluid.nu=1e-6",
                                       "fv.volume=\"shift\"", NULL});
-    for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
-        wall_add(&c, (enum scene_side)side, WALL_SLIP, 0.0);
+    fv_case_close(&c, WALL_SLIP);
     c.run.scene.shapes[c.run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.02, 0}}};
     struct fv *s = fv_case_start(&c, NULL);
@@ -263,16 +253,14 @@ static double energy_of_water(const struct fv *s)
 
 /* A column that falls, runs up the far wall and strikes the lid in its corner with a jet of a cell
  * or two: no energy comes of that, and the watch's budget is that of the water. */
-static void splashes_gain_no_energy(void **state)
+TEST(splashes_gain_no_energy)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){"fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED,
                                       "domain.max=(1.6,1)", "fv.cells=(64,40)", "fluid.nu=0",
                                       "fluid.gravity=(0,-9.81)", NULL});
-    for (int side = SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
-        wall_add(&c, (enum scene_side)side, WALL_SLIP, 0.0);
+    fv_case_close(&c, WALL_SLIP);
     c.run.scene.shapes[c.run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {0.4, 0.5, 0}}};
     struct fv *s = fv_case_start(&c, NULL);
@@ -295,9 +283,8 @@ static void splashes_gain_no_energy(void **state)
 
 /* Water that fills the domain flows on through its outlet, but the loss of its surface is told; a
  * river whose surface stays is none. */
-static void a_full_domain_is_told(void **state)
+TEST(a_full_domain_is_told)
 {
-    (void)state;
     for (int full = 0; full < 2; full++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_SELF,
@@ -317,12 +304,3 @@ static void a_full_domain_is_told(void **state)
         fv_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(gained_energy_ends_a_run),
-               cmocka_unit_test(growing_rest_ends_a_run), cmocka_unit_test(edges_make_no_energy),
-               cmocka_unit_test(blocks_are_watched), cmocka_unit_test(waves_of_two_cells_are_seen),
-               cmocka_unit_test(a_swing_that_turns_is_sound),
-               cmocka_unit_test(sudden_growth_is_seen),
-               cmocka_unit_test(walls_and_openings_are_in_the_budget),
-               cmocka_unit_test(lost_water_is_not_accepted),
-               cmocka_unit_test(splashes_gain_no_energy), cmocka_unit_test(a_full_domain_is_told))

@@ -41,10 +41,9 @@ static double order(const char *blocks, bool halves, const char *hole, double *f
     return log2(e[0][0] / e[1][0]);
 }
 
-static void a_hole_keeps_the_order(void **state)
+TEST(a_hole_keeps_the_order)
 {
     double fine;
-    (void)state;
     assert_true(order(joined, false, HOLE, &fine) > (SANITIZED ? 2.5 : 3.5));
     assert_true(fine < (SANITIZED ? 1e-2 : 1.5e-4));
     assert_true(order(waving, false, HOLE, &fine) > (SANITIZED ? 2.5 : 3.5));
@@ -52,21 +51,19 @@ static void a_hole_keeps_the_order(void **state)
 }
 
 /* Its outline crosses that of the overlap: cells of the fringe beside it take what it knows. */
-static void across_an_overlap_too(void **state)
+TEST(across_an_overlap_too)
 {
     double fine;
-    (void)state;
     assert_true(order(turned, true, "fv.hole=((0.2,0.2),(0.45,0.45))", &fine) >
                 (SANITIZED ? 1.5 : 2.9));
     assert_true(fine < (SANITIZED ? 1e-2 : 4e-4));
 }
 
 /* In three dimensions, and what flows out of the hole is what flows in. */
-static void a_uniform_flow_passes(void **state)
+TEST(a_uniform_flow_passes)
 {
     struct mesh_case c;
     double worst = 0.0, net = 0.0;
-    (void)state;
     struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD,
         "{ name = \"a\"; mapping = \"sheared\"; wave = 0.05; cells = (12, 12, 12); " PERIODIC
@@ -90,11 +87,10 @@ static void a_uniform_flow_passes(void **state)
 
 /* A partner's part that ends at the upper side, over a source of 1/s: what flows through its
  * outline is what flows through the sides, and nothing is left for the other cells. */
-static void an_outline_may_end_at_sides(void **state)
+TEST(an_outline_may_end_at_sides)
 {
     struct mesh_case c;
     double net = 0.0, most = 0.0;
-    (void)state;
     struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD,
         "{ name = \"a\"; mapping = \"sheared\"; shear = 0.3; cells = (16, 16); i_min = "
@@ -123,10 +119,9 @@ static void an_outline_may_end_at_sides(void **state)
 }
 
 /* Newton's method: the errors of time rule, as without a hole. */
-static void newton_goes_round_it(void **state)
+TEST(newton_goes_round_it)
 {
     static const char *const of[2] = {waving, joined};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         static const char *const hole[2] = {HOLE, NULL};
         double e[2][3];
@@ -144,14 +139,13 @@ static void newton_goes_round_it(void **state)
 }
 
 /* The steady march round a hole in a ring between walls that turn. */
-static void so_does_a_steady_march(void **state)
+TEST(so_does_a_steady_march)
 {
     static const char ring[] =
         "{ name = \"ring\"; mapping = \"annulus\"; i_min = \"wall\"; i_max = \"wall\"; j_min = "
         "\"joined\"; j_max = \"joined\"; radius = (0.5, 1.0); spin = (2.0, -0.5); cells = (%d, "
         "%d); }";
     double e[2][3];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         char text[512];
         snprintf(text, sizeof text, ring, 12 << k, 48 << k);
@@ -178,21 +172,19 @@ static double energy_on(MPI_Comm comm, const char *text)
     return good ? row[0] + row[1] : NAN;
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
     char text[1024];
-    (void)state;
     snprintf(text, sizeof text, waving, 32, 32);
     double e = fabs(energy_on(MPI_COMM_SELF, text) - energy_on(MPI_COMM_WORLD, text));
     MPI_Allreduce(MPI_IN_PLACE, &e, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     assert_true(e < 1e-8);
 }
 
-static void a_box_without_cells_is_a_fault(void **state)
+TEST(a_box_without_cells_is_a_fault)
 {
     struct mesh_case c;
     char text[1024];
-    (void)state;
     snprintf(text, sizeof text, waving, 16, 16);
     mesh_case_read(&c, MPI_COMM_WORLD, text,
                    (const char *const[]){"fv.hole=((0.3,0.3),(0.32,0.32))", NULL});
@@ -202,9 +194,3 @@ static void a_box_without_cells_is_a_fault(void **state)
     mem_free(c.faults.text);
     params_free(&c.params);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_hole_keeps_the_order), cmocka_unit_test(across_an_overlap_too),
-               cmocka_unit_test(a_uniform_flow_passes),
-               cmocka_unit_test(an_outline_may_end_at_sides),
-               cmocka_unit_test(newton_goes_round_it), cmocka_unit_test(so_does_a_steady_march),
-               cmocka_unit_test(ranks_agree), cmocka_unit_test(a_box_without_cells_is_a_fault))

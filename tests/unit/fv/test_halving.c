@@ -142,9 +142,8 @@ static int steps(struct water *w)
     return n;
 }
 
-static void the_cycle_is_symmetric(void **state)
+TEST(the_cycle_is_symmetric)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct water w = {0};
         make(&w, MPI_COMM_WORLD, 2 + k % 2, 25 - k, 1.0);
@@ -162,9 +161,8 @@ static void the_cycle_is_symmetric(void **state)
 }
 
 /* Multigrid: cells of a quarter the size take no more cycles, but for a tenth. */
-static void fine_grids_take_no_more_cycles(void **state)
+TEST(fine_grids_take_no_more_cycles)
 {
-    (void)state;
     static const double flat[3] = {1.0, 0.02, 30.0};
     for (int k = 0; k < 3; k++) {
         int n[2];
@@ -180,9 +178,8 @@ static void fine_grids_take_no_more_cycles(void **state)
     }
 }
 
-static void ranks_make_no_difference(void **state)
+TEST(ranks_make_no_difference)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         double sum[2];
         for (int k = 0; k < 2; k++) {
@@ -198,7 +195,3 @@ static void ranks_make_no_difference(void **state)
         assert_close(sum[1], sum[0], 1e-12);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(the_cycle_is_symmetric),
-               cmocka_unit_test(fine_grids_take_no_more_cycles),
-               cmocka_unit_test(ranks_make_no_difference))

@@ -9,29 +9,12 @@
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"
 #include "../../../fv/poisson/poisson.h"
-#include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/near_water.h"
 #include "../../../fv/time/steps.h"
-#include "fv_case.h"
 #include "fv_restart.h"
-
-#define CLOSED "domain.periodic=(false,false,false)"
-#define SURFACE "fv.surface=\"yes\"", "initial.field=\"rest\"", CLOSED
+#include "surface_case.h"
 
 typedef double (*function)(const double *x);
-
-static struct fv *start(struct fv_case *c, MPI_Comm comm, const char *const *overrides,
-                        const struct scene_shape *shape, enum wall_kind kind)
-{
-    fv_case_set(c, comm, overrides);
-    struct scene *scene = &c->run.scene;
-    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * scene->domain.dim; side++)
-        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
-            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
-    if (shape)
-        scene->shapes[scene->nshapes++] = *shape;
-    return fv_case_start(c, NULL);
-}
 
 /* A box of n cells a side with a disc of water. */
 static struct fv *disc(struct fv_case *c, int n, double x, double y, double radius)
@@ -127,9 +110,8 @@ static double turned(int n, double *lost)
     return off;
 }
 
-static void disc_turns_once(void **state)
+TEST(disc_turns_once)
 {
-    (void)state;
     double lost[2];
     const double coarse = turned(32, lost), fine = turned(64, lost + 1);
     assert_true(coarse / fine > 3.5);
@@ -157,9 +139,8 @@ static double moved(int n)
     return off;
 }
 
-static void reinit_does_not_move_the_surface(void **state)
+TEST(reinit_does_not_move_the_surface)
 {
-    (void)state;
     const double coarse = moved(32), fine = moved(64);
     assert_close(fine * 64.0, 0.0, 0.02);
     assert_true(coarse / fine > 3.5);
@@ -192,19 +173,17 @@ static double moved_at_once(int n)
     return worst;
 }
 
-static void closest_points_are_of_fourth_order(void **state)
+TEST(closest_points_are_of_fourth_order)
 {
-    (void)state;
     const double coarse = moved_at_once(32), fine = moved_at_once(64);
     assert_close(coarse * 32.0, 0.0, 1e-3);
     assert_true(log2(coarse / fine) > 3.0);
 }
 
 /* Water, or air under a lid, that is thinner than a cell. */
-static void films_on_sides_have_their_volume(void **state)
+TEST(films_on_sides_have_their_volume)
 {
     static const double level[] = {0.75 / 16.0, 0.45 / 16.0, 1.0 - 0.3 / 16.0};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct fv_case c;
         const struct scene_shape shape = {.form = SHAPE_BELOW, .level = level[k]};
@@ -256,9 +235,8 @@ static double off_solution(int n)
     return most_of(most);
 }
 
-static void pressure_is_second_order(void **state)
+TEST(pressure_is_second_order)
 {
-    (void)state;
     const double coarse = off_solution(32), fine = off_solution(128);
     print_message("pressure: %.3g, %.3g: order %.2f\n", coarse, fine,
                   0.5 * fv_case_order(coarse, fine));
@@ -266,11 +244,10 @@ static void pressure_is_second_order(void **state)
 }
 
 /* Water drawn up to the walls and beyond them is the same: phi is the distance of its surface. */
-static void walls_are_no_surface(void **state)
+TEST(walls_are_no_surface)
 {
     static const double corners[2][4][2] = {{{0, 0}, {0, 0.3}, {1, 0.4}, {1, 0}},
                                             {{-1, -1}, {-1, 0.2}, {2, 0.5}, {2, -1}}};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         double x[3], most = 0.0;
@@ -291,10 +268,9 @@ static void walls_are_no_surface(void **state)
     }
 }
 
-static void still_water_stays(void **state)
+TEST(still_water_stays)
 {
     static const double slope[] = {0.0, 0.3, -1.0};
-    (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int k = 0; k < 3; k++) {
             struct fv_case c;
@@ -319,11 +295,10 @@ static void still_water_stays(void **state)
 
 /* A film down a slope of 60 degrees, along a periodic axis: what the floor holds back is its weight
  * along the slope (Nusselt), it stays as thick as it was, and its speed is a parabola's. */
-static void films_run_as_theory_says(void **state)
+TEST(films_run_as_theory_says)
 {
     static const char *const of[3] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\"",
                                       "fv.integrator=\"newton\""};
-    (void)state;
     for (int k = SANITIZED; k < 3; k++) {
         struct fv_case c;
         double force[4];
@@ -354,10 +329,9 @@ static void films_run_as_theory_says(void **state)
 
 /* Films down a slope of 30 degrees, from the middle of one cell to the middle of the next but one,
  * level with a centre, too: each rubs by its weight, alike all along. */
-static void thin_films_rub_at_any_level(void **state)
+TEST(thin_films_rub_at_any_level)
 {
     static const double cells[] = {1.8, 2.0, 2.25, 2.5, 2.6, 2.75, 3.0, 3.25, 3.5, 3.6};
-    (void)state;
     for (size_t k = 0; k < sizeof cells / sizeof *cells; k += SANITIZED ? 4 : 1) {
         struct fv_case c;
         double force[4];
@@ -383,9 +357,8 @@ static void thin_films_rub_at_any_level(void **state)
 }
 
 /* A wedge of 45 degrees: its foot on the bottom, not where it is half a cell above. */
-static void reach_is_that_on_the_wall(void **state)
+TEST(reach_is_that_on_the_wall)
 {
-    (void)state;
     struct fv_case c;
     const struct scene_shape wedge = {
         .form = SHAPE_POLYGON,
@@ -399,16 +372,12 @@ static void reach_is_that_on_the_wall(void **state)
     fv_free(&c.s);
 }
 
-#define WAVE                                                                                       \
-    "fv.surface=\"yes\"", "initial.field=\"standing_wave\"", "initial.level=1",                    \
-        "initial.amplitude=0.01", "initial.U=0.01", "initial.L=4", "fluid.nu=2e-3",                \
-        "fluid.gravity=(0,-1)", "domain.max=(4,1.25)", "domain.periodic=(true,false)"
+#define THICK_WAVE WAVE, "fluid.nu=2e-3"
 
 /* The surface through graded rows, upright and askew. */
-static void still_water_stays_on_graded_rows(void **state)
+TEST(still_water_stays_on_graded_rows)
 {
     static const double slope[] = {0.0, 0.3};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         char gravity[96];
@@ -431,11 +400,10 @@ static void still_water_stays_on_graded_rows(void **state)
 
 /* A disc that is carried down through rows that grow, with a uniform velocity: it stays a disc of
  * its size. */
-static void disc_sinks_through_graded_rows(void **state)
+TEST(disc_sinks_through_graded_rows)
 {
     struct fv_case c;
     double x[3], area, worst = 0.0;
-    (void)state;
     const struct scene_shape shape = {
         .form = SHAPE_DISC, .centre = {0.5, 0.75, 0.0}, .radius = 0.15};
     struct fv *s =
@@ -469,9 +437,8 @@ static void disc_sinks_through_graded_rows(void **state)
 
 /* A current from an inlet to an outlet, whose water stands at the level: uniform, it stays; from
  * rest it swings, and what is there is what was, and came in, and went out. */
-static void currents_pass_openings(void **state)
+TEST(currents_pass_openings)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) { /* uniform; from rest; uniform over graded rows */
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_WORLD,
@@ -507,9 +474,8 @@ static void currents_pass_openings(void **state)
     }
 }
 
-static void wave_swings_as_theory_says(void **state)
+TEST(wave_swings_as_theory_says)
 {
-    (void)state;
     if (!is_alone() || SANITIZED)
         skip();
     struct fv_case c;
@@ -518,7 +484,7 @@ static void wave_swings_as_theory_says(void **state)
          graded++) { /* there the layer at the bottom, which damps, is coarse */
         struct fv *s =
             start(&c, MPI_COMM_WORLD,
-                  (const char *const[]){WAVE, "fv.cells=(32,40)",
+                  (const char *const[]){THICK_WAVE, "fv.cells=(32,40)",
                                         graded ? "fv.graded=(1.1,8)" : "fv.graded=(0,0)", NULL},
                   NULL, WALL_NO_SLIP);
         assert_true(exact_oscillation(&s->exact, &period, &rate));
@@ -540,7 +506,7 @@ static struct fv *flow_start(struct fv_case *c, MPI_Comm comm, enum trial flow)
 {
     const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.43, 0.61, 0.57}}};
     if (flow == WAVES)
-        return start(c, comm, (const char *const[]){WAVE, "fv.cells=(24,20)", NULL}, NULL,
+        return start(c, comm, (const char *const[]){THICK_WAVE, "fv.cells=(24,20)", NULL}, NULL,
                      WALL_NO_SLIP);
     const bool solid = flow == COLUMN_3D;
     return start(
@@ -564,9 +530,8 @@ static void sums_on(MPI_Comm comm, enum trial flow, double sums[5])
     fv_free(&c.s);
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     for (int flow = 0; flow < FLOWS; flow++) {
         double alone[5], shared[5], most = 0.0;
         sums_on(MPI_COMM_SELF, (enum trial)flow, alone);
@@ -591,23 +556,21 @@ static struct fv *start_again(struct fv_case *c, MPI_Comm comm, int flow, struct
     return s;
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     for (int flow = 0; flow < FLOWS; flow++)
         assert_int_equal(fv_case_restart(start_again, flow, 5), 0);
 }
 
 /* cos cos of lengths 4 and 3 m over a no-slip bottom: half a length of each between slip sides. */
-static void crossed_waves_swing_as_theory_says(void **state)
+TEST(crossed_waves_swing_as_theory_says)
 {
-    (void)state;
     if (!is_alone() || SANITIZED)
         skip();
     struct fv_case c;
     double period, rate;
     fv_case_set(&c, MPI_COMM_WORLD,
-                (const char *const[]){WAVE, "domain.dim=3", "fluid.gravity=(0,-1,0)",
+                (const char *const[]){THICK_WAVE, "domain.dim=3", "fluid.gravity=(0,-1,0)",
                                       "domain.max=(2,1.25,1.5)", CLOSED, "initial.L_z=3",
                                       "fv.cells=(8,40,6)", NULL});
     struct scene *scene = &c.run.scene;
@@ -626,9 +589,8 @@ static void crossed_waves_swing_as_theory_says(void **state)
 }
 
 /* However rough the water, what carries it on over two layers is little faster. */
-static void rough_water_is_carried_on_within_bounds(void **state)
+TEST(rough_water_is_carried_on_within_bounds)
 {
-    (void)state;
     if (SANITIZED)
         skip();
     struct fv_case c;
@@ -653,9 +615,8 @@ static void rough_water_is_carried_on_within_bounds(void **state)
 }
 
 /* Columns of water that fall and hit sides, lid and each other: on coarse cells, wet bed, drop. */
-static void water_survives_impacts(void **state)
+TEST(water_survives_impacts)
 {
-    (void)state;
     if (!is_alone() || SANITIZED)
         skip();
     static const struct scene_shape column = {.form = SHAPE_BOX,
@@ -668,8 +629,7 @@ static void water_survives_impacts(void **state)
                                           "fluid.gravity=(0,-9.81,0)", "domain.max=(1,1,1)",
                                           k ? "fv.cells=(16,16,16)" : "fv.cells=(24,24,24)", NULL});
         struct scene *scene = &c.run.scene;
-        for (int side = SIDE_X_MIN; side <= SIDE_Z_MAX; side++)
-            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = WALL_SLIP};
+        fv_case_close(&c, WALL_SLIP);
         scene->shapes[scene->nshapes++] = column;
         if (k)
             scene->shapes[scene->nshapes++] = bed;
@@ -719,9 +679,8 @@ static void collapse(int dim, int way, double *most)
 }
 
 /* No axis comes before another, where cells are not cubes either. */
-static void axes_are_alike(void **state)
+TEST(axes_are_alike)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         double base[3], other[3];
         collapse(dim, 0, base);
@@ -732,17 +691,3 @@ static void axes_are_alike(void **state)
         }
     }
 }
-
-TESTS_WITH_MPI(
-    cmocka_unit_test(disc_turns_once), cmocka_unit_test(reinit_does_not_move_the_surface),
-    cmocka_unit_test(closest_points_are_of_fourth_order),
-    cmocka_unit_test(films_on_sides_have_their_volume), cmocka_unit_test(pressure_is_second_order),
-    cmocka_unit_test(walls_are_no_surface), cmocka_unit_test(still_water_stays),
-    cmocka_unit_test(axes_are_alike), cmocka_unit_test(reach_is_that_on_the_wall),
-    cmocka_unit_test(films_run_as_theory_says), cmocka_unit_test(thin_films_rub_at_any_level),
-    cmocka_unit_test(still_water_stays_on_graded_rows),
-    cmocka_unit_test(disc_sinks_through_graded_rows), cmocka_unit_test(currents_pass_openings),
-    cmocka_unit_test(wave_swings_as_theory_says), cmocka_unit_test(ranks_agree),
-    cmocka_unit_test(restart_is_exact), cmocka_unit_test(crossed_waves_swing_as_theory_says),
-    cmocka_unit_test(rough_water_is_carried_on_within_bounds),
-    cmocka_unit_test(water_survives_impacts))

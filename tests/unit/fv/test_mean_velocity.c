@@ -53,10 +53,9 @@ static void relax(const char *const *overrides, const double (*box)[3], double t
     fv_free(&c.s);
 }
 
-static void what_is_too_much_goes(void **state)
+TEST(what_is_too_much_goes)
 {
     double left[3];
-    (void)state;
     relax((const char *const[]){"fv.cells=(16,24)", "initial.velocity=(0.3,-2)", NULL}, inside, 0.0,
           left);
     assert_true(fabs(left[0]) < 1e-6 && fabs(left[1]) < 1e-6);
@@ -67,37 +66,30 @@ static void what_is_too_much_goes(void **state)
 }
 
 /* Across an axis along which each plane of cells holds imposed ones nothing is known. */
-static void and_stays_where_no_plane_tells(void **state)
+TEST(and_stays_where_no_plane_tells)
 {
     double left[3];
-    (void)state;
     relax((const char *const[]){"fv.cells=(16,16)", NULL}, across, 0.0, left);
     assert_true(fabs(left[0]) < 1e-6);
     assert_float_equal(left[1], 0.01, 1e-15);
 }
 
 /* A body force drives the mean: 0.01 m/s are missing of what 0.1 m/s^2 give in 0.2 s. */
-static void a_body_force_drives_it(void **state)
+TEST(a_body_force_drives_it)
 {
     double left[3];
-    (void)state;
     relax((const char *const[]){"fv.cells=(16,16)", "fluid.gravity=(0.1,0)", NULL}, inside, 0.2,
           left);
     assert_float_equal(left[0], 0.02, 1e-6);
     assert_float_equal(left[1], 0.0, 1e-6);
 }
 
-static void walls_take_momentum(void **state)
+TEST(walls_take_momentum)
 {
     struct fv_case c;
-    (void)state;
     fv_case_set(&c, MPI_COMM_WORLD,
                 (const char *const[]){CLOSED, "initial.field=\"rest\"", "fv.cells=(16,16)", NULL});
     wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
     assert_false(mean_velocity_is_known(fv_case_start(&c, NULL)));
     fv_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(what_is_too_much_goes),
-               cmocka_unit_test(and_stays_where_no_plane_tells),
-               cmocka_unit_test(a_body_force_drives_it), cmocka_unit_test(walls_take_momentum))

@@ -23,7 +23,7 @@ static struct fv *start(struct fv_case *c)
 /* Average of y^3 from a to b. */
 static double cube(double a, double b) { return (b * b * b * b - a * a * a * a) / (4.0 * (b - a)); }
 
-static void even_rows_go_on_below(void **state)
+TEST(even_rows_go_on_below)
 {
     struct fv_case c;
     struct fv *s = start(&c);
@@ -31,7 +31,6 @@ static void even_rows_go_on_below(void **state)
     struct patch p;
     double x[3], h[3];
     int64_t n = 0, all = 0;
-    (void)state;
     assert_true(patch_create(s, 1, &box, &box, &p, x));
     assert_non_null(p.blend);
     double *f = block_field(b), *to = NEW(double, p.n);
@@ -59,7 +58,7 @@ static void even_rows_go_on_below(void **state)
 }
 
 /* The mean over the points, each the average over a cell of h, of y^2 is that over the cell. */
-static void tall_cells_are_asked_at_several_places(void **state)
+TEST(tall_cells_are_asked_at_several_places)
 {
     struct fv_case c;
     struct fv *s = start(&c);
@@ -69,7 +68,6 @@ static void tall_cells_are_asked_at_several_places(void **state)
     double *v = NEW(double, p.n), *to = NEW(double, p.ncells), h[3], x[3];
     unsigned char *mask = NEW(unsigned char, p.n), *has = NEW(unsigned char, p.ncells);
     int64_t divided = 0;
-    (void)state;
     for (int64_t i = 0; i < p.n; i++) {
         v[i] = p.x[3 * i + 1] * p.x[3 * i + 1] + k * k / 12.0;
         mask[i] = 1;
@@ -99,6 +97,3 @@ static void tall_cells_are_asked_at_several_places(void **state)
     forced_points_free(&p);
     fv_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(even_rows_go_on_below),
-               cmocka_unit_test(tall_cells_are_asked_at_several_places))

@@ -23,9 +23,8 @@ static double distance_from_uniform(const struct fv *s)
 }
 
 /* Geometric conservation: blocks that swing and turn leave a uniform flow alone, to rounding. */
-static void uniform_flow_stays(void **state)
+TEST(uniform_flow_stays)
 {
-    (void)state;
     static const char *const blocks[2] = {
         BACK "{ name = \"turned\"; cells = (16, 16); min = (0.2, 0.2); max = (0.8, 0.8); centre = "
              "(0.5, 0.5); angle = 30.0; " SWING " }",
@@ -54,9 +53,8 @@ static void uniform_flow_stays(void **state)
 }
 
 /* The flux of the grid through the faces of a cell sums to zero, of turning cells, too. */
-static void cells_keep_their_volume(void **state)
+TEST(cells_keep_their_volume)
 {
-    (void)state;
     struct mesh_case c;
     struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD,
@@ -92,9 +90,8 @@ static void cells_keep_their_volume(void **state)
 
 /* Vortices that a block passes by: a tenth more error than with the block at rest in bdf2, second
  * order in the step in rk3. */
-static void a_known_flow_is_kept(void **state)
+TEST(a_known_flow_is_kept)
 {
-    (void)state;
     static const char rest[] =
         BACK "{ name = \"box\"; cells = (16, 16); min = (0.2, 0.2); max = (0.8, 0.8); }";
     static const char moves[] =
@@ -140,9 +137,8 @@ static void moment_of(const char *blocks, double *moment, double *size)
 }
 
 /* A ring that turns with its wall makes the flow of one at rest whose wall spins. */
-static void a_turning_block_is_a_spinning_wall(void **state)
+TEST(a_turning_block_is_a_spinning_wall)
 {
-    (void)state;
     double moment[2], size[2];
     moment_of(WALLED "spin = (2.0, 0.0); }", moment, size);
     moment_of(WALLED "motion = ( { kind = \"polynomial\"; axis = \"rz\"; coefficients = (0.0, "
@@ -154,9 +150,8 @@ static void a_turning_block_is_a_spinning_wall(void **state)
 
 /* A ring that starts in a fluid so viscous that the flow sets no step: friction does, all the way.
  */
-static void friction_bounds_the_step(void **state)
+TEST(friction_bounds_the_step)
 {
-    (void)state;
     struct mesh_case c;
     struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD,
@@ -175,9 +170,8 @@ static void friction_bounds_the_step(void **state)
 /* A ring that shakes by a thousandth of its cells, later than the run starts: the flow would allow
  * one step for all of it. Each period gets 40 steps, each step at most 0.1 rad, and one step ends
  * where the motion starts. */
-static void steps_see_the_motion(void **state)
+TEST(steps_see_the_motion)
 {
-    (void)state;
     static const struct {
         const char *motion;
         double most, from;
@@ -204,9 +198,8 @@ static void steps_see_the_motion(void **state)
 }
 
 /* What cannot move is refused, with the time if it is on the way. */
-static void faults_are_told(void **state)
+TEST(faults_are_told)
 {
-    (void)state;
     static const struct {
         const char *blocks, *override, *wanted;
     } of[] = {
@@ -235,9 +228,3 @@ static void faults_are_told(void **state)
         params_free(&c.params);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(uniform_flow_stays), cmocka_unit_test(cells_keep_their_volume),
-               cmocka_unit_test(a_known_flow_is_kept),
-               cmocka_unit_test(a_turning_block_is_a_spinning_wall),
-               cmocka_unit_test(friction_bounds_the_step), cmocka_unit_test(steps_see_the_motion),
-               cmocka_unit_test(faults_are_told))

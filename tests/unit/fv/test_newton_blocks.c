@@ -25,10 +25,9 @@ static const char overlapping[] =
     "}, { name = \"turned\"; cells = (16, 16); min = "
     "(0.22, 0.22); max = (0.78, 0.78); centre = (0.5, 0.5); angle = 30.0; }";
 
-static void steady_ring_has_order_three_and_a_half(void **state)
+TEST(steady_ring_has_order_three_and_a_half)
 {
     double coarse[3], fine[3];
-    (void)state;
     mesh_case_errors(RING("(8, 32)"), (const char *const[]){STEADY, NULL}, 1.0, coarse);
     mesh_case_errors(RING("(16, 64)"), (const char *const[]){STEADY, NULL}, 1.0, fine);
     print_message("velocity %.3g, %.3g, pressure %.3g, %.3g\n", coarse[0], fine[0], coarse[1],
@@ -37,11 +36,10 @@ static void steady_ring_has_order_three_and_a_half(void **state)
 }
 
 /* Joints change nothing but the order of sums; an overlap little. */
-static void joints_do_not_matter(void **state)
+TEST(joints_do_not_matter)
 {
     static const char *const common[] = {NEWTON, "fv.cfl=2", NULL};
     double one[3], two[3], over[3];
-    (void)state;
     mesh_case_errors(plain, common, 0.2, one);
     mesh_case_errors(joined, common, 0.2, two);
     mesh_case_errors(overlapping, common, 0.2, over);
@@ -71,11 +69,10 @@ static double energy_with_sound(const char *blocks, const char *c0, double *vect
 }
 
 /* Of the order of the Mach number's square, on all blocks alike. */
-static void sound_changes_little(void **state)
+TEST(sound_changes_little)
 {
     static const char *const blocks[3] = {plain, joined, overlapping};
     double change[3];
-    (void)state;
     for (int k = 0; k < 3; k++) {
         double vectors[2];
         const double none = energy_with_sound(blocks[k], NULL, vectors);
@@ -89,10 +86,9 @@ static void sound_changes_little(void **state)
 }
 
 /* M (v + w) = M v + M w, also where blocks overlap. */
-static void preconditioner_is_linear(void **state)
+TEST(preconditioner_is_linear)
 {
     struct mesh_case c;
-    (void)state;
     struct fv *s =
         mesh_case_start(&c, MPI_COMM_WORLD, overlapping, (const char *const[]){NEWTON, NULL});
     struct newton *w = s->newton;
@@ -116,7 +112,7 @@ static void preconditioner_is_linear(void **state)
 }
 
 /* From rest, between an inflow, slip walls and an outflow, where the pressure is given. */
-static void a_stream_becomes_uniform(void **state)
+TEST(a_stream_becomes_uniform)
 {
     static const char duct[] = "{ name = \"duct\"; mapping = \"stretched\"; stretch = (-1.5, 0); "
                                "min = (-2, -0.5); max = (2, 0.5); cells = "
@@ -124,7 +120,6 @@ static void a_stream_becomes_uniform(void **state)
                                "\"outflow\"; j_min = \"slip\"; j_max = \"slip\"; }";
     struct mesh_case c;
     double most = 0.0;
-    (void)state;
     struct fv *s =
         mesh_case_start(&c, MPI_COMM_WORLD, duct,
                         (const char *const[]){NEWTON, "fv.steady=true", "initial.field=\"rest\"",
@@ -142,7 +137,7 @@ static void a_stream_becomes_uniform(void **state)
 
 /* Walls and openings of the scene are the sides of a block that has none of its own: a parabolic
  * inflow, no-slip walls and a given pressure at the end, a parabola everywhere. */
-static void walls_of_the_scene_make_a_duct(void **state)
+TEST(walls_of_the_scene_make_a_duct)
 {
     static const char duct[] = "{ name = \"duct\"; mapping = \"stretched\"; stretch = (0, -1.2); "
                                "min = (-2, -2); max = (2, 2); cells = (12, 16); }";
@@ -156,7 +151,6 @@ static void walls_of_the_scene_make_a_duct(void **state)
         {.side = SIDE_Y_MAX, .kind = WALL_NO_SLIP}};
     struct mesh_case c;
     double most = 0.0, pressure = 0.0;
-    (void)state;
     mesh_case_read(&c, MPI_COMM_WORLD, duct,
                    (const char *const[]){NEWTON, "fv.steady=true", "initial.field=\"rest\"",
                                          "fluid.nu=0.1", NULL});
@@ -194,10 +188,9 @@ static void walls_of_the_scene_make_a_duct(void **state)
 }
 
 /* One that no block can take is a mistake of the case. */
-static void a_wall_without_a_block_is_refused(void **state)
+TEST(a_wall_without_a_block_is_refused)
 {
     struct mesh_case c;
-    (void)state;
     mesh_case_read(&c, MPI_COMM_WORLD, plain, (const char *const[]){NEWTON, NULL});
     c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_X_MIN, .kind = WALL_NO_SLIP};
     c.run.scene.nwalls = 1;
@@ -207,10 +200,3 @@ static void a_wall_without_a_block_is_refused(void **state)
     mem_free(c.faults.text);
     params_free(&c.params);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(steady_ring_has_order_three_and_a_half),
-               cmocka_unit_test(joints_do_not_matter), cmocka_unit_test(sound_changes_little),
-               cmocka_unit_test(preconditioner_is_linear),
-               cmocka_unit_test(a_stream_becomes_uniform),
-               cmocka_unit_test(walls_of_the_scene_make_a_duct),
-               cmocka_unit_test(a_wall_without_a_block_is_refused))

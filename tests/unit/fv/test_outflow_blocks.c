@@ -85,9 +85,8 @@ static double left_behind(const char *blocks, int step, bool carried)
     return most / 0.25;
 }
 
-static void vortices_leave(void **state)
+TEST(vortices_leave)
 {
-    (void)state;
     static const struct {
         const char *blocks;
         int step;
@@ -107,9 +106,8 @@ static void vortices_leave(void **state)
 }
 
 /* m^2/s: largest net flux that the steps of a vortex on its way out leave. */
-static void what_comes_in_goes_out(void **state)
+TEST(what_comes_in_goes_out)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct mesh_case c;
         struct fv *s = start(&c, MPI_COMM_WORLD, above, k, true, NULL);
@@ -124,7 +122,7 @@ static void what_comes_in_goes_out(void **state)
 
 /* Two pipes end on one side of the domain, the lower one of two joined blocks: each has its own
  * parabola, and steady flow through both stays as it is. */
-static void each_opening_has_its_parabola(void **state)
+TEST(each_opening_has_its_parabola)
 {
     static const char pipes[] =
         "{ name = \"a\"; cells = (8, 8); min = (0, 0); max = (1, 0.5); j_min = \"wall\"; j_max = "
@@ -137,7 +135,6 @@ static void each_opening_has_its_parabola(void **state)
     } places[] = {{0, 0.0, 0.0}, {0, 0.25, 0.75}, {0, 0.5, 1.0},  {1, 0.5, 1.0},
                   {1, 1.0, 0.0}, {2, 1.5, 0.0},   {2, 1.75, 1.0}, {2, 2.0, 0.0}};
     struct mesh_case c;
-    (void)state;
     mesh_case_read(&c, MPI_COMM_WORLD, pipes,
                    (const char *const[]){"initial.field=\"rest\"", "domain.min=(0,0)",
                                          "domain.max=(1,2)", "fluid.nu=0.1", NULL});
@@ -184,9 +181,8 @@ static double fastest(double pressure)
     return most;
 }
 
-static void the_level_of_pressure_moves_nothing(void **state)
+TEST(the_level_of_pressure_moves_nothing)
 {
-    (void)state;
     const double u = fastest(0.0);
     assert_close(fastest(1e-6) / u, 1.0, 1e-6); /* as well as psi is solved for */
     assert_close(fastest(1e3) / u, 1.0, 1e-6);
@@ -203,9 +199,8 @@ static double energy(const struct fv *s)
     return sum;
 }
 
-static void ranks_agree_and_a_restart_is_exact(void **state)
+TEST(ranks_agree_and_a_restart_is_exact)
 {
-    (void)state;
     struct mesh_case one, all, again;
     char path[1100];
     int64_t differ = 0;
@@ -237,8 +232,3 @@ static void ranks_agree_and_a_restart_is_exact(void **state)
     MPI_Barrier(MPI_COMM_WORLD);
     remove(path);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(vortices_leave), cmocka_unit_test(what_comes_in_goes_out),
-               cmocka_unit_test(each_opening_has_its_parabola),
-               cmocka_unit_test(the_level_of_pressure_moves_nothing),
-               cmocka_unit_test(ranks_agree_and_a_restart_is_exact))

@@ -27,9 +27,8 @@ static const char ring[] =
 static double linear(const double *x) { return 0.3 + 1.7 * x[0] - 0.9 * x[1]; }
 
 /* Every place is found, in the cell that the map puts there. */
-static void search_finds_places(void **state)
+TEST(search_finds_places)
 {
-    (void)state;
     static const char *const blocks[] = {
         "{ name = \"a\"; mapping = \"annulus\"; radius = (0.5, 1.0); stretch = (1.5, 0.0); cells = "
         "(9, "
@@ -66,9 +65,8 @@ static void search_finds_places(void **state)
 }
 
 /* The fringe of a linear field from its averages: exact between boxes, also turned ones. */
-static void linear_fields_are_exact(void **state)
+TEST(linear_fields_are_exact)
 {
-    (void)state;
     struct mesh_case c;
     char text[1024];
     double worst = 0.0;
@@ -102,9 +100,8 @@ static void linear_fields_are_exact(void **state)
 }
 
 /* What cells are: no computed cell behind the wall of the ring, none without its stencil. */
-static void holes_are_cut(void **state)
+TEST(holes_are_cut)
 {
-    (void)state;
     struct mesh_case c;
     struct fv *s = mesh_case_start(
         &c, MPI_COMM_WORLD, ring,
@@ -124,9 +121,8 @@ static void holes_are_cut(void **state)
     mesh_case_end(&c, &s);
 }
 
-static void a_uniform_flow_crosses(void **state)
+TEST(a_uniform_flow_crosses)
 {
-    (void)state;
     struct mesh_case c;
     char text[1024];
     double worst = 0.0;
@@ -143,9 +139,8 @@ static void a_uniform_flow_crosses(void **state)
 }
 
 /* Vortices carried through the overlap: order of u, vorticity, p; less than 2 % of them lost. */
-static void vortices_cross(void **state)
+TEST(vortices_cross)
 {
-    (void)state;
     char text[1024];
     double e[2][3];
     for (int k = 0; k < 2; k++) {
@@ -172,9 +167,8 @@ static double energy_on(MPI_Comm comm, const char *text)
     return good ? row[0] + row[1] : NAN;
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     char text[1024];
     turned(text, sizeof text, 32);
     double e = fabs(energy_on(MPI_COMM_SELF, text) - energy_on(MPI_COMM_WORLD, text));
@@ -182,9 +176,8 @@ static void ranks_agree(void **state)
     assert_true(e < 1e-8);
 }
 
-static void orphans_are_named(void **state)
+TEST(orphans_are_named)
 {
-    (void)state;
     struct mesh_case c;
     mesh_case_read(&c, MPI_COMM_WORLD,
                    "{ name = \"back\"; cells = (16, 16); " PERIODIC " }, "
@@ -206,8 +199,3 @@ static void orphans_are_named(void **state)
     mem_free(c.faults.text);
     params_free(&c.params);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(search_finds_places), cmocka_unit_test(linear_fields_are_exact),
-               cmocka_unit_test(holes_are_cut), cmocka_unit_test(a_uniform_flow_crosses),
-               cmocka_unit_test(vortices_cross), cmocka_unit_test(ranks_agree),
-               cmocka_unit_test(orphans_are_named))

@@ -1,8 +1,6 @@
 /* test_plane.c - the water below a plane in a cell. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdlib.h>
-
 #include "../../../fv/surface/plane.h"
 
 static double random_real(void) { return rand() / (double)RAND_MAX; }
@@ -31,9 +29,8 @@ static double size_of(int dim, const double *n)
 }
 
 /* The share of alpha's plane is the one asked for. */
-static void inverse_of_share(void **state)
+TEST(inverse_of_share)
 {
-    (void)state;
     srand(1);
     for (int k = 0; k < 200000; k++) {
         const int dim = 1 + k % 3;
@@ -48,9 +45,8 @@ static void inverse_of_share(void **state)
 }
 
 /* Slabs add up to the cell, whatever they are. */
-static void slabs_add_up(void **state)
+TEST(slabs_add_up)
 {
-    (void)state;
     srand(2);
     for (int k = 0; k < 100000; k++) {
         const int dim = 1 + k % 3, a = rand() % dim;
@@ -64,14 +60,13 @@ static void slabs_add_up(void **state)
 }
 
 /* Share of the cell by 2^20 points of a regular grid, turned so that no plane is along it. */
-static void counted_points(void **state)
+TEST(counted_points)
 {
     static const double planes[][4] = {{1.0, 0.0, 0.0, 0.2},    {0.3, -1.0, 0.0, 0.1},
                                        {0.5, 0.5, 0.5, -0.3},   {0.01, 0.4, -1.0, 0.0},
                                        {0.1, 0.2, 0.9, 0.33},   {-0.3, 0.34, 0.36, -0.05},
                                        {1e-4, -0.5, 0.5, 0.01}, {0.45, 0.2, 0.35, -0.22}};
     const int m = 100;
-    (void)state;
     for (size_t q = 0; q < sizeof planes / sizeof planes[0]; q++) {
         const double *n = planes[q];
         int in = 0;
@@ -85,9 +80,8 @@ static void counted_points(void **state)
 }
 
 /* Half of a cell is below any plane through its centre; a corner is a simplex. */
-static void known_shares(void **state)
+TEST(known_shares)
 {
-    (void)state;
     srand(3);
     for (int k = 0; k < 1000; k++) {
         double n[3];
@@ -100,6 +94,3 @@ static void known_shares(void **state)
     assert_close(plane_share(2, n, -0.5), 0.125, 1e-14);
     assert_true(plane_share(3, n, -1.5) == 0.0 && plane_share(3, n, 1.5) == 1.0);
 }
-
-TESTS(cmocka_unit_test(inverse_of_share), cmocka_unit_test(slabs_add_up),
-      cmocka_unit_test(counted_points), cmocka_unit_test(known_shares))

@@ -7,10 +7,9 @@
 #include "../../../fv/output/output.h"
 #include "fv_bc_case.h"
 
-static void heights_fill_the_domain(void **state)
+TEST(heights_fill_the_domain)
 {
     double h[60], sum = 0.0, above = 0.0, most = 1.0;
-    (void)state;
     const double ratio = rows_heights(60, 32, 1.65, 2.5, h);
     for (int i = 0; i < 60; i++) {
         sum += h[i];
@@ -38,11 +37,10 @@ static double power(int n, int derivative, double y)
                              : n * pow(y, n - 1);
 }
 
-static void weights_are_exact_for_cubics(void **state)
+TEST(weights_are_exact_for_cubics)
 {
     struct block b;
     double h[40], most[4] = {0.0};
-    (void)state;
     block_create(&b, MPI_COMM_SELF, 2, (const int[]){4, 40, 1}, (const double[]){0.0, -0.5, 0.0},
                  (const double[]){1.0, 2.0, 1.0}, (const bool[]){true, false, false});
     assert_true(rows_heights(40, 20, 1.4, 2.0, h) > 1.0);
@@ -78,11 +76,10 @@ static void weights_are_exact_for_cubics(void **state)
 
 /* What goes on beyond an edge upwards or downwards is exact for cubics, and evenly for 1 and y^2
  * about the edge. */
-static void what_goes_on_is_exact_too(void **state)
+TEST(what_goes_on_is_exact_too)
 {
     const double heights[9] = {1.9, 1.7, 1.6, 1.4, 1.3, 1.1, 1.0, 1.0, 0.9}, *h = heights + 4;
     double edge[10] = {0.0}, most[2] = {0.0, 0.0};
-    (void)state;
     for (int j = 0; j < 9; j++)
         edge[j + 1] = edge[j] + heights[j];
     for (int way = -1; way <= 1; way += 2)
@@ -105,12 +102,11 @@ static void what_goes_on_is_exact_too(void **state)
     assert_true(most[0] < 1e-12 && most[1] < 1e-12);
 }
 
-static void order_is_kept(void **state)
+TEST(order_is_kept)
 {
     static const char *const common[] = {"initial.field=\"two_modes\"",
                                          "initial.velocity=(0.5,0.25)",
                                          "domain.periodic=(true,false)", "fv.cfl=0.5", NULL};
-    (void)state;
     const double e32 = fv_case_error_at(32, common, "fv.graded=(0.6,16)", 1.0),
                  e64 = fv_case_error_at(64, common, "fv.graded=(0.6,32)", 1.0);
     print_message("32: %.3g, 64: %.3g, order %.2f\n", e32, e64, fv_case_order(e32, e64));
@@ -118,7 +114,7 @@ static void order_is_kept(void **state)
 }
 
 /* A hole whose outline lies in growing rows, and Newton's method around it. */
-static void a_hole_keeps_the_order(void **state)
+TEST(a_hole_keeps_the_order)
 {
     static const char *const common[] = {"initial.field=\"two_modes\"",
                                          "initial.velocity=(0.5,0.25)",
@@ -126,16 +122,14 @@ static void a_hole_keeps_the_order(void **state)
                                          "fv.hole=((0.3,0.2),(0.7,0.5))",
                                          "fv.cfl=0.5",
                                          NULL};
-    (void)state;
     const double e32 = fv_case_error_at(32, common, "fv.graded=(0.6,16)", 1.0),
                  e64 = fv_case_error_at(64, common, "fv.graded=(0.6,32)", 1.0);
     print_message("32: %.3g, 64: %.3g, order %.2f\n", e32, e64, fv_case_order(e32, e64));
     assert_true(e64 < 6e-4 && fv_case_order(e32, e64) >= 2.9);
 }
 
-static void slip_walls_keep_the_order(void **state)
+TEST(slip_walls_keep_the_order)
 {
-    (void)state;
     const double e24 = box_slip_error(24, "fv.graded=(0.6,12)"),
                  e48 = box_slip_error(48, "fv.graded=(0.6,24)");
     print_message("24: %.3g, 48: %.3g, order %.2f\n", e24, e48, fv_case_order(e24, e48));
@@ -143,11 +137,10 @@ static void slip_walls_keep_the_order(void **state)
 }
 
 /* Between two walls: a parabola, so exact, and the walls carry what drives it. */
-static void channel_is_exact(void **state)
+TEST(channel_is_exact)
 {
     struct fv_case c;
     double row[FV_CASE_ROW];
-    (void)state;
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){"initial.field=\"poiseuille\"",
                                       "domain.periodic=(true,false)", "fluid.nu=0.1",
@@ -165,10 +158,9 @@ static void channel_is_exact(void **state)
 
 /* A duct from a parabolic inlet to an outlet of either kind, by both projected integrators: the
  * parabola, and the walls carry what drives it. */
-static void duct_is_exact(void **state)
+TEST(duct_is_exact)
 {
     static const char *const integrators[] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\""};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct fv_case c;
         double row[FV_CASE_ROW];
@@ -209,9 +201,8 @@ static double lid_energy(const char *cells, const char *graded)
     return row[0];
 }
 
-static void cavity_is_the_same(void **state)
+TEST(cavity_is_the_same)
 {
-    (void)state;
     const double fine = lid_energy("fv.cells=(48,64)", "fv.graded=(0,0)"),
                  graded = lid_energy("fv.cells=(48,44)", "fv.graded=(0.5,32)"),
                  even = lid_energy("fv.cells=(48,44)", "fv.graded=(0,0)");
@@ -252,18 +243,9 @@ static double extrema_error(int cells, int even)
 }
 
 /* As the scheme is: fourth order. */
-static void extrema_are_of_the_order_of_the_scheme(void **state)
+TEST(extrema_are_of_the_order_of_the_scheme)
 {
-    (void)state;
     const double coarse = extrema_error(32, 16), fine = extrema_error(64, 32);
     print_message("extrema: %.3g, %.3g\n", coarse, fine);
     assert_true(fv_case_order(coarse, fine) > 3.5 && fine < 1e-4);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(heights_fill_the_domain),
-               cmocka_unit_test(weights_are_exact_for_cubics),
-               cmocka_unit_test(what_goes_on_is_exact_too),
-               cmocka_unit_test(a_hole_keeps_the_order), cmocka_unit_test(order_is_kept),
-               cmocka_unit_test(slip_walls_keep_the_order), cmocka_unit_test(channel_is_exact),
-               cmocka_unit_test(duct_is_exact), cmocka_unit_test(cavity_is_the_same),
-               cmocka_unit_test(extrema_are_of_the_order_of_the_scheme))

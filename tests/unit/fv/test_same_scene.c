@@ -3,14 +3,9 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <unistd.h>
-
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/fv.h"
 #include "../../../fv/grid/mesh.h"
 #include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/output/output.h"
-#include "../../../fv/time/steps.h"
+#include "fv_case.h"
 
 enum { COLUMNS = 40 };
 
@@ -80,30 +75,21 @@ static const struct forms drum = {
     0.05};
 
 static struct run run;
-static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
-static char path[512];
+static const char *path;
 
 /* The flow at t = 0; the case stays in `p'. */
 static struct fv *start(const struct forms *of, bool block, struct params **p)
 {
     struct faults f = {0};
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "format = 1;\ntime: { end = %g; };\n%s", of->end, of->text);
+    char text[4096];
+    const int n =
+        snprintf(text, sizeof text, "format = 1;\ntime: { end = %g; };\n%s", of->end, of->text);
     if (block)
-        fprintf(file, "fv: { };\nblocks: ( { name = \"a\"; cells = %s; %s; } );\n", of->cells,
-                of->box);
+        snprintf(text + n, sizeof text - (size_t)n,
+                 "fv: { };\nblocks: ( { name = \"a\"; cells = %s; %s; } );\n", of->cells, of->box);
     else
-        fprintf(file, "fv: { cells = %s; };\n", of->cells);
-    fclose(file);
-    memset(&run, 0, sizeof run);
-    run.comm = MPI_COMM_WORLD;
-    run.size = 1;
-    run.name = "fv";
-    scene_groups(&run.scene, groups);
-    memcpy(groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
-    run.params = *p = params_read(run.comm, path, 0, NULL, groups, SCENE_GROUPS + FV_GROUPS,
-                                  (const char *const[]){NULL}, &f);
+        snprintf(text + n, sizeof text - (size_t)n, "fv: { cells = %s; };\n", of->cells);
+    *p = fv_case_read(&run, MPI_COMM_WORLD, path, text, NULL, &f);
     fv_params_check(&run, &f);
     assert_int_equal(params_report(&f), 0);
     return fv_create(&run, NULL);
@@ -134,9 +120,8 @@ static double value(const char *name, int n, const char *const *columns, const d
     return NAN;
 }
 
-static void cells_and_a_block_give_one_series(void **state)
+TEST(cells_and_a_block_give_one_series)
 {
-    (void)state;
     for (size_t q = 0; q < sizeof scenes / sizeof scenes[0]; q++) {
         const char *names[2][COLUMNS];
         double row[2][COLUMNS] = {{0.0}};
@@ -154,9 +139,8 @@ static void cells_and_a_block_give_one_series(void **state)
 }
 
 /* rho g V of the water at rest. */
-static void closed_sides_carry_the_weight(void **state)
+TEST(closed_sides_carry_the_weight)
 {
-    (void)state;
     for (int q = 0; q < 3; q++)
         for (int block = 0; block < 2; block++) {
             const char *names[COLUMNS];
@@ -169,9 +153,8 @@ static void closed_sides_carry_the_weight(void **state)
 
 /* A film along a wall that no cell of water lies under has no weight to press with, nor draws at
  * the wall above it: the drum bears the segment of the pool, R^2 acos(d/R) - d (R^2 - d^2)^0.5. */
-static void films_press_on_nothing(void **state)
+TEST(films_press_on_nothing)
 {
-    (void)state;
     const char *names[COLUMNS];
     double row[COLUMNS];
     const int n = last_row(&drum, true, row, names);
@@ -181,9 +164,8 @@ static void films_press_on_nothing(void **state)
 }
 
 /* Fluxes of the velocity (x, 0): its divergence is 1/s everywhere. */
-static void divergence_is_a_rate(void **state)
+TEST(divergence_is_a_rate)
 {
-    (void)state;
     for (int block = 0; block < 2; block++) {
         struct params *p;
         struct fv *s = start(scenes + 3, block, &p);
@@ -199,17 +181,4 @@ static void divergence_is_a_rate(void **state)
     }
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cells_and_a_block_give_one_series),
-                                       cmocka_unit_test(closed_sides_carry_the_weight),
-                                       cmocka_unit_test(films_press_on_nothing),
-                                       cmocka_unit_test(divergence_is_a_rate)};
-    const char *dir = getenv("TEST_SCRATCH");
-    MPI_Init(&argc, &argv);
-    snprintf(path, sizeof path, "%s/same_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    MPI_Finalize();
-    return failed;
-}
+void unit_begin(void) { path = unit_file("same.cfg"); }

@@ -3,12 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <unistd.h>
-
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/fv.h"
-#include "../../../fv/output/output.h"
-#include "../../../fv/time/steps.h"
+#include "fv_case.h"
 
 enum { COLUMNS = 40 };
 
@@ -27,8 +22,7 @@ enum { COLUMNS = 40 };
     "\"wall\"; j_min = \"joined\"; j_max = \"joined\"; }"
 
 static struct run run;
-static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
-static char path[512];
+static const char *path;
 static double datum; /* Pa: of a partner */
 
 /* The row of the series after the first step, and its headings. */
@@ -36,19 +30,7 @@ static void row_of(const char *text, double *row, const char **columns)
 {
     struct faults f = {0};
     struct diagnosis d = {0};
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-    memset(&run, 0, sizeof run);
-    run.comm = MPI_COMM_WORLD;
-    run.size = 1;
-    run.name = "fv";
-    scene_groups(&run.scene, groups);
-    memcpy(groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
-    struct params *p = params_read(run.comm, path, 0, NULL, groups, SCENE_GROUPS + FV_GROUPS,
-                                   (const char *const[]){NULL}, &f);
-    run.params = p;
+    struct params *p = fv_case_read(&run, MPI_COMM_WORLD, path, text, NULL, &f);
     fv_params_check(&run, &f);
     assert_int_equal(params_report(&f), 0);
     struct fv *s = fv_create(&run, NULL);
@@ -63,9 +45,8 @@ static void row_of(const char *text, double *row, const char **columns)
 }
 
 /* Energy, speed, divergence, forces, then what the scene has. */
-static void cells_know_the_whole_pressure(void **state)
+TEST(cells_know_the_whole_pressure)
 {
-    (void)state;
     double row[COLUMNS] = {0};
     row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\n" CELLS, row, NULL);
     assert_close(row[3], 0.0, 1e-6);
@@ -79,9 +60,8 @@ static void cells_know_the_whole_pressure(void **state)
 }
 
 /* A wall without water feels nothing. */
-static void walls_under_a_free_surface_feel_the_water_alone(void **state)
+TEST(walls_under_a_free_surface_feel_the_water_alone)
 {
-    (void)state;
     double row[COLUMNS] = {0};
     row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nshapes: ( { form = "
                 "\"below\"; level "
@@ -93,9 +73,8 @@ static void walls_under_a_free_surface_feel_the_water_alone(void **state)
 }
 
 /* The level is a height against gravity, whichever way that points. */
-static void levels_stand_against_gravity(void **state)
+TEST(levels_stand_against_gravity)
 {
-    (void)state;
     static const char *const walls =
         "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; }, { side = \"y_min\"; }, { side = "
         "\"y_max\"; }, { side = \"z_min\"; }, { side = \"z_max\"; } );\n"
@@ -118,9 +97,8 @@ static void levels_stand_against_gravity(void **state)
 }
 
 /* What runs down along a periodic axis, steeper than 45 degrees, stands on the floor across it. */
-static void films_stand_across_their_flow(void **state)
+TEST(films_stand_across_their_flow)
 {
-    (void)state;
     double row[COLUMNS] = {0};
     row_of("format = 1;\ntime: { end = 0.1; };\nfluid: { rho = 1000; nu = 0.01; gravity = (8, -5); "
            "};\n"
@@ -135,9 +113,8 @@ static void films_stand_across_their_flow(void **state)
     assert_close(row[9], 1000 * 5 * 0.5, 1e-3);
 }
 
-static void blocks_know_the_whole_pressure(void **state)
+TEST(blocks_know_the_whole_pressure)
 {
-    (void)state;
     const char *columns[COLUMNS];
     double row[COLUMNS] = {0};
     const double lift = 1000 * 9.81 * M_PI * 0.3 * 0.3;
@@ -156,9 +133,8 @@ static void blocks_know_the_whole_pressure(void **state)
 }
 
 /* Gauges have it on all grids; it is no force on what is closed. */
-static void a_partners_level_counts(void **state)
+TEST(a_partners_level_counts)
 {
-    (void)state;
     static const char *const grids[2] = {CELLS, "fv: { };\nblocks: ( " BOX " );\n"};
     datum = 250.0;
     for (int k = 0; k < 2; k++) {
@@ -174,21 +150,4 @@ static void a_partners_level_counts(void **state)
     datum = 0.0;
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_know_the_whole_pressure),
-        cmocka_unit_test(walls_under_a_free_surface_feel_the_water_alone),
-        cmocka_unit_test(levels_stand_against_gravity),
-        cmocka_unit_test(films_stand_across_their_flow),
-        cmocka_unit_test(blocks_know_the_whole_pressure),
-        cmocka_unit_test(a_partners_level_counts),
-    };
-    const char *dir = getenv("TEST_SCRATCH");
-    MPI_Init(&argc, &argv);
-    snprintf(path, sizeof path, "%s/still_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    MPI_Finalize();
-    return failed;
-}
+void unit_begin(void) { path = unit_file("still.cfg"); }

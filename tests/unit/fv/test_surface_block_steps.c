@@ -73,9 +73,8 @@ static void is_still(const char *blocks, double level)
     }
 }
 
-static void still_water_stays(void **state)
+TEST(still_water_stays)
 {
-    (void)state;
     is_still(joined, 0.413);
     is_still(canal, 0.613);
     is_still(turned, 0.363);
@@ -105,9 +104,8 @@ static void swings(const char *blocks, const char *step, const char *cfl, const 
 }
 
 /* Five cells of the wave's way a step. */
-static void waves_swing_as_on_one_block(void **state)
+TEST(waves_swing_as_on_one_block)
 {
-    (void)state;
     static const char *const blocks[3] = {
         "{ name = \"one\"; cells = (32, 40); max = (4.0, 1.25); " AROUND ENDS "}",
         "{ name = \"l\"; cells = (16, 40); max = (2.0, 1.25); i_min = \"periodic\"; i_max = "
@@ -153,9 +151,8 @@ static double period_with_sound(const char *blocks, const char *c0)
 }
 
 /* fv.c0 = 3 m/s, as on the uniform grid (test_surface_implicit has the theory). */
-static void sound_slows_waves_down(void **state)
+TEST(sound_slows_waves_down)
 {
-    (void)state;
     static const char *const blocks[2] = {
         "{ name = \"one\"; cells = (16, 20); max = (4.0, 1.25); " AROUND SLIP_J "}",
         "{ name = \"back\"; cells = (32, 40); max = (4.0, 1.25); " AROUND SLIP_J
@@ -175,9 +172,8 @@ static void sound_slows_waves_down(void **state)
 }
 
 /* nu dt/h^2 = 50, eleven steps a period; cells of aspect 100, eight a length. */
-static void viscosity_and_flat_cells_bound_no_step(void **state)
+TEST(viscosity_and_flat_cells_bound_no_step)
 {
-    (void)state;
     double T, r;
     if (SANITIZED || !is_alone())
         return;
@@ -244,9 +240,8 @@ static const char over[] = "{ name = \"back\"; cells = (40, 24); max = (2.0, 1.0
                            "\"over\"; cells = (17, 24); min = (0.525, 0.0); max = (1.375, 1.0); }";
 
 /* As uniform as it came. */
-static void currents_pass_openings(void **state)
+TEST(currents_pass_openings)
 {
-    (void)state;
     static const char *const blocks[3] = {two, stretched, over};
     for (int k = 0; k < 9; k++) {
         struct mesh_case c;
@@ -261,9 +256,8 @@ static void currents_pass_openings(void **state)
 
 /* From rest waves run between the openings: what is there is what was, and came in, and went out,
  * as much as on the uniform grid; joined blocks of the same cells are no other grid. */
-static void waves_between_openings_are_those_of_the_uniform_grid(void **state)
+TEST(waves_between_openings_are_those_of_the_uniform_grid)
 {
-    (void)state;
     static const char *const blocks[4] = {"", two, stretched, over};
     static const double close[4] = {0.0, 5e-4, 5e-3, 5e-3};
     for (int q = 1; q < 2 && is_alone(); q++) {
@@ -292,9 +286,8 @@ static void waves_between_openings_are_those_of_the_uniform_grid(void **state)
 /* Out of an outflow that carries it a uniform current leaves as it is. From rest the inlet makes a
  * wave, which runs out: it leaves the inlet's velocity everywhere and water that is higher by
  * U H/c, c = sqrt(g H). */
-static void currents_are_carried_out(void **state)
+TEST(currents_are_carried_out)
 {
-    (void)state;
     static const char *const blocks[4] = {"", two, stretched, over};
     for (int k = 0; k < 12; k++) {
         struct mesh_case c;
@@ -317,9 +310,8 @@ static void currents_are_carried_out(void **state)
 
 static const struct scene_shape column = {.form = SHAPE_BOX, .box = {{-1.0, -1.0}, {0.35, 0.45}}};
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     if (is_alone())
         skip();
     for (int k = 0; k < 2; k++) {
@@ -337,9 +329,8 @@ static void ranks_agree(void **state)
     }
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const char *const of[] = {HEAVY, REST, "fluid.nu=1e-3", steps[k], NULL};
         struct mesh_case one, again;
@@ -349,10 +340,3 @@ static void restart_is_exact(void **state)
         assert_int_equal(mesh_case_restart(&one, s, &again, 3), 0);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(still_water_stays), cmocka_unit_test(waves_swing_as_on_one_block),
-               cmocka_unit_test(sound_slows_waves_down),
-               cmocka_unit_test(viscosity_and_flat_cells_bound_no_step),
-               cmocka_unit_test(currents_pass_openings), cmocka_unit_test(currents_are_carried_out),
-               cmocka_unit_test(waves_between_openings_are_those_of_the_uniform_grid),
-               cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact))

@@ -59,9 +59,8 @@ static void is_still(const char *blocks, double level, int dim)
     mesh_case_end(&c, &s);
 }
 
-static void still_water_stays(void **state)
+TEST(still_water_stays)
 {
-    (void)state;
     is_still(joined, 0.413, 2);
     is_still(canal, 0.613, 2);
     is_still(turned, 0.363, 2);
@@ -109,9 +108,8 @@ static const char corner[] = "{ name = \"v\"; cells = (19, 19); max = (1.0, 1.0)
 #define SHORT (SANITIZED || !is_alone()) /* laws of long runs are one rank's */
 
 /* Rough velocities of 1e-6 m/s do not grow in water at rest, at the largest step. */
-static void rough_water_calms(void **state)
+TEST(rough_water_calms)
 {
-    (void)state;
     static const char *const blocks[] = {turned, leaning, sliver, coarse_below,
                                          steep,  along,   corner};
     static const double levels[] = {0.363, 0.533, 0.476, 0.455, 0.443, 0.3767, 0.592};
@@ -155,9 +153,8 @@ static void swings(const char *blocks, double *period, double *damping)
 }
 
 #define ENDS "j_min = \"wall\"; j_max = \"slip\"; "
-static void waves_swing_as_on_one_block(void **state)
+TEST(waves_swing_as_on_one_block)
 {
-    (void)state;
     double period[3], damping[3];
     swings("{ name = \"one\"; cells = (32, 20); max = (4.0, 1.25); i_min = \"periodic\"; i_max = "
            "\"periodic\"; " ENDS "}",
@@ -189,9 +186,8 @@ static double moment(const struct fv *s)
 
 /* Between walls at 45 degrees a plane surface swings as a plane, w^2 = g/h: potential x y
  * (Kirchhoff; Lamb, Hydrodynamics, art. 258). */
-static void water_between_inclined_walls_swings(void **state)
+TEST(water_between_inclined_walls_swings)
 {
-    (void)state;
     struct mesh_case c;
     static double corners[4][2] = {{-2.0, 0.56}, {2.0, 0.64}, {2.0, -1.0}, {-2.0, -1.0}};
     struct scene_shape water = {.form = SHAPE_POLYGON, .points = {.n = 4}};
@@ -218,9 +214,8 @@ static void water_between_inclined_walls_swings(void **state)
 static const char *const exactly[] = {HEAVY, REST, "fv.tol_pressure=1e-9", NULL};
 static const struct scene_shape column = {.form = SHAPE_BOX, .box = {{-1.0, -1.0}, {0.35, 0.45}}};
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     struct mesh_case one, all;
     struct fv *s = start(&one, MPI_COMM_SELF, turned, exactly, &column),
               *z = start(&all, MPI_COMM_WORLD, turned, exactly, &column);
@@ -231,9 +226,8 @@ static void ranks_agree(void **state)
     mesh_case_end(&all, &z);
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     struct mesh_case one, two;
     struct fv *s = start(&one, MPI_COMM_WORLD, turned, exactly, &column);
     mesh_case_read(&two, MPI_COMM_WORLD, turned, exactly);
@@ -242,9 +236,8 @@ static void restart_is_exact(void **state)
 }
 
 /* Out of which water would fall, or beside which no field is known. */
-static void openings_that_cannot_be_are_refused(void **state)
+TEST(openings_that_cannot_be_are_refused)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"{ name = \"a\"; cells = (20, 14); max = (1.0, 0.7); j_min = \"outflow\"; j_max = "
          "\"slip\"; " SLIP_I "}",
@@ -279,9 +272,8 @@ static const char lock[] =
     "\"slip\"; j_max = \"slip\"; j_min = \"joined\"; }";
 
 /* Water that ends at a wall does not go on in the room behind it. */
-static void chambers_keep_their_levels(void **state)
+TEST(chambers_keep_their_levels)
 {
-    (void)state;
     static const double boxes[3][4] = {
         {-1.0, 0.0, 0.0, 0.6}, {0.0, 0.0, 0.1, 0.1}, {0.1, 0.0, 1.0, 0.2}};
     struct mesh_case c;
@@ -294,20 +286,4 @@ static void chambers_keep_their_levels(void **state)
     struct fv *s = fv_create(&c.run, NULL);
     assert_close(surface_volume(s), 0.6 + 0.01 + 0.18, 2e-3);
     mesh_case_end(&c, &s);
-}
-
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(still_water_stays),
-                                       cmocka_unit_test(rough_water_calms),
-                                       cmocka_unit_test(waves_swing_as_on_one_block),
-                                       cmocka_unit_test(water_between_inclined_walls_swings),
-                                       cmocka_unit_test(ranks_agree),
-                                       cmocka_unit_test(restart_is_exact),
-                                       cmocka_unit_test(openings_that_cannot_be_are_refused),
-                                       cmocka_unit_test(chambers_keep_their_levels)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
 }

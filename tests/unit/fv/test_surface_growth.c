@@ -11,12 +11,9 @@ static struct fv *start(struct fv_case *c, const char *const *overrides,
                         const struct scene_shape *shape)
 {
     fv_case_set(c, MPI_COMM_WORLD, overrides);
-    struct scene *scene = &c->run.scene;
-    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 4; side++)
-        if (!scene->domain.periodic[(side - SIDE_X_MIN) / 2])
-            scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = WALL_SLIP};
+    fv_case_close(c, WALL_SLIP);
     if (shape)
-        scene->shapes[scene->nshapes++] = *shape;
+        c->run.scene.shapes[c->run.scene.nshapes++] = *shape;
     return fv_case_start(c, NULL);
 }
 
@@ -56,10 +53,9 @@ static double grows(int n, double theta, const char *integrator)
     return last / first;
 }
 
-static void waves_of_a_few_cells_do_not_grow(void **state)
+TEST(waves_of_a_few_cells_do_not_grow)
 {
     static const double theta[] = {0.02, 0.13, 0.36, 0.64, 0.93};
-    (void)state;
     for (int k = 0; k < 5; k += SANITIZED || !is_alone() ? 5 : 1) {
         assert_true(grows(6, theta[k], "fv.integrator=\"rk3\"") < 3.0); /* 50 by mean slopes */
         assert_true(grows(12, theta[k], "fv.integrator=\"rk3\"") < 1.1);
@@ -69,10 +65,9 @@ static void waves_of_a_few_cells_do_not_grow(void **state)
 }
 
 /* Gravity at an angle to the cells, and a surface that is not quite level. */
-static void water_rests_in_tanks_that_lean(void **state)
+TEST(water_rests_in_tanks_that_lean)
 {
     static const double degrees[] = {10.6, -22.7, -70.9};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const double angle = degrees[k] * M_PI / 180.0;
         const struct scene_shape shape = {.form = SHAPE_BELOW, .level = 0.1};
@@ -103,6 +98,3 @@ static void water_rests_in_tanks_that_lean(void **state)
         fv_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(waves_of_a_few_cells_do_not_grow),
-               cmocka_unit_test(water_rests_in_tanks_that_lean))

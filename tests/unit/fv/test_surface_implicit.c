@@ -10,13 +10,12 @@
 
 /* Upright, askew over graded rows, in 3D: the surface cuts the cells in all ways; bdf2, newton,
  * newton with sound. */
-static void still_water_stays(void **state)
+TEST(still_water_stays)
 {
     static const char *const of[3][3] = {
         {"fluid.gravity=(0,-9.81)", "fv.cells=(24,20)", "fv.graded=(0,0)"},
         {"fluid.gravity=(2.9,-9.81)", "fv.cells=(24,20)", "fv.graded=(0.75,7)"},
         {"fluid.gravity=(2.9,1.3,-9.81)", "fv.cells=(12,10,16)", "domain.dim=3"}};
-    (void)state;
     for (int k = 0; k < 9; k++) {
         struct fv_case c;
         const char *const *o = of[k / 3];
@@ -55,10 +54,9 @@ static void oscillation(const char *cells, const char *graded, const char *integ
     fv_free(&c.s);
 }
 
-static void waves_swing_as_theory_says(void **state)
+TEST(waves_swing_as_theory_says)
 {
     double T, r;
-    (void)state;
     oscillation("fv.cells=(32,40)", "fv.graded=(0,0)", BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", &T, &r);
     assert_close(T, 0.0, 0.002);
     assert_close(r, 0.0, 0.03);
@@ -99,11 +97,10 @@ static double period_with_sound(const char *cells, const char *graded, const cha
  * k^2
  * - w^2/c^2, so that the wave is the slower the smaller c is (Longuet-Higgins 1950, less what
  * gravity does to the density). */
-static void sound_slows_waves_down(void **state)
+TEST(sound_slows_waves_down)
 {
     static const char *const of[2][2] = {{"fv.cells=(16,20)", "fv.graded=(0,0)"},
                                          {"fv.cells=(16,24)", "fv.graded=(1.1,8)"}};
-    (void)state;
     const double k = 1.57079632679489662, c = 3.0;
     double w2 = k * tanh(k);
     for (int m = 0; m < 60; m++) {
@@ -120,9 +117,8 @@ static void sound_slows_waves_down(void **state)
 
 /* A column that falls, turns at the wall and comes back; steps that turn out too long are taken
  * back. Volume is kept, and energy lost. */
-static void columns_fall(void **state)
+TEST(columns_fall)
 {
-    (void)state;
     static const struct scene_shape column = {.form = SHAPE_BOX,
                                               .box = {{0, 0, 0}, {0.31, 0.61, 0.57}}};
     for (int k = SANITIZED; k < (SANITIZED ? 2 : 3); k++) {
@@ -147,12 +143,11 @@ static void columns_fall(void **state)
 
 /* A column of honey, 12 cells of 1 mm a side, nu/(h sqrt(g h)) = 101: creeps down as slowly by rk3
  * as by newton in steps fifty times as long, each its own discretisation in time. */
-static void honey_creeps(void **state)
+TEST(honey_creeps)
 {
     static const struct scene_shape column = {.form = SHAPE_BOX,
                                               .box = {{-1.0, -1.0, 0.0}, {0.012, 0.012, 0.0}}};
     double speed[2], energy[2];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         struct fv *s =
@@ -173,9 +168,8 @@ static void honey_creeps(void **state)
 }
 
 /* As uniform as it came, at six times the step of rk3. */
-static void currents_pass_openings(void **state)
+TEST(currents_pass_openings)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct fv_case c;
         fv_case_set(&c, MPI_COMM_WORLD,
@@ -204,11 +198,10 @@ static void currents_pass_openings(void **state)
 
 /* A box of water at rest under gravity that leans: the force of the start is its weight, as its
  * centre rises with no acceleration, and across that what the first step has. */
-static void leaning_water_starts_with_its_pressure(void **state)
+TEST(leaning_water_starts_with_its_pressure)
 {
     static const char *const kinds[3] = {"fv.integrator=\"rk3\"", BDF2, NEWTON};
     const struct scene_shape below = {.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.4, 0}}};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         double force[2][4];
         struct fv_case c;
@@ -230,8 +223,3 @@ static void leaning_water_starts_with_its_pressure(void **state)
         fv_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(still_water_stays), cmocka_unit_test(waves_swing_as_theory_says),
-               cmocka_unit_test(sound_slows_waves_down), cmocka_unit_test(columns_fall),
-               cmocka_unit_test(honey_creeps), cmocka_unit_test(currents_pass_openings),
-               cmocka_unit_test(leaning_water_starts_with_its_pressure))

@@ -37,9 +37,8 @@ static void sums_on(MPI_Comm comm, int flow, double sums[4])
     fv_free(&c.s);
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     for (int flow = 0; flow < FLOWS; flow++) {
         double alone[4], shared[4], most = 0.0;
         sums_on(MPI_COMM_SELF, flow, alone);
@@ -62,11 +61,8 @@ static struct fv *start_again(struct fv_case *c, MPI_Comm comm, int flow, struct
     return s;
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     for (int flow = 0; flow < FLOWS; flow++)
         assert_int_equal(fv_case_restart(start_again, flow, 4), 0);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact))

@@ -64,9 +64,8 @@ static double segment(double a, double l)
     return a * a * (0.5 * M_PI + th + sin(th) * cos(th));
 }
 
-static void a_body_at_rest_has_its_buoyancy(void **state)
+TEST(a_body_at_rest_has_its_buoyancy)
 {
-    (void)state;
     static const double levels[2] = {0.0, 0.113};
     for (int k = SANITIZED ? 1 : 0; k < 3; k++) {
         struct mesh_case c;
@@ -99,9 +98,8 @@ static double room(const struct fv *s)
 
 /* Whatever a block without walls does in it, to rounding; and all cells together keep what they
  * hold. */
-static void still_water_stays_where_a_block_moves(void **state)
+TEST(still_water_stays_where_a_block_moves)
 {
-    (void)state;
     for (int q = 0; q < 3; q++) {
         struct mesh_case c;
         struct fv *s = start(&c, MPI_COMM_WORLD, SWINGS,
@@ -122,9 +120,8 @@ static void still_water_stays_where_a_block_moves(void **state)
 
 /* Without gravity the potential is odd about the surface: half the force on a cylinder in a closed
  * square of side 8 a, whose added mass is 1.1135 rho pi a^2. */
-static void a_body_that_speeds_up_has_its_added_mass(void **state)
+TEST(a_body_that_speeds_up_has_its_added_mass)
 {
-    (void)state;
     static const char blocks[] =
         "{ name = \"tank\"; cells = (52, 44); min = (-2.0, -2.0); max = (2.0, 1.4); " SLIP
         "}, { name = \"ring\"; mapping = \"annulus\"; radius = (0.5, 1.3); cells = (14, 64); "
@@ -167,9 +164,8 @@ static void start_column(struct mesh_case *c, MPI_Comm comm)
 
 /* Water drawn flush with the walls of a cup that then tilts by 20 degrees: its sides are walls and
  * no surface, so the cup carries its weight. */
-static void a_cup_that_tilts_carries_its_water(void **state)
+TEST(a_cup_that_tilts_carries_its_water)
 {
-    (void)state;
     static const char cup[] =
         "{ name = \"cup\"; min = (-0.5, -0.3); max = (0.5, 0.4); cells = (30, 21); " SLIP
         "motion = ( { kind = \"polynomial\"; axis = \"rz\"; coefficients = (0, 0.17453); until = "
@@ -201,9 +197,8 @@ static void a_cup_that_tilts_carries_its_water(void **state)
     mesh_case_end(&c, &s);
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     struct mesh_case one, all;
     start_column(&one, MPI_COMM_SELF);
     start_column(&all, MPI_COMM_WORLD);
@@ -215,18 +210,11 @@ static void ranks_agree(void **state)
     mesh_case_end(&all, &z);
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     struct mesh_case one, two;
     start_column(&one, MPI_COMM_WORLD);
     struct fv *s = fv_create(&one.run, NULL);
     start_column(&two, MPI_COMM_WORLD);
     assert_int_equal(mesh_case_restart(&one, s, &two, 6), 0);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_body_at_rest_has_its_buoyancy),
-               cmocka_unit_test(still_water_stays_where_a_block_moves),
-               cmocka_unit_test(a_body_that_speeds_up_has_its_added_mass),
-               cmocka_unit_test(a_cup_that_tilts_carries_its_water), cmocka_unit_test(ranks_agree),
-               cmocka_unit_test(restart_is_exact))

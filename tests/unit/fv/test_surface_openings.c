@@ -83,9 +83,8 @@ enum { GRIDS = sizeof grids / sizeof grids[0] };
 
 /* From rest the inlet opens at once: a bore runs through the outflow. What ten transits leave is
  * its depth where the outflow keeps none, and else the given level. */
-static void levels_after_ten_transits_are_those_of_theory(void **state)
+TEST(levels_after_ten_transits_are_those_of_theory)
 {
-    (void)state;
     static const struct {
         const char *name;
         struct scene_wall in, out;
@@ -170,9 +169,8 @@ static double level_at(const struct fv *s, double x)
 
 /* A current of Froude number 0.3 over a smooth sill: the discharge leaves as it came in, levels are
  * Bernoulli's, and stay. */
-static void current_over_a_sill_has_bernoullis_levels(void **state)
+TEST(current_over_a_sill_has_bernoullis_levels)
 {
-    (void)state;
     const double q = 0.3 * sqrt(G * DEPTH) * DEPTH, E = DEPTH + q * q / (2.0 * G * DEPTH * DEPTH),
                  b = 0.1;
     const struct scene_wall
@@ -216,9 +214,8 @@ static void current_over_a_sill_has_bernoullis_levels(void **state)
 
 /* A sill of half of the depth a metre ahead of an outflow, whose wake leaves with water that runs
  * back: nowhere is it faster than its head allows, and what is there stays. */
-static void wakes_leave_without_gain(void **state)
+TEST(wakes_leave_without_gain)
 {
-    (void)state;
     static const char around[] =
         "{ name = \"al\"; max = (0.8, 0.25); cells = (16, 6); i_max = \"slip\"; j_max = "
         "\"joined\"; }, "
@@ -259,9 +256,8 @@ static void wakes_leave_without_gain(void **state)
 }
 
 /* What openings know of the past is in restart files. */
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     static const struct scene_wall inlets[] = {
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}},
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = 0.25, .has_discharge = true}};
@@ -277,9 +273,8 @@ static void restart_is_exact(void **state)
 
 /* Steps that are taken back, as those of the trial in a coupled job, leave no trace: the same steps
  * again have the same bits. Waves leave through the openings, which know the flow of the past. */
-static void steps_taken_back_leave_no_trace(void **state)
+TEST(steps_taken_back_leave_no_trace)
 {
-    (void)state;
     static const struct scene_wall in = {
         .side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}};
     for (int k = 0; k < 4; k++) {
@@ -307,9 +302,8 @@ static void steps_taken_back_leave_no_trace(void **state)
 /* A tank opens at once to a level outside below its bed: from the side the wave of Ritter (1892)
  * runs back, and (8/27) sqrt(g) H^(3/2) flow out. Air cannot pull: no water is faster than its
  * head, sqrt(2 g H). */
-static void nothing_pulls_where_the_level_outside_is_low(void **state)
+TEST(nothing_pulls_where_the_level_outside_is_low)
 {
-    (void)state;
     static const double levels[] = {-0.5, -5.0};
     const struct scene_wall left = {.side = SIDE_X_MIN, .kind = WALL_SLIP};
     const double q = 8.0 / 27.0 * sqrt(G) * pow(DEPTH, 1.5);
@@ -333,9 +327,8 @@ static void nothing_pulls_where_the_level_outside_is_low(void **state)
 
 /* A tank that one opening fills or empties has gained or lost the discharge times the time, to a
  * thousandth. */
-static void what_passes_is_the_given_discharge(void **state)
+TEST(what_passes_is_the_given_discharge)
 {
-    (void)state;
     const double q = 0.1, end = SANITIZED ? 0.2 : 2.0;
     for (int k = 0; k < 2 * GRIDS; k++) {
         const bool fills = k % 2 == 0;
@@ -359,9 +352,8 @@ static void what_passes_is_the_given_discharge(void **state)
 /* An outlet that is to let out half as much again as there is drains the tank, and the run ends as
  * it should. Critical flow all the time, dh/dt = -(2/3)^(3/2) sqrt(g) h^(3/2)/LENGTH, leaves 0.28
  * of the water. */
-static void an_outlet_that_runs_short_drains_its_tank(void **state)
+TEST(an_outlet_that_runs_short_drains_its_tank)
 {
-    (void)state;
     const double q = 0.5, end = 3.0;
     const struct scene_wall closed = {.side = SIDE_X_MIN, .kind = WALL_SLIP},
                             opening = {.side = SIDE_X_MAX,
@@ -379,12 +371,3 @@ static void an_outlet_that_runs_short_drains_its_tank(void **state)
         mesh_case_end(&c, &s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(levels_after_ten_transits_are_those_of_theory),
-               cmocka_unit_test(current_over_a_sill_has_bernoullis_levels),
-               cmocka_unit_test(nothing_pulls_where_the_level_outside_is_low),
-               cmocka_unit_test(what_passes_is_the_given_discharge),
-               cmocka_unit_test(an_outlet_that_runs_short_drains_its_tank),
-               cmocka_unit_test(wakes_leave_without_gain),
-               cmocka_unit_test(steps_taken_back_leave_no_trace),
-               cmocka_unit_test(restart_is_exact))

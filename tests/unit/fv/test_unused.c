@@ -3,15 +3,9 @@
  * changes. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <unistd.h>
-
-#include "../../../common/base/mem.h"
 #include "../../../common/scene/scene_outlines.h"
 #include "../../../fv/boundary/still.h"
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/fv.h"
-#include "../../../fv/output/output.h"
-#include "../../../fv/time/steps.h"
+#include "fv_case.h"
 
 enum { STEPS = 4, SEEN_MAX = 4096, TEXT_MAX = 4096, CANDIDATES = 12 };
 
@@ -172,7 +166,7 @@ static bool is_excepted(const char *key, bool with_blocks)
 
 /* --- a case with one key changed --- */
 
-static char path[512];
+static const char *path;
 
 /* Where the element (from 0) of a group begins, behind its brace; NULL: there is none. */
 static char *element_of(char *text, const char *group, int element)
@@ -238,7 +232,7 @@ static void see_fields(struct seen *s, double *const *u, const double *p, int64_
     see(s, "p", sum[3] + whole);
 }
 
-static void run_cells(struct run *r, struct seen *seen)
+static void run_steps(struct run *r, struct seen *seen)
 {
     struct fv *s = fv_create(r, NULL);
     struct diagnosis d = {0};
@@ -255,59 +249,19 @@ static void run_cells(struct run *r, struct seen *seen)
             see(seen, "row", row[q]);
     }
     const double foot[3] = {0.1, 0.1, 0.1};
-    see_fields(seen, s->u, s->p, s->b.size, fv_still_pressure(s, foot));
-    fv_finish(s);
-    fv_free(&s);
-}
-
-static void run_blocks(struct run *r, struct seen *seen)
-{
-    struct fv *s = fv_create(r, NULL);
-    struct diagnosis d = {0};
-    for (int k = 0; k < STEPS && s->t < r->scene.time.end && !d.bad; k++) {
-        double row[64];
-        r->dt = integrate(s, r->scene.time.end, &d);
-        r->t = s->t;
-        r->step++;
-        for (int q = 0; q < 64; q++)
-            row[q] = NAN;
-        fv_row(s, row);
-        see(seen, "t", s->t);
-        for (int q = 0; q < 64; q++)
-            see(seen, "row", row[q]);
-    }
-    const double foot[3] = {0.1, 0.1, 0.1};
-    see_fields(seen, s->u, s->p, s->m->size_local, still_pressure(&r->scene, &s->gravity, foot));
+    see_fields(seen, s->u, s->p, s->size, fv_still_pressure(s, foot));
     fv_finish(s);
     fv_free(&s);
 }
 
 static struct run run;
-static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
-
-static void write_case(const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
-}
 
 /* key: the changed one as faults name it, or NULL. */
 static void outcome(const char *text, const char *key, struct seen *seen)
 {
     struct faults f = {0};
     char told[120];
-    write_case(text);
-    memset(&run, 0, sizeof run);
-    run.comm = MPI_COMM_WORLD;
-    run.size = 1;
-    run.name = "fv";
-    scene_groups(&run.scene, groups);
-    memcpy(groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
-    struct params *p = params_read(run.comm, path, 0, NULL, groups, SCENE_GROUPS + FV_GROUPS,
-                                   (const char *const[]){NULL}, &f);
-    run.params = p;
+    struct params *p = fv_case_read(&run, MPI_COMM_WORLD, path, text, NULL, &f);
     run.scene.has_fv = true;
     if (f.n == 0)
         scene_outlines_read(&run.scene, ".", p, &f);
@@ -319,7 +273,7 @@ static void outcome(const char *text, const char *key, struct seen *seen)
     if (f.n == 0) {
         seen->n = 0;
         run.summary = summary_create();
-        (mesh_given_count > 0 ? run_blocks : run_cells)(&run, seen);
+        run_steps(&run, seen);
         summary_each(run.summary, see, seen);
         summary_free(&run.summary);
     }
@@ -487,17 +441,15 @@ static int try_scene(const char *name, const char *text)
     } values; /* a group's, before params_read of the next case */
     int bad = 0;
     for (int g = 0; g < SCENE_GROUPS + FV_GROUPS; g++) {
-        if (g > 0 && strncmp(groups[g].name, ours, strlen(ours)) != 0)
+        if (g > 0 && strncmp(fv_case_groups[g].name, ours, strlen(ours)) != 0)
             continue; /* the first run names the groups */
         outcome(text, NULL, &plain);
         if (plain.n < 0)
             fail_msg("%s: the scene itself is refused", name);
-        write_case(text); /* its values as they were read: checks change some */
-        struct faults f = {0};
-        struct params *p = params_read(run.comm, path, 0, NULL, groups, SCENE_GROUPS + FV_GROUPS,
-                                       (const char *const[]){NULL}, &f);
+        struct faults f = {0}; /* its values as they were read: checks change some */
+        struct params *p = fv_case_read(&run, MPI_COMM_WORLD, path, text, NULL, &f);
         params_free(&p);
-        const struct param_group group = groups[g];
+        const struct param_group group = fv_case_groups[g];
         const bool with_blocks = mesh_given_count > 0;
         const int n = group.stride ? *group.count : 1;
         size_t span = group.stride * (size_t)n;
@@ -513,9 +465,8 @@ static int try_scene(const char *name, const char *text)
     return bad;
 }
 
-static void no_key_is_accepted_and_ignored(void **state)
+TEST(no_key_is_accepted_and_ignored)
 {
-    (void)state;
     const char *only = getenv("ONLY");
     int bad = 0;
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; k += SANITIZED ? 5 : 1)
@@ -524,14 +475,4 @@ static void no_key_is_accepted_and_ignored(void **state)
     assert_int_equal(bad, 0);
 }
 
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_key_is_accepted_and_ignored)};
-    const char *dir = getenv("TEST_SCRATCH");
-    MPI_Init(&argc, &argv);
-    snprintf(path, sizeof path, "%s/unused_%d.cfg", dir ? dir : P_tmpdir, (int)getpid());
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    unlink(path);
-    MPI_Finalize();
-    return failed;
-}
+void unit_begin(void) { path = unit_file("unused.cfg"); }

@@ -49,6 +49,23 @@ static inline void sph_case_set(struct sph_case *c, int dim, int cells)
                                  .density_limit = 0.1};
 }
 
+/* The unit square as a tank of inviscid water at rest, gravity g, m/s^2, downwards, its first
+ * `nwalls' sides closed: left, right, bottom, top. */
+static inline struct scene *sph_case_tank(struct sph_case *c, int cells, double g, int nwalls)
+{
+    sph_case_set(c, 2, cells);
+    struct scene *e = &c->run.scene;
+    e->fluid.nu = 0.0;
+    e->fluid.gravity[1] = -g;
+    e->initial.field = FIELD_REST;
+    e->initial.level = LEVEL_TOP;
+    e->domain.periodic[0] = e->domain.periodic[1] = false;
+    e->nwalls = nwalls;
+    for (int k = 0; k < nwalls; k++)
+        e->walls[k].side = SIDE_X_MIN + k;
+    return e;
+}
+
 static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
 {
     memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);

@@ -17,6 +17,18 @@ struct toy {
     uint64_t seed;
 };
 
+static inline const double *prim_of(const struct sph *s, int i) { return s->p.prim + PRIM * i; }
+static inline double *slope_of(const struct sph *s, int i) { return s->p.slope + s->p.nslope * i; }
+static inline const double *rate_of(const struct sph *s, int i)
+{
+    return s->p.rate + s->p.nstate * i;
+}
+
+static inline double dot(const double *a, const double *b, int dim)
+{
+    return a[0] * b[0] + a[1] * b[1] + (dim == 3 ? a[2] * b[2] : 0.0);
+}
+
 /* In [-1, 1). */
 static inline double toy_random(struct toy *t)
 {

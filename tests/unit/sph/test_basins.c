@@ -14,20 +14,10 @@ static const double g = 9.81, rho = 1000.0;
 /* A domain of 2 x 1 in units of `scale', walls at its sides and its bottom, g downwards. */
 static struct scene *tank(struct sph_case *c, double scale, int cells)
 {
-    sph_case_set(c, 2, cells);
-    struct scene *s = &c->run.scene;
-    s->fluid.nu = 0.0;
+    struct scene *s = sph_case_tank(c, cells, g, 3);
     s->fluid.rho = rho;
-    s->fluid.gravity[1] = -g;
-    s->initial.field = FIELD_REST;
-    s->initial.level = LEVEL_TOP;
-    for (int a = 0; a < 2; a++) {
-        s->domain.max[a] = (a ? 1.0 : 2.0) * scale;
-        s->domain.periodic[a] = false;
-    }
-    s->nwalls = 3;
-    for (int k = 0; k < 3; k++)
-        s->walls[k].side = SIDE_X_MIN + k;
+    s->domain.max[0] = 2.0 * scale;
+    s->domain.max[1] = scale;
     c->prm.dx = scale / cells;
     c->prm.c0 = 1000.0 * sqrt(g * scale); /* density hardly varies */
     c->prm.surface = SURFACE_YES;
@@ -72,9 +62,8 @@ static long count(const struct sph *s)
 
 static double wet_bed(const double *x, double L) { return (x[0] < 0.5 * L ? 0.6 : 0.1) * L - x[1]; }
 
-static void a_dam_and_its_wet_bed_have_their_own_heads(void **state)
+TEST(a_dam_and_its_wet_bed_have_their_own_heads)
 {
-    (void)state;
     static const double scales[] = {1e-3, 1.0, 1e3};
     for (int k = 0; k < 3; k++) {
         struct sph_case c;
@@ -94,9 +83,8 @@ static double three(const double *x, double L)
     return (x[0] < 0.5 * L ? 0.6 : x[0] < 1.25 * L ? 0.2 : 0.8) * L - x[1];
 }
 
-static void basins_do_not_know_of_each_other(void **state)
+TEST(basins_do_not_know_of_each_other)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 40);
     add_box(s, 0.0, 0.0, 0.5, 0.6);
@@ -118,9 +106,8 @@ static double u_tube(const double *x, double L)
     return (0.8 - 0.4 * f) * L - x[1];
 }
 
-static void a_duct_leads_from_one_level_to_the_other(void **state)
+TEST(a_duct_leads_from_one_level_to_the_other)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 40);
     add_box(s, 0.0, 0.0, 0.5, 0.8);
@@ -135,9 +122,8 @@ static void a_duct_leads_from_one_level_to_the_other(void **state)
 
 static double level_half(const double *x, double L) { return 0.5 * L - x[1]; }
 
-static void water_under_a_body_stands_under_the_same_level(void **state)
+TEST(water_under_a_body_stands_under_the_same_level)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 40);
     s->nshapes = 1;
@@ -152,9 +138,8 @@ static void water_under_a_body_stands_under_the_same_level(void **state)
 
 static double closed(const double *x, double L) { return L - x[1]; }
 
-static void a_full_closed_tank_stands_under_its_lid(void **state)
+TEST(a_full_closed_tank_stands_under_its_lid)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 20);
     s->nwalls = 4;
@@ -168,9 +153,8 @@ static void a_full_closed_tank_stands_under_its_lid(void **state)
 
 static double falls(const double *x, double L) { return x[1] > 0.5 * L ? 0.0 : 0.2 * L - x[1]; }
 
-static void what_falls_has_no_weight(void **state)
+TEST(what_falls_has_no_weight)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 40);
     add_box(s, 0.0, 0.0, 2.0, 0.2);
@@ -181,9 +165,8 @@ static void what_falls_has_no_weight(void **state)
 }
 
 /* The level is where the shapes end, not the steps of the lattice. */
-static void a_tilted_tank_has_one_level(void **state)
+TEST(a_tilted_tank_has_one_level)
 {
-    (void)state;
     for (int k = 0; k < 6; k++) {
         struct sph_case c;
         struct scene *s = tank(&c, 1.0, 40);
@@ -208,9 +191,8 @@ static void a_tilted_tank_has_one_level(void **state)
 }
 
 /* The wet bed again, turned by quarters, and in 3D with gravity along any axis. */
-static void heads_know_no_axes(void **state)
+TEST(heads_know_no_axes)
 {
-    (void)state;
     for (int k = 0; k < 10; k++) {
         const int dim = k < 4 ? 2 : 3, up = k < 4 ? k / 2 : (k - 4) / 2, along = up == 0 ? 1 : 0;
         const double sense = k % 2 ? 1.0 : -1.0; /* of gravity */
@@ -257,9 +239,8 @@ static double nothing(const double *x, double L)
     return 0.0 * L;
 }
 
-static void gravity_along_a_period_lets_no_pressure_rise(void **state)
+TEST(gravity_along_a_period_lets_no_pressure_rise)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 20);
     s->fluid.gravity[0] = g;
@@ -276,9 +257,8 @@ static void gravity_along_a_period_lets_no_pressure_rise(void **state)
 
 /* A block on the floor holds no particle, whatever its place against the lattice; and a disc on the
  * floor none where the two are less than dx apart. */
-static void seams_stay_dry(void **state)
+TEST(seams_stay_dry)
 {
-    (void)state;
     for (int k = 0; k < 12; k++) {
         struct sph_case c;
         struct scene *s = tank(&c, 1.0, 40);
@@ -310,9 +290,8 @@ static void seams_stay_dry(void **state)
 }
 
 /* Two cells of water walled in: said, and left out. */
-static void pockets_are_dropped(void **state)
+TEST(pockets_are_dropped)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = tank(&c, 1.0, 40);
     s->nshapes = 1;
@@ -331,13 +310,3 @@ static void pockets_are_dropped(void **state)
     assert_int_equal(count(c.s), 80 * 20 - 10 * 12);
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_dam_and_its_wet_bed_have_their_own_heads),
-               cmocka_unit_test(basins_do_not_know_of_each_other),
-               cmocka_unit_test(a_duct_leads_from_one_level_to_the_other),
-               cmocka_unit_test(water_under_a_body_stands_under_the_same_level),
-               cmocka_unit_test(a_full_closed_tank_stands_under_its_lid),
-               cmocka_unit_test(what_falls_has_no_weight),
-               cmocka_unit_test(a_tilted_tank_has_one_level), cmocka_unit_test(heads_know_no_axes),
-               cmocka_unit_test(gravity_along_a_period_lets_no_pressure_rise),
-               cmocka_unit_test(seams_stay_dry), cmocka_unit_test(pockets_are_dropped))

@@ -2,7 +2,6 @@
  * ranks: 1. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdio.h>
 #include <unistd.h>
 
 #include "../../../common/geometry/body_math.h"
@@ -114,9 +113,8 @@ static double error_of_top(int steps)
     return fmin(err, other); /* the sense of the middle axis is a matter of convention */
 }
 
-static void torque_free_top(void **state)
+TEST(torque_free_top)
 {
-    (void)state;
     const double coarse = error_of_top(100), fine = error_of_top(200);
     print_message("top: %.1e %.1e, order %.2f\n", coarse, fine, log2(coarse / fine));
     assert_true(fine < 1e-7);
@@ -132,9 +130,8 @@ static void twist(struct body *b, double loads[6])
 
 /* The angular acceleration that pressures carry with them is the slope of omega, by differences
  * over 2 steps of 1e-3 s, with and without a torque. */
-static void acceleration_of_a_top(void **state)
+TEST(acceleration_of_a_top)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct scene_body is = {.free = true, .mass = 1.0, .inertia = {3, {1.0, 2.0, 3.0}}};
         struct body b;
@@ -172,14 +169,13 @@ static double elliptic(double k)
 
 /* A square that hangs 1 m under its hinge, let go at 1 rad: back after 4 sqrt(J/(M g l)) K(sin
  * 1/2), whose ratio to the small swing is 1.06633. */
-static void pendulum(void **state)
+TEST(pendulum)
 {
     const double l = 1.0, J = 1.0 / 6.0 + l * l, K = elliptic(sin(0.5));
     const double T = 4.0 * sqrt(J / (9.81 * l)) * K;
     struct scene_body is = square(sin(1.0) * l, -cos(1.0) * l);
     struct body b;
     enum { STEPS = 400 };
-    (void)state;
     is.hinge.n = 1;
     body_create(&b, &is, NULL, 2, NULL);
     assert_close(K / (M_PI / 2.0), 1.06633, 1e-5);
@@ -204,11 +200,10 @@ static void spring(struct body *b, double loads[6])
 }
 
 /* Energy of a square on a spring at its corner is kept, to the order of the scheme. */
-static void spring_keeps_energy(void **state)
+TEST(spring_keeps_energy)
 {
     const double g[3] = {0.0, 0.0, 0.0};
     double drift[2];
-    (void)state;
     for (int e = 0; e < 2; e++) {
         struct scene_body is = square(0.0, 0.0);
         struct body b;
@@ -233,12 +228,11 @@ static void spring_keeps_energy(void **state)
 }
 
 /* A mooring line pulls alone. */
-static void mooring_is_slack(void **state)
+TEST(mooring_is_slack)
 {
     struct scene_body is = square(0.0, 0.0);
     struct body b;
     double loads[1][6] = {{0.0}};
-    (void)state;
     is.lines.n = 1;
     is.lines.of[0] = (struct scene_line){
         .from = {0.0, 0.5}, .to = {0.0, 2.0}, .stiffness = 10.0, .length = 2.0, .pull_only = true};
@@ -254,13 +248,12 @@ static void mooring_is_slack(void **state)
 }
 
 /* Outline of an L (Steiner's theorem), anywhere, either sense. */
-static void inertia_of_an_outline(void **state)
+TEST(inertia_of_an_outline)
 {
     struct scene_body is = {.free = true, .density = 3.0};
     const double L[6][2] = {{0, 0}, {0, 3}, {1, 3}, {1, 1}, {2, 1}, {2, 0}};
     struct body_mass m;
     char why[256];
-    (void)state;
     is.points.n = 6;
     for (int k = 0; k < 6; k++) {
         is.points.x[k][0] = 100.0 + L[k][0];
@@ -285,12 +278,11 @@ static void inertia_of_an_outline(void **state)
 }
 
 /* Velocity and acceleration are derivatives of the place, rotation included. */
-static void motion_is_differentiable(void **state)
+TEST(motion_is_differentiable)
 {
     struct scene_body is = {.motion = {.n = 4}};
     struct body_drive v;
     const double h = 1e-5;
-    (void)state;
     is.motion.of[0] = (struct scene_motion){
         .kind = MOTION_HARMONIC, .axis = AXIS_RX, .amplitude = 0.7, .period = 1.3, .phase = 0.4};
     is.motion.of[1] = (struct scene_motion){
@@ -335,11 +327,10 @@ static void push(struct body *b, double loads[6])
     loads[5] = 1.0;
 }
 
-static void locks_hold(void **state)
+TEST(locks_hold)
 {
     struct scene_body is = square(0.0, 0.0);
     struct body b;
-    (void)state;
     snprintf(is.lock, sizeof is.lock, "x rz");
     is.velocity[0] = 2.0;
     body_create(&b, &is, NULL, 2, NULL);
@@ -363,14 +354,13 @@ static void locks_hold(void **state)
 }
 
 /* Plate of thickness H wet on both sides: 2 rho c/(rho_b H) across; with a hinge its own. */
-static void impedance_of_a_plate(void **state)
+TEST(impedance_of_a_plate)
 {
     struct scene_body is = {.free = true, .density = 2.0};
     const double x[4][2] = {{0, 0}, {0, 0.1}, {4, 0.1}, {4, 0}};
     struct impedance z = {{{0.0}}};
     struct body b;
     enum { PIECES = 1000 };
-    (void)state;
     is.points.n = 4;
     memcpy(is.points.x, x, sizeof x);
     snprintf(is.lock, sizeof is.lock, "rz");
@@ -394,9 +384,8 @@ static void impedance_of_a_plate(void **state)
 
 /* A file of motion is read once, whoever asks: later changes of the file, or none of it any more,
  * are not seen. */
-static void motion_files_are_read_once(void **state)
+TEST(motion_files_are_read_once)
 {
-    (void)state;
     struct motion_files *files = motion_files_create(P_tmpdir);
     char name[64], path[256];
     struct scene_motions is = {.n = 1};
@@ -416,9 +405,3 @@ static void motion_files_are_read_once(void **state)
     assert_close(second.term[0].rows[5], 2.0, 0.0);
     motion_files_free(files);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(motion_files_are_read_once), cmocka_unit_test(torque_free_top),
-               cmocka_unit_test(acceleration_of_a_top), cmocka_unit_test(pendulum),
-               cmocka_unit_test(spring_keeps_energy), cmocka_unit_test(mooring_is_slack),
-               cmocka_unit_test(inertia_of_an_outline), cmocka_unit_test(motion_is_differentiable),
-               cmocka_unit_test(locks_hold), cmocka_unit_test(impedance_of_a_plate))

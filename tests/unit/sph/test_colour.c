@@ -3,8 +3,6 @@
  */
 #include "../test.h"
 
-#include <math.h>
-
 #include "../../../common/waves/colour.h"
 #include "../../../coupler/mapping/map.h"
 #include "../../../sph/open_boundaries/wet_faces.h"
@@ -44,9 +42,8 @@ static double share(int dim, double (*phi)(const double *, const void *), const 
 }
 
 /* A lattice whose rows end on the surface, as at the start of a run. */
-static void planes_are_found_to_a_thirtieth_of_dx(void **state)
+TEST(planes_are_found_to_a_thirtieth_of_dx)
 {
-    (void)state;
     double table[COLOUR_PARTS + 1];
     for (int dim = 2; dim <= 3; dim++) {
         const double up[3] = {0.0, 1.0, 0.0};
@@ -61,9 +58,8 @@ static void planes_are_found_to_a_thirtieth_of_dx(void **state)
 
 /* By theory 5/144 R^2/radius; over all places of the lattice, which does not fill a disc exactly.
  */
-static void discs_look_lower_by_their_curvature(void **state)
+TEST(discs_look_lower_by_their_curvature)
 {
-    (void)state;
     enum { PLACES = 20, ANGLES = 40 };
     double table[COLOUR_PARTS + 1], sum = 0.0;
     colour_profile(2, table);
@@ -83,9 +79,8 @@ static void discs_look_lower_by_their_curvature(void **state)
     assert_close(sum / (PLACES * ANGLES), 5.0 / 144.0 * R * R / radius, 0.02);
 }
 
-static void beyond_the_kernel_only_the_side_is_known(void **state)
+TEST(beyond_the_kernel_only_the_side_is_known)
 {
-    (void)state;
     double table[COLOUR_PARTS + 1];
     colour_profile(2, table);
     assert_close(colour_height(table, R, 0.0), colour_reach(R), 1e-12);
@@ -93,9 +88,8 @@ static void beyond_the_kernel_only_the_side_is_known(void **state)
 }
 
 /* Against a count over a fine grid of the face. */
-static void shares_of_faces_are_areas(void **state)
+TEST(shares_of_faces_are_areas)
 {
-    (void)state;
     enum { N = 400 };
     const double dx = 0.3;
     for (int c = 0; c < 40; c++) {
@@ -111,8 +105,3 @@ static void shares_of_faces_are_areas(void **state)
         assert_close(wet_faces_share(2, 0, dx, phi, g), line, 0.005);
     }
 }
-
-TESTS(cmocka_unit_test(planes_are_found_to_a_thirtieth_of_dx),
-      cmocka_unit_test(discs_look_lower_by_their_curvature),
-      cmocka_unit_test(beyond_the_kernel_only_the_side_is_known),
-      cmocka_unit_test(shares_of_faces_are_areas))

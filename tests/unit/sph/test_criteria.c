@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdlib.h>
 #include <unistd.h>
 
 #include "../../../common/files/h5.h"
@@ -79,9 +78,8 @@ static void distances_from(int dim, const bool *periodic, const bool *open, int 
     marks_free(&c);
 }
 
-static void distance_to_marked_cells_is_exact_near_their_edge(void **state)
+TEST(distance_to_marked_cells_is_exact_near_their_edge)
 {
-    (void)state;
     const bool none[6] = {false}, some[6] = {true, false, false, true, true, true};
     srand(5);
     distances_from(2, none, none, 300);
@@ -130,9 +128,8 @@ static int marked(const struct regions *g, int level)
     return sum;
 }
 
-static void vorticity_is_refined_with_all_levels_around(void **state)
+TEST(vorticity_is_refined_with_all_levels_around)
 {
-    (void)state;
     struct sph_case c;
     for (int dim = 2; dim <= 3; dim++) {
         struct regions *g = start(&c, dim, dim == 2 ? 3 : 2, 0.0);
@@ -168,9 +165,8 @@ static void vorticity_is_refined_with_all_levels_around(void **state)
 
 /* Above the bound it is made, above a third of it it stays; below it goes, but not before its
  * time. */
-static void cells_stay_for_a_while(void **state)
+TEST(cells_stay_for_a_while)
 {
-    (void)state;
     struct sph_case c;
     struct regions *g = start(&c, 2, 1, 0.0);
     const double at[3] = {0.5, 0.5, 0.0}, life = 20.0 * regions_R(g, 0) / 10.0;
@@ -204,9 +200,8 @@ static double count(const struct regions *g)
     return sum;
 }
 
-static void the_budget_is_kept(void **state)
+TEST(the_budget_is_kept)
 {
-    (void)state;
     struct sph_case c;
     const double at[3] = {0.5, 0.5, 0.0};
     struct regions *g = start(&c, 2, 2, 0.0);
@@ -229,9 +224,8 @@ static void the_budget_is_kept(void **state)
     }
 }
 
-static void open_sides_are_left_alone(void **state)
+TEST(open_sides_are_left_alone)
 {
-    (void)state;
     struct sph_case c;
     const double at[3] = {0.9, 0.5, 0.0};
     sph_case_set(&c, 2, 80);
@@ -254,9 +248,8 @@ static void open_sides_are_left_alone(void **state)
     regions_free(&g);
 }
 
-static void a_restart_goes_on_the_same(void **state)
+TEST(a_restart_goes_on_the_same)
 {
-    (void)state;
     struct sph_case c;
     struct regions *g = start(&c, 2, 2, 25000.0), *h;
     char path[] = "/tmp/estran_criteria_XXXXXX";
@@ -290,9 +283,8 @@ static void a_restart_goes_on_the_same(void **state)
 
 /* Marks and forecast do not depend on which rank says what: 64-bit FNV of the marks against the one
  * that rank 0 finds alone. */
-static void ranks_do_not_matter(void **state)
+TEST(ranks_do_not_matter)
 {
-    (void)state;
     struct sph_case c, alone;
     const double at[3] = {0.55, 0.4, 0.0};
     struct regions *g = start(&c, 2, 2, 20000.0);
@@ -310,9 +302,3 @@ static void ranks_do_not_matter(void **state)
     regions_free(&g);
     regions_free(&h);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(distance_to_marked_cells_is_exact_near_their_edge),
-               cmocka_unit_test(vorticity_is_refined_with_all_levels_around),
-               cmocka_unit_test(cells_stay_for_a_while), cmocka_unit_test(the_budget_is_kept),
-               cmocka_unit_test(open_sides_are_left_alone),
-               cmocka_unit_test(a_restart_goes_on_the_same), cmocka_unit_test(ranks_do_not_matter))

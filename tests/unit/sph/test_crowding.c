@@ -56,9 +56,8 @@ static double swell(struct sph *s, double r, double factor)
 
 /* Twice as much as fits: those within are too many up to some spacings beside the rim, where the
  * sum is halfway between 2 and 1; an eighth too much is not. */
-static void overlap_is_counted_and_placed(void **state)
+TEST(overlap_is_counted_and_placed)
 {
-    (void)state;
     struct sph_case c;
     struct sph *s = start(&c);
     char text[256];
@@ -76,13 +75,4 @@ static void overlap_is_counted_and_placed(void **state)
     assert_true(hypot(x - 0.5, y - 0.5) < 0.2 && level == 1);
     sph_free(&c.s);
     apr_given = (struct apr_params){0};
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(overlap_is_counted_and_placed)};
-    MPI_Init(NULL, NULL);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
 }

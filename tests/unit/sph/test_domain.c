@@ -2,8 +2,6 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdlib.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/neighbours.h"
@@ -57,9 +55,8 @@ static long misplaced(const struct sph *s)
     return bad;
 }
 
-static void particles_reach_their_owners(void **state)
+TEST(particles_reach_their_owners)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct sph_case c;
         start(&c, dim, dim == 2 ? 40 : 12, dim == 3);
@@ -151,9 +148,8 @@ static double *actual_ghosts(const struct sph *s)
     return out;
 }
 
-static void ghosts_are_all_images_within_reach(void **state)
+TEST(ghosts_are_all_images_within_reach)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         start(&c, k < 2 ? 2 : 3, k < 2 ? 40 : 12, k % 2 == 1);
@@ -171,9 +167,8 @@ static void ghosts_are_all_images_within_reach(void **state)
     }
 }
 
-static void halo_brings_the_owners_values(void **state)
+TEST(halo_brings_the_owners_values)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct sph_case c;
         start(&c, dim, dim == 2 ? 40 : 12, false);
@@ -202,9 +197,8 @@ static void halo_brings_the_owners_values(void **state)
     }
 }
 
-static void balance_evens_out_a_crowd(void **state)
+TEST(balance_evens_out_a_crowd)
 {
-    (void)state;
     struct sph_case c;
     start(&c, 2, 40, true);
     for (int i = 0; i < c.s->p.n; i++)
@@ -220,9 +214,8 @@ static void balance_evens_out_a_crowd(void **state)
 }
 
 /* Three times as dense at one end as at the other: the list, not the number, tells the work. */
-static void balance_evens_out_the_pairs(void **state)
+TEST(balance_evens_out_the_pairs)
 {
-    (void)state;
     struct sph_case c;
     start(&c, 2, 60, true);
     for (int i = 0; i < c.s->p.n; i++) {
@@ -243,9 +236,8 @@ static void balance_evens_out_the_pairs(void **state)
 }
 
 /* A position that is no number along a period must not become a sound one. */
-static void what_is_not_finite_keeps_its_mark(void **state)
+TEST(what_is_not_finite_keeps_its_mark)
 {
-    (void)state;
     const double broken[2] = {NAN, INFINITY};
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
@@ -265,10 +257,3 @@ static void what_is_not_finite_keeps_its_mark(void **state)
         sph_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(particles_reach_their_owners),
-               cmocka_unit_test(ghosts_are_all_images_within_reach),
-               cmocka_unit_test(halo_brings_the_owners_values),
-               cmocka_unit_test(what_is_not_finite_keeps_its_mark),
-               cmocka_unit_test(balance_evens_out_a_crowd),
-               cmocka_unit_test(balance_evens_out_the_pairs))

@@ -3,8 +3,6 @@
  * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdio.h>
-
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/walls/forces.h"
@@ -36,20 +34,12 @@ static void add_disc(struct sph_case *c, int n, double x, double y, double radiu
  * driven triangle; or half full, the triangle falling on the surface. */
 static void busy(struct sph_case *c, int scheme, bool surface)
 {
-    sph_case_set(c, 2, 24);
-    struct scene *e = &c->run.scene;
+    struct scene *e = sph_case_tank(c, 24, 9.81, surface ? 3 : 4);
     e->fluid.rho = 1000.0;
     e->fluid.nu = 0.01;
     e->fluid.gravity[0] = 1.0;
-    e->fluid.gravity[1] = -9.81;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
-    e->domain.periodic[0] = e->domain.periodic[1] = false;
-    e->nwalls = surface ? 3 : 4;
-    for (int k = 0; k < 4; k++) {
-        e->walls[k].side = SIDE_X_MIN + k;
+    for (int k = 0; k < 4; k++)
         e->walls[k].kind = k % 2 ? WALL_NO_SLIP : WALL_SLIP;
-    }
     if (surface) {
         e->nshapes = 1;
         e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.6};
@@ -84,9 +74,8 @@ static double left_over(const struct sph *s, double *scale)
     return most;
 }
 
-static void momentum_is_balanced(void **state)
+TEST(momentum_is_balanced)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         double scale;
@@ -123,10 +112,9 @@ static void forces_after(MPI_Comm comm, struct force force[2])
     sph_free(&c.s);
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
     struct force together[2], alone[2];
-    (void)state;
     forces_after(MPI_COMM_WORLD, together);
     forces_after(MPI_COMM_SELF, alone);
     for (int k = 0; k < 2; k++)
@@ -138,11 +126,10 @@ static void ranks_agree(void **state)
 }
 
 /* A disc that goes with the stream feels nothing, but for what shifting makes of the lattice. */
-static void with_the_stream(void **state)
+TEST(with_the_stream)
 {
     struct sph_case c;
     struct force force;
-    (void)state;
     sph_case_set(&c, 2, 24);
     struct scene *e = &c.run.scene;
     e->fluid.nu = 0.0;
@@ -163,9 +150,8 @@ static void with_the_stream(void **state)
 
 /* A disc of water's density shot through water at rest, and a light square between walls: what the
  * fluid loses is what they get, to the last digit; on all ranks they are the same. */
-static void free_bodies_conserve(void **state)
+TEST(free_bodies_conserve)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
         double sums[SUM_COUNT], start[2], scale = 0.0;
@@ -222,14 +208,13 @@ static void write_motion(const struct sph_case *c, const char *dir)
 
 /* Disc in a round tank, fluid at rest but for its swing: the force is that of the added mass rho pi
  * a^2 (b^2 + a^2)/(b^2 - a^2). */
-static void added_mass(void **state)
+TEST(added_mass)
 {
     const char *scratch = getenv("TEST_SCRATCH"), *dir = scratch ? scratch : "/tmp";
     const double a = 0.1, b = 0.3,
                  exact = 1000.0 * M_PI * a * a * (b * b + a * a) / (b * b - a * a);
     struct sph_case c;
     double cosine = 0.0, sine = 0.0, time = 0.0;
-    (void)state;
     if (SANITIZED)
         skip();
     sph_case_set(&c, 2, 64); /* of 1 m */
@@ -280,10 +265,9 @@ static void added_mass(void **state)
 }
 
 /* A full tank with oblique walls stays at rest. */
-static void tilted_tank(void **state)
+TEST(tilted_tank)
 {
     const double angle[] = {0.12, 0.5 * M_PI / 2.0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
         double late = 0.0;
@@ -325,7 +309,3 @@ static void tilted_tank(void **state)
         sph_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(momentum_is_balanced), cmocka_unit_test(ranks_agree),
-               cmocka_unit_test(with_the_stream), cmocka_unit_test(free_bodies_conserve),
-               cmocka_unit_test(added_mass), cmocka_unit_test(tilted_tank))

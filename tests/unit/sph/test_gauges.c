@@ -37,9 +37,8 @@ static void tank(struct sph_case *c, int a, double gravity)
     c->prm.scheme = SCHEME_RIEMANN;
 }
 
-static void levels_are_read_along_gravity(void **state)
+TEST(levels_are_read_along_gravity)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         double row[GAUGES];
@@ -54,9 +53,8 @@ static void levels_are_read_along_gravity(void **state)
     }
 }
 
-static void depths_are_measured_from_where_gravity_points(void **state)
+TEST(depths_are_measured_from_where_gravity_points)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         const int a = k / 2;
@@ -96,9 +94,8 @@ static void wave(struct sph_case *c, int cells, double amplitude, double crest)
 }
 
 /* Lattices end on the surface of a wave of little more than a row, whichever its place. */
-static void waves_start_at_their_height(void **state)
+TEST(waves_start_at_their_height)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         double row[GAUGES], volume = 0.0, area = 0.0;
@@ -136,9 +133,8 @@ static double kinetic_energy(const struct sph *s)
 }
 
 /* Shifting evens particles out: lattices whose columns are not alike would start a flow. */
-static void waves_keep_their_energy(void **state)
+TEST(waves_keep_their_energy)
 {
-    (void)state;
     struct sph_case c;
     wave(&c, 25, 0.04, 0.3);
     c.prm.transport = TRANSPORT_TVS;
@@ -152,8 +148,3 @@ static void waves_keep_their_energy(void **state)
     }
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(levels_are_read_along_gravity),
-               cmocka_unit_test(depths_are_measured_from_where_gravity_points),
-               cmocka_unit_test(waves_start_at_their_height),
-               cmocka_unit_test(waves_keep_their_energy))

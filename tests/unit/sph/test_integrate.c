@@ -2,8 +2,6 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdlib.h>
-
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/neighbours.h"
@@ -63,9 +61,8 @@ static double toy_error(int integrator, int steps)
     return error;
 }
 
-static void order_is_four_or_two(void **state)
+TEST(order_is_four_or_two)
 {
-    (void)state;
     const double rk4 = toy_error(INTEGRATOR_RK4, 16) / toy_error(INTEGRATOR_RK4, 32);
     const double j3 = toy_error(INTEGRATOR_J3, 16) / toy_error(INTEGRATOR_J3, 32);
     assert_true(rk4 > 15.0 && rk4 < 17.5);
@@ -74,9 +71,8 @@ static void order_is_four_or_two(void **state)
 
 /* Weights add up to 1, each stage is where its rates have brought it, order 2; and the bound on the
  * real axis is where the polynomial leaves the unit disc. */
-static void stages_agree_with_their_polynomial(void **state)
+TEST(stages_agree_with_their_polynomial)
 {
-    (void)state;
     const int schemes[2] = {SCHEME_RIEMANN_ALE, SCHEME_DELTA};
     for (int k = 0; k < 4; k++) {
         const struct rk_stages *c = stages_of(k / 2, schemes[k % 2]);
@@ -100,9 +96,8 @@ static void stages_agree_with_their_polynomial(void **state)
     }
 }
 
-static void resting_lattice_stays_at_rest(void **state)
+TEST(resting_lattice_stays_at_rest)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct sph_case c;
         sph_case_set(&c, dim, dim == 2 ? 24 : 12);
@@ -115,9 +110,8 @@ static void resting_lattice_stays_at_rest(void **state)
     }
 }
 
-static void mass_and_momentum_are_kept(void **state)
+TEST(mass_and_momentum_are_kept)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct sph_case c;
         double before[SUM_COUNT], after[SUM_COUNT];
@@ -136,9 +130,8 @@ static void mass_and_momentum_are_kept(void **state)
 
 /* Two that fly at each other, on either side of a rank's border: neither gets through the other,
  * and no momentum is made. */
-static void particles_collide(void **state)
+TEST(particles_collide)
 {
-    (void)state;
     struct sph_case c;
     const int left = 12 * 24 + 11, right = left + 1;
     double before[SUM_COUNT], after[SUM_COUNT], least = 1.0;
@@ -168,9 +161,8 @@ static void particles_collide(void **state)
     sph_free(&c.s);
 }
 
-static void steps_are_shared_out_evenly(void **state)
+TEST(steps_are_shared_out_evenly)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 24);
     sph_case_start(&c, NULL);
@@ -182,9 +174,8 @@ static void steps_are_shared_out_evenly(void **state)
     sph_free(&c.s);
 }
 
-static void a_broken_state_is_found_and_placed(void **state)
+TEST(a_broken_state_is_found_and_placed)
 {
-    (void)state;
     static const char *const reason[] = {"not finite", "particle", "density of a particle"};
     for (int kind = 0; kind < 3; kind++) {
         struct sph_case c;
@@ -230,9 +221,8 @@ static double *run_with(bool zones, bool rows, bool restart, int *n)
 
 /* A level that takes several steps within one of the coarser level says after each what it shows:
  * speeds all of them, none the square of one. */
-static void extremes_of_several_steps_are_speeds(void **state)
+TEST(extremes_of_several_steps_are_speeds)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 16);
     sph_case_start(&c, NULL);
@@ -246,9 +236,8 @@ static void extremes_of_several_steps_are_speeds(void **state)
     sph_free(&c.s);
 }
 
-static void restart_and_rows_leave_no_trace(void **state)
+TEST(restart_and_rows_leave_no_trace)
 {
-    (void)state;
     for (int zones = 0; zones <= 1; zones++) {
         int n[3];
         double *straight = run_with(zones, false, false, n);
@@ -263,12 +252,3 @@ static void restart_and_rows_leave_no_trace(void **state)
         mem_free(again);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(order_is_four_or_two),
-               cmocka_unit_test(stages_agree_with_their_polynomial),
-               cmocka_unit_test(resting_lattice_stays_at_rest),
-               cmocka_unit_test(mass_and_momentum_are_kept), cmocka_unit_test(particles_collide),
-               cmocka_unit_test(steps_are_shared_out_evenly),
-               cmocka_unit_test(a_broken_state_is_found_and_placed),
-               cmocka_unit_test(extremes_of_several_steps_are_speeds),
-               cmocka_unit_test(restart_and_rows_leave_no_trace))

@@ -22,18 +22,16 @@ static double integral(int dim, double R)
     return sum;
 }
 
-static void integrates_to_one(void **state)
+TEST(integrates_to_one)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         assert_close(integral(dim, 0.3), 1.0, 1e-12);
         assert_close(integral(dim, 7.0), 1.0, 1e-12);
     }
 }
 
-static void slope_is_the_derivative(void **state)
+TEST(slope_is_the_derivative)
 {
-    (void)state;
     const double R = 0.3, e = 1e-6;
     for (int dim = 2; dim <= 3; dim++)
         for (double r = 0.01; r < 0.33; r += 0.01) {
@@ -42,9 +40,8 @@ static void slope_is_the_derivative(void **state)
         }
 }
 
-static void ends_at_its_support(void **state)
+TEST(ends_at_its_support)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         assert_true(kernel_w(dim, 0.3, 0.3) == 0.0 && kernel_dw_r(dim, 0.3, 0.3) == 0.0);
         assert_true(kernel_w(dim, 1e15, 0.3) == 0.0 && kernel_dw_r(dim, 1e15, 0.3) == 0.0);
@@ -53,9 +50,8 @@ static void ends_at_its_support(void **state)
     }
 }
 
-static void sound_speed_is_the_slope_of_pressure(void **state)
+TEST(sound_speed_is_the_slope_of_pressure)
 {
-    (void)state;
     const double rho0 = 1000.0, c0 = 20.0, e = 1e-3;
     for (double gamma = 1.0; gamma <= 7.0; gamma += 6.0)
         for (double rho = 950.0; rho <= 1050.0; rho += 10.0) {
@@ -69,13 +65,8 @@ static void sound_speed_is_the_slope_of_pressure(void **state)
     assert_close(eos_c(rho0, rho0, c0, 7.0), c0, 1e-12);
 }
 
-static void pressure_without_density_is_held(void **state)
+TEST(pressure_without_density_is_held)
 {
-    (void)state;
     const double rho = eos_rho(-1e9, 1000.0, 20.0, 7.0);
     assert_true(rho > 0.0 && rho < 500.0);
 }
-
-TESTS(cmocka_unit_test(integrates_to_one), cmocka_unit_test(slope_is_the_derivative),
-      cmocka_unit_test(ends_at_its_support), cmocka_unit_test(sound_speed_is_the_slope_of_pressure),
-      cmocka_unit_test(pressure_without_density_is_held))

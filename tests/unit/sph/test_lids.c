@@ -32,9 +32,8 @@ static double energy_of(int dim, int scheme, int axis, int along)
     return sums[SUM_KINETIC];
 }
 
-static void lids_are_alike_on_all_sides(void **state)
+TEST(lids_are_alike_on_all_sides)
 {
-    (void)state;
     static const int schemes[2] = {SCHEME_RIEMANN_ALE, SCHEME_DELTA};
     for (int dim = 2; dim <= 3; dim++)
         for (int k = 0; k < 2; k++) {
@@ -46,5 +45,3 @@ static void lids_are_alike_on_all_sides(void **state)
                         assert_close(energy_of(dim, schemes[k], axis, along) / first, 1.0, 1e-9);
         }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(lids_are_alike_on_all_sides))

@@ -48,9 +48,8 @@ static void set_moving(struct sph *s, const double *U)
 }
 
 /* Uniform flow through the box stays uniform, through births, removals and merges. */
-static void translation_is_exact(void **state)
+TEST(translation_is_exact)
 {
-    (void)state;
     const double U[2] = {1.0, 0.6};
     for (int k = 0; k < 3; k++) {
         struct sph_case c;
@@ -75,9 +74,8 @@ static void translation_is_exact(void **state)
 
 /* What one particle of a pair gives the other takes, each by the weight of its partner: the rates
  * of mass and momentum, weighted, are zero together. */
-static void pairs_conserve_mass_and_momentum(void **state)
+TEST(pairs_conserve_mass_and_momentum)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct sph_case c;
         double sum[3] = {0.0}, size[3] = {0.0};
@@ -105,9 +103,8 @@ static void pairs_conserve_mass_and_momentum(void **state)
 
 /* At t = 0.1, relative to the exact field: below what levels with Shepard's guards have (5 %; with
  * weights there are two generations in a buffer that move apart). */
-static void vortices_decay_as_they_should(void **state)
+TEST(vortices_decay_as_they_should)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         struct sph_case c;
         double error = 0.0, all = 0.0;
@@ -133,9 +130,8 @@ static void vortices_decay_as_they_should(void **state)
 }
 
 /* Neighbours of graded particles differ by less than 3 % in R, and their cells fill the room. */
-static void graded_sizes_change_slowly(void **state)
+TEST(graded_sizes_change_slowly)
 {
-    (void)state;
     struct sph_case c;
     double volume = 0.0, most = 1.0, least = 1.0, largest = 0.0;
     refine(APR_GRADED, 1, 0.35, 0.65);
@@ -163,9 +159,8 @@ static void graded_sizes_change_slowly(void **state)
 
 /* A region that goes away leaves particles that merge until they are as many as before; mass and
  * the centre of mass stay. R of a pair is that of the density at its place [5.9]. */
-static void children_coalesce(void **state)
+TEST(children_coalesce)
 {
-    (void)state;
     struct sph_case c;
     double before[3] = {0.0}, after[3] = {0.0};
     refine(APR_COALESCENCE, 1, 0.3, 0.7);
@@ -201,8 +196,3 @@ static void children_coalesce(void **state)
     sph_free(&c.s);
     refine_nothing();
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(translation_is_exact),
-               cmocka_unit_test(pairs_conserve_mass_and_momentum),
-               cmocka_unit_test(vortices_decay_as_they_should),
-               cmocka_unit_test(graded_sizes_change_slowly), cmocka_unit_test(children_coalesce))

@@ -21,10 +21,9 @@ static struct wall_integrals integrals(const struct facet *f, int n, const doubl
 
 /* --- functions --- */
 
-static void arc_tangents_and_logarithms_are_those_of_the_library(void **state)
+TEST(arc_tangents_and_logarithms_are_those_of_the_library)
 {
     double worst[2] = {0.0};
-    (void)state;
     srand(3);
     for (int k = 0; k < 20000; k++) {
         const double size = pow(10.0, random_in(-14.0, 2.0));
@@ -78,13 +77,12 @@ static int plane(struct facet *f)
     return rectangle(f, v[0], v[1], v[2], v[3]);
 }
 
-static void gamma_agrees_with_the_table(void **state)
+TEST(gamma_agrees_with_the_table)
 {
     char line[256], what[128];
     double x[3], wanted, worst = 0.0, corner = 0.0;
     int n = 0;
     FILE *f = fopen("tests/data/gamma3d.csv", "r");
-    (void)state;
     assert_non_null(f);
     while (fgets(line, sizeof line, f)) {
         struct facet walls[12];
@@ -104,11 +102,10 @@ static void gamma_agrees_with_the_table(void **state)
 }
 
 /* [4.65], [4.92]; wherever the foot is on the triangles, on their seam and ends too. */
-static void a_plane_has_half_the_kernel(void **state)
+TEST(a_plane_has_half_the_kernel)
 {
     struct facet walls[2];
     const int n = plane(walls);
-    (void)state;
     for (double d = 0.013; d < 1.0; d += 0.047)
         for (int k = 0; k < 8; k++) {
             const double x[3] = {k < 4 ? 0.0 : random_in(-3, 3), k < 2 ? 0.0 : random_in(-3, 3), d};
@@ -208,11 +205,10 @@ static double difference(const struct wall_integrals *a, const struct wall_integ
     return most;
 }
 
-static void moments_are_integrals(void **state)
+TEST(moments_are_integrals)
 {
     const double x[3] = {0.0, 0.0, 0.0};
     double worst = 0.0;
-    (void)state;
     srand(11);
     for (int k = 0; k < 60; k++) {
         const struct facet f = random_triangle(pow(10.0, random_in(-0.3, 0.5)));
@@ -225,10 +221,9 @@ static void moments_are_integrals(void **state)
 }
 
 /* Parts of a triangle, as long as none goes by points. */
-static void parts_make_the_whole(void **state)
+TEST(parts_make_the_whole)
 {
     double worst = 0.0;
-    (void)state;
     srand(5);
     for (int k = 0; k < 300; k++) {
         const struct facet f = random_triangle(3.0);
@@ -246,10 +241,9 @@ static void parts_make_the_whole(void **state)
 }
 
 /* All integrals are continuous where the foot passes corners and edges. */
-static void feet_on_edges_and_corners_are_no_exception(void **state)
+TEST(feet_on_edges_and_corners_are_no_exception)
 {
     double worst = 0.0;
-    (void)state;
     srand(9);
     for (int k = 0; k < 200; k++) {
         const struct facet f = random_triangle(1.5);
@@ -266,14 +260,13 @@ static void feet_on_edges_and_corners_are_no_exception(void **state)
 }
 
 /* Small triangles far away go by points: a finely cut box has what a coarse one has. */
-static void small_triangles_go_by_points(void **state)
+TEST(small_triangles_go_by_points)
 {
     enum { CUTS = 24 };
     static struct facet fine[12 * CUTS * CUTS];
     struct facet coarse[12];
     double worst[2] = {0.0};
     int n = 0;
-    (void)state;
     box(coarse, 2.4, true);
     for (int k = 0; k < 12; k++)
         for (int i = 0; i < CUTS; i++)
@@ -303,10 +296,9 @@ static void small_triangles_go_by_points(void **state)
 }
 
 /* The thesis's quadrature, of second order in the side of its squares. */
-static void clipped_squares_agree(void **state)
+TEST(clipped_squares_agree)
 {
     double worst[2] = {0.0};
-    (void)state;
     srand(4);
     for (int k = 0; k < 200; k++) {
         const struct facet f = random_triangle(1.2);
@@ -323,9 +315,8 @@ static void clipped_squares_agree(void **state)
     assert_close(worst[1], 0.0, 1e-3);
 }
 
-static void the_nearest_point_is_nearest(void **state)
+TEST(the_nearest_point_is_nearest)
 {
-    (void)state;
     srand(8);
     for (int k = 0; k < 300; k++) {
         const struct facet f = random_triangle(1.0);
@@ -387,11 +378,10 @@ static double sight(const struct facet *f, const double *x, const double *e)
 
 /* Of a lone triangle that hides what lies behind it: gamma is what x sees of its kernel, and the
  * planes through x and the edges close the sums. By rays. */
-static void a_lone_triangle_casts_a_shadow(void **state)
+TEST(a_lone_triangle_casts_a_shadow)
 {
     enum { RAYS = 400000 };
     const double x[3] = {0.0, 0.0, 0.0};
-    (void)state;
     srand(21);
     for (int k = 0; k < 5; k++) {
         struct facet f = random_triangle(1.0);
@@ -423,11 +413,3 @@ static void a_lone_triangle_casts_a_shadow(void **state)
             assert_close((sum[a] + m.W * f.n[a]) / 1.5, 0.0, 1e-3);
     }
 }
-
-TESTS(cmocka_unit_test(arc_tangents_and_logarithms_are_those_of_the_library),
-      cmocka_unit_test(gamma_agrees_with_the_table), cmocka_unit_test(a_plane_has_half_the_kernel),
-      cmocka_unit_test(moments_are_integrals), cmocka_unit_test(parts_make_the_whole),
-      cmocka_unit_test(feet_on_edges_and_corners_are_no_exception),
-      cmocka_unit_test(small_triangles_go_by_points), cmocka_unit_test(clipped_squares_agree),
-      cmocka_unit_test(the_nearest_point_is_nearest),
-      cmocka_unit_test(a_lone_triangle_casts_a_shadow))

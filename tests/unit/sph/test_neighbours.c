@@ -56,9 +56,8 @@ static void check_list(const struct sph *s)
     assert_true(neighbours_pairs(s) == pairs);
 }
 
-static void rows_hold_all_pairs(void **state)
+TEST(rows_hold_all_pairs)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (double R_dx = 2.0; R_dx < 5.0; R_dx += 1.3) {
             struct toy t;
@@ -69,9 +68,8 @@ static void rows_hold_all_pairs(void **state)
         }
 }
 
-static void ghosts_are_in_the_tail(void **state)
+TEST(ghosts_are_in_the_tail)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t, all;
         toy_create(&all, dim, dim == 2 ? 20 : 9, 2.6, 0.3);
@@ -85,9 +83,8 @@ static void ghosts_are_in_the_tail(void **state)
     }
 }
 
-static void sorting_keeps_every_particle(void **state)
+TEST(sorting_keeps_every_particle)
 {
-    (void)state;
     struct toy t;
     toy_create(&t, 2, 30, 3.0, 0.5);
     const int n = t.s.p.n;
@@ -108,9 +105,8 @@ static void sorting_keeps_every_particle(void **state)
 }
 
 /* A second sort of sorted particles changes nothing: the order is a function of the cells. */
-static void sorting_is_stable(void **state)
+TEST(sorting_is_stable)
 {
-    (void)state;
     struct toy t;
     toy_create(&t, 3, 8, 2.5, 0.3);
     neighbours_sort(&t.s);
@@ -122,9 +118,8 @@ static void sorting_is_stable(void **state)
     toy_free(&t);
 }
 
-static void few_or_far_particles_are_no_trouble(void **state)
+TEST(few_or_far_particles_are_no_trouble)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         toy_create(&t, dim, 7, 2.5, 0.3);
@@ -141,7 +136,3 @@ static void few_or_far_particles_are_no_trouble(void **state)
         toy_free(&t);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(rows_hold_all_pairs), cmocka_unit_test(ghosts_are_in_the_tail),
-               cmocka_unit_test(sorting_keeps_every_particle), cmocka_unit_test(sorting_is_stable),
-               cmocka_unit_test(few_or_far_particles_are_no_trouble))

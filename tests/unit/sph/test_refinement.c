@@ -89,17 +89,15 @@ static void carry(bool local_steps)
     refine_nothing();
 }
 
-static void translation_is_exact(void **state)
+TEST(translation_is_exact)
 {
-    (void)state;
     carry(false);
     carry(true);
 }
 
 /* The same for a part of the way through nested boxes, and in space. */
-static void nested_boxes_and_space_are_exact(void **state)
+TEST(nested_boxes_and_space_are_exact)
 {
-    (void)state;
     const double U[3] = {0.6, 1.0, 0.3};
     for (int dim = 2; dim <= 3; dim++) {
         struct sph_case c;
@@ -121,9 +119,8 @@ static void nested_boxes_and_space_are_exact(void **state)
 }
 
 /* Regions that lie elsewhere, or hold a particle or two: levels that are empty or nearly so. */
-static void empty_levels_run(void **state)
+TEST(empty_levels_run)
 {
-    (void)state;
     const double U[3] = {1.0, 0.0, 0.0}, ends[2] = {0.501, 0.53};
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
@@ -141,9 +138,8 @@ static void empty_levels_run(void **state)
 
 /* Guards are given linear fields exactly where their sources have the slopes of these, however
  * these stand. */
-static void guards_take_linear_fields(void **state)
+TEST(guards_take_linear_fields)
 {
-    (void)state;
     struct sph_case c;
     double worst = 0.0;
     start_at_rest(&c, 2, 20);
@@ -182,9 +178,8 @@ static void guards_take_linear_fields(void **state)
 }
 
 /* The same beside a plane side, whose mirror images are no sources. */
-static void guards_beside_walls_take_linear_fields(void **state)
+TEST(guards_beside_walls_take_linear_fields)
 {
-    (void)state;
     struct sph_case c;
     double worst = 0.0;
     start_at_rest(&c, 2, 20);
@@ -226,9 +221,8 @@ static void guards_beside_walls_take_linear_fields(void **state)
 
 /* Levels about an oblique face, whose first particles were packed: children of all generations
  * stand before it, and none is lost in the first steps. */
-static void nobody_is_born_behind_walls(void **state)
+TEST(nobody_is_born_behind_walls)
 {
-    (void)state;
     struct sph_case c;
     long behind = 0;
     start_at_rest(&c, 2, 40);
@@ -276,9 +270,8 @@ static double vortex_error(const struct sph *s)
 
 /* Vortices through two boxes: with steps of their own the coarser levels take a quarter of the
  * steps, and the error is at most 1.2 times that with one step for all; mass is not lost either. */
-static void local_steps_are_as_good(void **state)
+TEST(local_steps_are_as_good)
 {
-    (void)state;
     static const int schemes[2] = {SCHEME_RIEMANN, SCHEME_RIEMANN_ALE};
     for (int k = SANITIZED; k < 2; k++) {
         double error[2], mass[2];
@@ -321,9 +314,8 @@ static double guards_of(const struct sph *q)
 }
 
 /* Where guards of the edge have been lost others are born, then no more; nothing flows for it. */
-static void missing_children_are_born_again(void **state)
+TEST(missing_children_are_born_again)
 {
-    (void)state;
     const double U[3] = {0.0, 0.0, 0.0};
     struct sph_case c;
     start_at_rest(&c, 2, 24);
@@ -352,11 +344,3 @@ static void missing_children_are_born_again(void **state)
     sph_free(&c.s);
     refine_nothing();
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(translation_is_exact),
-               cmocka_unit_test(nested_boxes_and_space_are_exact),
-               cmocka_unit_test(empty_levels_run), cmocka_unit_test(guards_take_linear_fields),
-               cmocka_unit_test(guards_beside_walls_take_linear_fields),
-               cmocka_unit_test(nobody_is_born_behind_walls),
-               cmocka_unit_test(missing_children_are_born_again),
-               cmocka_unit_test(local_steps_are_as_good))

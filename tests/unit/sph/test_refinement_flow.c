@@ -43,9 +43,8 @@ static double vortices(int scheme, int transport, bool refined)
 }
 
 /* Vortices through a box are no worse than without it, whatever the particles do to each other. */
-static void every_scheme_keeps_its_order(void **state)
+TEST(every_scheme_keeps_its_order)
 {
-    (void)state;
     static const int of[][2] = {
         {SCHEME_RIEMANN_ALE, TRANSPORT_TVS}, {SCHEME_RIEMANN_ALE, TRANSPORT_EULERIAN},
         {SCHEME_RIEMANN, TRANSPORT_TVS},     {SCHEME_RIEMANN, TRANSPORT_TVO},
@@ -96,9 +95,8 @@ static double amplitude_of_guards(int kind)
 /* A mean over the kernel of the finer level, R = 4/64, takes <r^2> k^2/4 from a field whose
  * Laplacian is -k^2 times it: k^2 = 8 pi^2 and <r^2> = 5/36 R^2, that is 1.07 %, but for sums over
  * so few coarse particles; slopes, to third order, a tenth of it at most. */
-static void means_of_guards_damp_as_kernels_do(void **state)
+TEST(means_of_guards_damp_as_kernels_do)
 {
-    (void)state;
     const double pi = acos(-1.0), R = 4.0 / 64.0, law = -8.0 * pi * pi * 5.0 / 144.0 * R * R;
     const double mean = amplitude_of_guards(GUARDS_MEAN),
                  slopes = amplitude_of_guards(GUARDS_SLOPES);
@@ -133,9 +131,8 @@ static void run_mirrored(MPI_Comm comm, bool mirrored, double *kinetic, double *
 
 /* Births and deaths know neither left nor right nor ranks: what is left is rounding and its growth
  * (turns by the place of cells in the lattice: 8e-4 of the energy). */
-static void a_mirror_and_ranks_change_nothing(void **state)
+TEST(a_mirror_and_ranks_change_nothing)
 {
-    (void)state;
     double kinetic[3], count[3];
     run_mirrored(MPI_COMM_WORLD, false, kinetic, count);
     run_mirrored(MPI_COMM_WORLD, true, kinetic + 1, count + 1);
@@ -152,18 +149,8 @@ static void a_mirror_and_ranks_change_nothing(void **state)
 /* Water 10 dx deep in a tank of 24 dx; a box from the middle to the wall and out of the water. */
 static void set_tank(struct sph_case *c, int scheme, int walls)
 {
-    sph_case_set(c, 2, 20);
-    struct scene *e = &c->run.scene;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
-    e->fluid.nu = 0.0;
-    e->fluid.gravity[1] = -1.0;
+    struct scene *e = sph_case_tank(c, 20, 1.0, 3);
     e->time.end = 10.0;
-    e->nwalls = 3;
-    for (int k = 0; k < 3; k++) {
-        e->domain.periodic[k % 2] = false;
-        e->walls[k].side = SIDE_X_MIN + k;
-    }
     e->domain.max[0] = 1.2;
     e->nshapes = 1;
     e->shapes[0].form = SHAPE_BOX;
@@ -212,18 +199,16 @@ static double state_of(bool shown)
 
 /* An output leaves no trace. Deep guards, given fields once a step, had them in its first stage
  * only, so that with a surface they stood still unless an output came. */
-static void an_output_leaves_no_trace(void **state)
+TEST(an_output_leaves_no_trace)
 {
-    (void)state;
     const double shown = state_of(true), plain = state_of(false);
     print_message("%.15g with outputs, %.15g without\n", shown, plain);
     assert_true(fabs(shown - plain) < 1e-12 * shown);
 }
 
 /* It stays at rest; without a common pressure at rest a circulation stood at the box's edge. */
-static void water_at_rest_stays(void **state)
+TEST(water_at_rest_stays)
 {
-    (void)state;
     static const int of[][2] = {{SCHEME_RIEMANN, WALLS_NFM}, {SCHEME_DELTA, WALLS_GHOSTS}};
     for (int k = SANITIZED; k < 2; k++) {
         struct sph_case c;
@@ -281,9 +266,8 @@ static double pushed(int cells, double from)
 }
 
 /* What it feels is one kernel's worth, wherever the fine particles end. */
-static void a_body_moves_as_in_the_fine_fluid(void **state)
+TEST(a_body_moves_as_in_the_fine_fluid)
 {
-    (void)state;
     if (SANITIZED)
         skip();
     const double fine = pushed(48, 0.0), both = pushed(24, 0.06), near = pushed(24, 0.15);
@@ -292,9 +276,3 @@ static void a_body_moves_as_in_the_fine_fluid(void **state)
     assert_close(both, fine, 0.005);
     assert_close(near, fine, 0.02);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(every_scheme_keeps_its_order),
-               cmocka_unit_test(means_of_guards_damp_as_kernels_do),
-               cmocka_unit_test(a_mirror_and_ranks_change_nothing),
-               cmocka_unit_test(an_output_leaves_no_trace), cmocka_unit_test(water_at_rest_stays),
-               cmocka_unit_test(a_body_moves_as_in_the_fine_fluid))

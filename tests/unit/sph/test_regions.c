@@ -2,8 +2,6 @@
  * motion. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdlib.h>
-
 #include "../../../sph/refinement/regions.h"
 #include "../../../sph/refinement/regions_parts.h"
 #include "sph_case.h"
@@ -101,9 +99,8 @@ static void union_of_boxes(int dim, int cases, int points)
     }
 }
 
-static void distance_to_boxes_is_exact(void **state)
+TEST(distance_to_boxes_is_exact)
 {
-    (void)state;
     srand(1);
     union_of_boxes(2, 48, 50);
     union_of_boxes(3, 48, 20);
@@ -148,9 +145,8 @@ static void ball_beside_walls(int dim, const double *centre, double radius)
     }
 }
 
-static void distance_to_balls_knows_walls(void **state)
+TEST(distance_to_balls_knows_walls)
 {
-    (void)state;
     srand(2);
     ball_beside_walls(2, (const double[]){0.5, 0.5, 0.0}, 0.3);
     ball_beside_walls(2, (const double[]){0.5, 0.1, 0.0}, 0.3);
@@ -164,9 +160,8 @@ static void distance_to_balls_knows_walls(void **state)
 
 /* --- regions --- */
 
-static void levels_lie_within_each_other(void **state)
+TEST(levels_lie_within_each_other)
 {
-    (void)state;
     struct sph_case c;
     srand(3);
     for (int dim = 2; dim <= 3; dim++) {
@@ -188,9 +183,8 @@ static void levels_lie_within_each_other(void **state)
 }
 
 /* Regions as periodic images have them, and faces that meet across the period. */
-static void periods_are_no_edges(void **state)
+TEST(periods_are_no_edges)
 {
-    (void)state;
     struct sph_case c;
     set(&c, 2, true);
     add_box(1, -0.2, 0.2, 0.3, 0.8);
@@ -213,9 +207,8 @@ static void periods_are_no_edges(void **state)
     regions_free(&g);
 }
 
-static void walls_are_no_edges(void **state)
+TEST(walls_are_no_edges)
 {
-    (void)state;
     struct sph_case c;
     set(&c, 2, false);
     add_box(1, 0.3, 0.0, 0.7, 0.3);
@@ -237,9 +230,8 @@ static void walls_are_no_edges(void **state)
     regions_free(&g);
 }
 
-static void a_given_outer_region_is_taken(void **state)
+TEST(a_given_outer_region_is_taken)
 {
-    (void)state;
     struct sph_case c;
     set(&c, 2, false);
     add_box(1, 0.2, 0.2, 0.8, 0.8);
@@ -251,9 +243,8 @@ static void a_given_outer_region_is_taken(void **state)
 }
 
 /* Within an offset of a body that has turned, by the points of its outline. */
-static void bodies_have_layers_that_move(void **state)
+TEST(bodies_have_layers_that_move)
 {
-    (void)state;
     struct sph_case c;
     const double hull[5][2] = {{0.4, 0.4}, {0.45, 0.6}, {0.5, 0.5}, {0.6, 0.55}, {0.6, 0.4}};
     set(&c, 2, false);
@@ -296,9 +287,8 @@ static void bodies_have_layers_that_move(void **state)
 
 /* --- motion --- */
 
-static void sets_move_together(void **state)
+TEST(sets_move_together)
 {
-    (void)state;
     struct sph_case c;
     set(&c, 2, false);
     c.run.scene.time.end = 10.0;
@@ -318,9 +308,8 @@ static void sets_move_together(void **state)
 }
 
 /* What follows the peak comes to it by half a finest spacing a step and stops within R of it. */
-static void the_peak_is_followed(void **state)
+TEST(the_peak_is_followed)
 {
-    (void)state;
     struct sph_case c;
     set(&c, 2, false);
     struct apr_region *is = add_box(1, 0.1, -0.1, 0.4, 0.3);
@@ -348,9 +337,8 @@ static void the_peak_is_followed(void **state)
 }
 
 /* What a distance costs goes with the boxes that the complement is cut into. */
-static void few_boxes_leave_few(void **state)
+TEST(few_boxes_leave_few)
 {
-    (void)state;
     struct sph_case c;
     set(&c, 2, false);
     add_box(1, 0.1, 0.1, 0.5, 0.5);
@@ -360,11 +348,3 @@ static void few_boxes_leave_few(void **state)
     assert_true(g->level[1].boxes.nrest <= 16);
     regions_free(&g);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(distance_to_boxes_is_exact),
-               cmocka_unit_test(distance_to_balls_knows_walls),
-               cmocka_unit_test(levels_lie_within_each_other),
-               cmocka_unit_test(periods_are_no_edges), cmocka_unit_test(walls_are_no_edges),
-               cmocka_unit_test(a_given_outer_region_is_taken),
-               cmocka_unit_test(bodies_have_layers_that_move), cmocka_unit_test(sets_move_together),
-               cmocka_unit_test(the_peak_is_followed), cmocka_unit_test(few_boxes_leave_few))

@@ -36,19 +36,9 @@ static double particles(const struct sph *s, bool flowing)
 /* A tank of water that fills its left part and falls; in units of its height. */
 static void set_column(struct sph_case *c, int cells)
 {
-    sph_case_set(c, 2, cells);
-    struct scene *e = &c->run.scene;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
-    e->fluid.nu = 0.0;
+    struct scene *e = sph_case_tank(c, cells, 1.0, 3);
     e->fluid.rho = 1000.0;
-    e->fluid.gravity[1] = -1.0;
     e->time.end = 10.0;
-    e->nwalls = 3;
-    for (int k = 0; k < 3; k++) {
-        e->domain.periodic[k] = false;
-        e->walls[k].side = SIDE_X_MIN + k;
-    }
     e->domain.max[0] = 1.2;
     e->nshapes = 1;
     e->shapes[0].form = SHAPE_BOX;
@@ -62,9 +52,8 @@ static void set_column(struct sph_case *c, int cells)
 }
 
 /* Whoever lies on the surface, and R of the coarser level around it, is in the region. */
-static void the_surface_is_refined(void **state)
+TEST(the_surface_is_refined)
 {
-    (void)state;
     struct sph_case c;
     set_column(&c, 64);
     ask(CRITERION_SURFACE, 0.0, 1.0, 1, 0.0);
@@ -94,9 +83,8 @@ static void the_surface_is_refined(void **state)
 
 /* Taylor-Green: the vortices are refined, their corners are not, and no step has more particles
  * than the budget. */
-static void vortices_are_refined_within_the_budget(void **state)
+TEST(vortices_are_refined_within_the_budget)
 {
-    (void)state;
     struct sph_case c;
     double last = INFINITY;
     for (int k = SANITIZED; k < 2; k++) {
@@ -124,9 +112,8 @@ static void vortices_are_refined_within_the_budget(void **state)
 
 /* On one rank alone and on all of them: the same cells after some steps of vortices that are
  * carried along. */
-static void ranks_have_the_same_regions(void **state)
+TEST(ranks_have_the_same_regions)
 {
-    (void)state;
     if (is_alone())
         skip();
     struct sph_case both[2];
@@ -178,9 +165,8 @@ static double indicator(const struct sph *s, int kind, double dx, int i)
 
 /* Water at rest: the gradient is 1 in these units and nothing jumps, so a bound above refines
  * nothing below the surface, one below all of it by gradients and still nothing by jumps. */
-static void still_water_is_refined_by_its_weight_alone(void **state)
+TEST(still_water_is_refined_by_its_weight_alone)
 {
-    (void)state;
     static const int kinds[3] = {CRITERION_PRESSURE, CRITERION_PRESSURE, CRITERION_JUMP};
     static const double bounds[3] = {2.0, 0.5, 0.5};
     for (int k = 0; k < 3; k++) {
@@ -207,9 +193,8 @@ static void still_water_is_refined_by_its_weight_alone(void **state)
 
 /* A column that falls: at its front all of the depth's pressure falls to nothing, and a wave of
  * release runs from there. Whoever is above the bound lies in the region. */
-static void steep_pressures_are_refined(void **state)
+TEST(steep_pressures_are_refined)
 {
-    (void)state;
     static const int kinds[2] = {CRITERION_PRESSURE, CRITERION_JUMP};
     static const double bounds[2] = {2.5, 0.5};
     for (int k = 0; k < 2; k++) {
@@ -240,9 +225,8 @@ static void steep_pressures_are_refined(void **state)
 }
 
 /* A region that follows the peak goes to where the column's foot is. */
-static void the_peak_takes_its_region_along(void **state)
+TEST(the_peak_takes_its_region_along)
 {
-    (void)state;
     struct sph_case c;
     set_column(&c, 32);
     apr_given = (struct apr_params){.margin = 3.0, .around = 3};
@@ -267,10 +251,3 @@ static void the_peak_takes_its_region_along(void **state)
     sph_free(&c.s);
     ask_nothing();
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(the_surface_is_refined),
-               cmocka_unit_test(vortices_are_refined_within_the_budget),
-               cmocka_unit_test(ranks_have_the_same_regions),
-               cmocka_unit_test(still_water_is_refined_by_its_weight_alone),
-               cmocka_unit_test(steep_pressures_are_refined),
-               cmocka_unit_test(the_peak_takes_its_region_along))

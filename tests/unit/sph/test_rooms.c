@@ -121,9 +121,8 @@ static bool in_tank(const double *x)
     return in;
 }
 
-static void a_tank_without_lid_holds_its_water(void **state)
+TEST(a_tank_without_lid_holds_its_water)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = basin(&c, 20, 0.61);
     add_wall(s, open_box(tank_lo, tank_hi), FLUID_INSIDE);
@@ -143,9 +142,8 @@ static bool round_the_ball(const double *x) { return from_the_ball(x) > 0.012; }
 static bool off_the_ball(const double *x) { return from_the_ball(x) > 0.016; }
 
 /* A ball in the middle of a basin: none inside it; uneven clearances cost hardly any volume. */
-static void an_obstacle_stays_dry(void **state)
+TEST(an_obstacle_stays_dry)
 {
-    (void)state;
     const double o[3] = {0.5, 0.5, 0.5};
     struct sph_case c;
     struct scene *s = basin(&c, 20, 0.75);
@@ -186,9 +184,8 @@ static struct trimesh sheet(void)
     return m;
 }
 
-static void a_sheet_has_water_on_one_side(void **state)
+TEST(a_sheet_has_water_on_one_side)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = basin(&c, 20, 0.7);
     c.prm.packing = 1; /* all with 0.05 dx of room, moved by one step at most */
@@ -213,9 +210,8 @@ static bool right_tank(const double *x)
 static bool both_tanks(const double *x) { return left_tank(x) || right_tank(x); }
 
 /* Two tanks side by side, of one level each; a seed leaves the water of one alone. */
-static void each_tank_has_its_level_and_seeds_choose(void **state)
+TEST(each_tank_has_its_level_and_seeds_choose)
 {
-    (void)state;
     const double lo[2][3] = {{0.04, 0.04, 0.04}, {0.52, 0.04, 0.04}},
                  hi[2][3] = {{0.48, 0.96, 0.96}, {0.96, 0.96, 0.96}};
     for (int seeded = 0; seeded < 2; seeded++) {
@@ -243,9 +239,8 @@ static void each_tank_has_its_level_and_seeds_choose(void **state)
 static bool below_level(const double *x) { return x[2] < 0.5; }
 
 /* A plate within the water, given as thin: water on both sides, cut only by what it touches. */
-static void a_thin_plate_has_water_on_both_sides(void **state)
+TEST(a_thin_plate_has_water_on_both_sides)
 {
-    (void)state;
     struct sph_case c;
     struct scene *s = basin(&c, 20, 0.5);
     struct trimesh m = {.nvertices = 4, .ntriangles = 2};
@@ -270,9 +265,8 @@ static void a_thin_plate_has_water_on_both_sides(void **state)
 
 /* Full cube with a ball, packed: nobody in the ball or too near, kernel sums even, the volume that
  * of the room. (Without packing the sum misses 10 % and more beside the ball.) */
-static void packing_fills_the_room(void **state)
+TEST(packing_fills_the_room)
 {
-    (void)state;
     const double o[3] = {0.507, 0.493, 0.512};
     struct sph_case c;
     struct scene *s = basin(&c, 20, 0.0);
@@ -297,10 +291,3 @@ static void packing_fills_the_room(void **state)
     assert_true(-max_anywhere(-least) > 0.2 * c.s->dx);
     finish(&c);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_tank_without_lid_holds_its_water),
-               cmocka_unit_test(an_obstacle_stays_dry),
-               cmocka_unit_test(a_sheet_has_water_on_one_side),
-               cmocka_unit_test(each_tank_has_its_level_and_seeds_choose),
-               cmocka_unit_test(a_thin_plate_has_water_on_both_sides),
-               cmocka_unit_test(packing_fills_the_room))

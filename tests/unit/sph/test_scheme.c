@@ -2,23 +2,12 @@
  * laws they must keep. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdlib.h>
-
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/pairs/kernel_sums.h"
 #include "../../../sph/particles/eos.h"
 #include "sph_toy.h"
 
 enum { OFF = 2 };
-
-static const double *prim_of(const struct sph *s, int i) { return s->p.prim + PRIM * i; }
-static double *slope_of(const struct sph *s, int i) { return s->p.slope + s->p.nslope * i; }
-static const double *rate_of(const struct sph *s, int i) { return s->p.rate + s->p.nstate * i; }
-
-static double dot(const double *a, const double *b, int dim)
-{
-    return a[0] * b[0] + a[1] * b[1] + (dim == 3 ? a[2] * b[2] : 0.0);
-}
 
 /* d = x_j - x_i; returns r. */
 static double between(const struct sph *s, int i, int j, double *d)
@@ -183,9 +172,8 @@ static void shake_slopes(struct toy *t)
         t->s.p.slope[k] *= 1.0 + 2.0 * toy_random(t);
 }
 
-static void rates_are_the_double_loop(void **state)
+TEST(rates_are_the_double_loop)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         small_toy(&t, dim);
@@ -201,9 +189,8 @@ static void rates_are_the_double_loop(void **state)
     }
 }
 
-static void positions_move_with_u0(void **state)
+TEST(positions_move_with_u0)
 {
-    (void)state;
     for (int transport = TRANSPORT_TVS; transport <= TRANSPORT_EULERIAN; transport++) {
         struct toy t;
         small_toy(&t, 3);
@@ -235,9 +222,8 @@ static void set_linear(struct sph *s, double A[3][3], const double *b)
     }
 }
 
-static void gradients_are_exact_on_linear_fields(void **state)
+TEST(gradients_are_exact_on_linear_fields)
 {
-    (void)state;
     double A[3][3] = {{1.0, -2.0, 0.5}, {3.0, -1.0, 0.25}, {-0.75, 4.0, 2.0}},
            b[3] = {7.0, -3.0, 5.0};
     for (int dim = 2; dim <= 3; dim++) {
@@ -265,9 +251,8 @@ static void gradients_are_exact_on_linear_fields(void **state)
 
 /* A particle alone, and three in a line: no gradient can be had; u0 stays u and nothing is
  * infinite. */
-static void few_neighbours_give_no_slope(void **state)
+TEST(few_neighbours_give_no_slope)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         toy_create(&t, dim, 4, 2.5, 0.0);
@@ -311,9 +296,8 @@ static double imbalance(const struct sph *s)
     return worst;
 }
 
-static void mass_and_momentum_are_kept(void **state)
+TEST(mass_and_momentum_are_kept)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int v = 0; v < 2 * 3 * 3; v++) {
             struct toy t;
@@ -327,9 +311,8 @@ static void mass_and_momentum_are_kept(void **state)
         }
 }
 
-static void gravity_acts_on_the_mass(void **state)
+TEST(gravity_acts_on_the_mass)
 {
-    (void)state;
     struct toy t;
     small_toy(&t, 2);
     toy_prepare(&t);
@@ -383,9 +366,8 @@ static void middle_shift(int dim, int transport, double off, double *delta)
     toy_free(&t);
 }
 
-static void transport_restores_and_rests(void **state)
+TEST(transport_restores_and_rests)
 {
-    (void)state;
     double delta[3];
     for (int dim = 2; dim <= 3; dim++)
         for (int transport = TRANSPORT_TVS; transport <= TRANSPORT_TVO; transport++) {
@@ -400,9 +382,8 @@ static void transport_restores_and_rests(void **state)
 }
 
 /* The laws in full [2.112-2.114] against a plain sum, limits included. */
-static void transport_is_the_plain_sum(void **state)
+TEST(transport_is_the_plain_sum)
 {
-    (void)state;
     for (int v = 0; v < 4; v++) {
         struct toy t;
         small_toy(&t, 2 + v % 2);
@@ -470,19 +451,11 @@ static void act_like_locals(int dim, int scheme, double cut)
     toy_free(&all);
 }
 
-static void ghosts_act_like_locals(void **state)
+TEST(ghosts_act_like_locals)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int scheme = SCHEME_RIEMANN_ALE; scheme <= SCHEME_STANDARD; scheme++) {
             act_like_locals(dim, scheme, 0.55);
             act_like_locals(dim, scheme, 2.0);
         }
 }
-
-TESTS_WITH_MPI(
-    cmocka_unit_test(gradients_are_exact_on_linear_fields),
-    cmocka_unit_test(few_neighbours_give_no_slope), cmocka_unit_test(rates_are_the_double_loop),
-    cmocka_unit_test(positions_move_with_u0), cmocka_unit_test(mass_and_momentum_are_kept),
-    cmocka_unit_test(gravity_acts_on_the_mass), cmocka_unit_test(transport_restores_and_rests),
-    cmocka_unit_test(transport_is_the_plain_sum), cmocka_unit_test(ghosts_act_like_locals))

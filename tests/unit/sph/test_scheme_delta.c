@@ -3,23 +3,12 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <mpi.h>
-
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/pairs/kernel_sums.h"
 #include "../../../sph/particles/eos.h"
 #include "sph_toy.h"
 
 enum { OFF = 2 };
-
-static const double *prim_of(const struct sph *s, int i) { return s->p.prim + PRIM * i; }
-static const double *slope_of(const struct sph *s, int i) { return s->p.slope + s->p.nslope * i; }
-static const double *rate_of(const struct sph *s, int i) { return s->p.rate + s->p.nstate * i; }
-
-static double dot(const double *a, const double *b, int dim)
-{
-    return a[0] * b[0] + a[1] * b[1] + (dim == 3 ? a[2] * b[2] : 0.0);
-}
 
 static double pressure_of(const struct sph *s, int i)
 {
@@ -151,9 +140,8 @@ static void small_toy(struct toy *t, int dim)
     toy_create(t, dim, dim == 2 ? 13 : 6, dim == 2 ? 3.4 : 2.3, 0.25);
 }
 
-static void rates_are_the_double_loop(void **state)
+TEST(rates_are_the_double_loop)
 {
-    (void)state;
     static const int transports[3] = {TRANSPORT_TVS, TRANSPORT_NONE, TRANSPORT_XSPH};
     for (int dim = 2; dim <= 3; dim++)
         for (int v = 0; v < 2 * 3 * 3 * 2 * 2; v++) {
@@ -169,9 +157,8 @@ static void rates_are_the_double_loop(void **state)
 }
 
 /* What the scheme does without must not change what it gives. */
-static void lean_gradients_are_those_of_the_full_pass(void **state)
+TEST(lean_gradients_are_those_of_the_full_pass)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         small_toy(&t, dim);
@@ -193,9 +180,8 @@ static void lean_gradients_are_those_of_the_full_pass(void **state)
 }
 
 /* Without transport particles move with u, with or without a first pass. */
-static void positions_move_with_u(void **state)
+TEST(positions_move_with_u)
 {
-    (void)state;
     for (int v = 0; v < 2; v++) {
         struct toy t;
         small_toy(&t, 3);
@@ -212,9 +198,8 @@ static void positions_move_with_u(void **state)
 }
 
 /* [2.106] with eps = 0.5, for the schemes of both kinds. */
-static void xsph_is_the_plain_sum(void **state)
+TEST(xsph_is_the_plain_sum)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         small_toy(&t, dim);
@@ -236,9 +221,8 @@ static void xsph_is_the_plain_sum(void **state)
     }
 }
 
-static void momentum_is_kept(void **state)
+TEST(momentum_is_kept)
 {
-    (void)state;
     for (int v = 0; v < 2 * 2 * 3; v++) {
         struct toy t;
         const int dim = 2 + v % 2;
@@ -259,9 +243,8 @@ static void momentum_is_kept(void **state)
 
 /* <G+(P), u> = -<P, D-(u)> [2.51-2.57]: without dissipation the power of the forces is what volumes
  * take up. */
-static void gradient_and_divergence_are_adjoint(void **state)
+TEST(gradient_and_divergence_are_adjoint)
 {
-    (void)state;
     for (int v = 0; v < 4; v++) {
         struct toy t;
         const int dim = 2 + v % 2;
@@ -316,9 +299,8 @@ static void effect(int dim, int scheme, double alpha, double delta, double *powe
     *variance -= before[1];
 }
 
-static void both_terms_dissipate(void **state)
+TEST(both_terms_dissipate)
 {
-    (void)state;
     double power, variance;
     for (int dim = 2; dim <= 3; dim++) {
         effect(dim, SCHEME_DELTA, 0.02, 0.0, &power, &variance);
@@ -332,9 +314,8 @@ static void both_terms_dissipate(void **state)
 
 /* The volume that diffusion takes from one side of a pair it gives to the other as mass of fluid:
  * sum w drho/dt = 0. */
-static void diffusion_moves_density_only(void **state)
+TEST(diffusion_moves_density_only)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         small_toy(&t, dim);
@@ -354,9 +335,8 @@ static void diffusion_moves_density_only(void **state)
 }
 
 /* [2.105] adds P_min to the pressure of both sides, which lifts the least one to 0. */
-static void background_lifts_all_pressures(void **state)
+TEST(background_lifts_all_pressures)
 {
-    (void)state;
     for (int scheme = SCHEME_RIEMANN_ALE; scheme <= SCHEME_STANDARD; scheme++) {
         struct toy t;
         small_toy(&t, 2);
@@ -388,12 +368,3 @@ static void background_lifts_all_pressures(void **state)
         toy_free(&t);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(rates_are_the_double_loop),
-               cmocka_unit_test(lean_gradients_are_those_of_the_full_pass),
-               cmocka_unit_test(positions_move_with_u), cmocka_unit_test(xsph_is_the_plain_sum),
-               cmocka_unit_test(momentum_is_kept),
-               cmocka_unit_test(gradient_and_divergence_are_adjoint),
-               cmocka_unit_test(both_terms_dissipate),
-               cmocka_unit_test(diffusion_moves_density_only),
-               cmocka_unit_test(background_lifts_all_pressures))

@@ -37,9 +37,8 @@ static void beach(struct sph_case *c, int way, bool drop)
     integrate_gradients(c->s);
 }
 
-static void the_edge_is_where_half_a_row_is_left(void **state)
+TEST(the_edge_is_where_half_a_row_is_left)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         const int way = k % 2 ? -1 : 1;
@@ -50,14 +49,10 @@ static void the_edge_is_where_half_a_row_is_left(void **state)
     }
 }
 
-static void a_tank_without_a_beach_has_no_edge(void **state)
+TEST(a_tank_without_a_beach_has_no_edge)
 {
-    (void)state;
     struct sph_case c;
     beach(&c, 1, false);
     assert_true(isnan(shore_height(c.s, 1.9)));
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(the_edge_is_where_half_a_row_is_left),
-               cmocka_unit_test(a_tank_without_a_beach_has_no_edge))

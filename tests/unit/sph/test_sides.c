@@ -59,9 +59,8 @@ static double echo(enum wall_kind kind)
     return after / before;
 }
 
-static void sound_leaves(void **state)
+TEST(sound_leaves)
 {
-    (void)state;
     const double wall = echo(WALL_SLIP), absorbing = echo(WALL_ABSORBING);
     print_message("left of a pulse: %.3f between walls, %.4f between absorbing sides\n", wall,
                   absorbing);
@@ -69,11 +68,10 @@ static void sound_leaves(void **state)
     assert_true(SANITIZED || absorbing < 0.05);
 }
 
-static void streams_keep_their_mass(void **state)
+TEST(streams_keep_their_mass)
 {
     struct sph_case c;
     double sums[SUM_COUNT];
-    (void)state;
     if (SANITIZED)
         skip();
     channel(&c, WALL_INFLOW);
@@ -138,9 +136,8 @@ static double outlet_error(int degree)
 
 /* Means of bins had the error of half a bin at walls, 0.1 here, and gave the row beside a no-slip
  * wall twice its speed: a duct's particles then passed its walls. */
-static void outlets_keep_the_profile(void **state)
+TEST(outlets_keep_the_profile)
 {
-    (void)state;
     const double plane = outlet_error(1), curved = outlet_error(2);
     print_message("outlet: error of a plane profile %.2g, of a curved one %.2g\n", plane, curved);
     assert_true(plane < 0.005);
@@ -173,10 +170,9 @@ static void outlet_pressures(double below, double p[2])
 /* Water at rest outside has no more head than its pressure; what runs in through the whole side is
  * driven by the pressure that is given. (Before, an eddy in an outlet had the given pressure and
  * its velocity, too, and grew without end.) */
-static void eddies_bring_no_head_through_outlets(void **state)
+TEST(eddies_bring_no_head_through_outlets)
 {
     double p[2];
-    (void)state;
     outlet_pressures(-0.01, p);
     assert_close(p[0], 0.0, 1e-6);
     assert_true(p[1] + 0.5 * 1e-4 < 0.02 * 0.5 * 1e-4);
@@ -186,7 +182,3 @@ static void eddies_bring_no_head_through_outlets(void **state)
     assert_close(p[0], 0.0, 1e-6);
     assert_close(p[1], -0.5 * 0.25 / 1.5, 1e-3); /* two thirds of the flow leave */
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(sound_leaves), cmocka_unit_test(streams_keep_their_mass),
-               cmocka_unit_test(outlets_keep_the_profile),
-               cmocka_unit_test(eddies_bring_no_head_through_outlets))

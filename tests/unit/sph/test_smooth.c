@@ -31,9 +31,8 @@ static void set_shear(struct sph *s, double k, double U)
 
 /* -nu k^2 u of u_y = sin kx with k R = 1. Morris's term alone loses (kR)^2/58 of it in 2D (1.7 %)
  * and (kR)^2/86 in 3D; what is left is of fourth order and the error of the sums over a lattice. */
-static void friction_of_a_wave_is_of_fourth_order(void **state)
+TEST(friction_of_a_wave_is_of_fourth_order)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
         double got = 0.0, wanted = 0.0;
@@ -62,9 +61,8 @@ static void friction_of_a_wave_is_of_fourth_order(void **state)
 
 /* 2 nu of u_y = x^2 on a lattice, whatever the support: its second moment is 0.967 with R/dx = 2.5
  * in 2D, and so was the friction. */
-static void friction_of_a_parabola_is_exact(void **state)
+TEST(friction_of_a_parabola_is_exact)
 {
-    (void)state;
     static const double supports[3] = {2.5, 3.0, 4.0};
     static const int schemes[2] = {SCHEME_RIEMANN_ALE, SCHEME_DELTA};
     for (int v = 0; v < 10; v++) {
@@ -99,9 +97,8 @@ static void friction_of_a_parabola_is_exact(void **state)
 
 /* Particles that shift by chance, each its own way, in u = A x with even density: what each sees is
  * du/dt = shift . grad u. With the mean of both shifts as the face's it is half of that. */
-static void a_particle_that_shifts_keeps_the_field(void **state)
+TEST(a_particle_that_shifts_keeps_the_field)
 {
-    (void)state;
     static const double A[3][3] = {{1.0, -2.0, 0.5}, {3.0, -1.0, 0.25}, {-0.75, 4.0, 2.0}};
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
@@ -179,9 +176,8 @@ static void kernel_sums(const struct sph *s, double *mean, double *rms)
 /* Noise of 0.3 dx, packed: the volumes fill the box, the kernel sums are even, velocities and
  * pressures are those of the field where the particles have come to. Without volumes of their own
  * the sums vary by 2 % and the pressure's level goes as they even out. */
-static void noise_starts_packed(void **state)
+TEST(noise_starts_packed)
 {
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         struct sph_case c;
         double volume = 0.0, mean, rms, off = 0.0;
@@ -211,24 +207,13 @@ static void noise_starts_packed(void **state)
 
 /* A full tank at rest, 16 dx deep and closed: as its lattice settles between the walls the mean
  * pressure stays rho g H/2. Volumes of their own took a quarter of it in 200 steps. */
-static void a_closed_tank_keeps_its_level(void **state)
+TEST(a_closed_tank_keeps_its_level)
 {
-    (void)state;
     static const int schemes[3] = {SCHEME_RIEMANN_ALE, SCHEME_RIEMANN, SCHEME_DELTA};
     for (int k = 0; k < 3; k++) {
         struct sph_case c;
         double volume = 0.0, p = 0.0;
-        sph_case_set(&c, 2, 16);
-        struct scene *e = &c.run.scene;
-        e->fluid.nu = 0.0;
-        e->fluid.gravity[1] = -1.0;
-        e->initial.level = LEVEL_TOP;
-        e->initial.field = FIELD_REST;
-        e->nwalls = 4;
-        for (int side = 0; side < 4; side++) {
-            e->domain.periodic[side / 2] = false;
-            e->walls[side].side = SIDE_X_MIN + side;
-        }
+        sph_case_tank(&c, 16, 1.0, 4);
         c.prm.scheme = schemes[k];
         c.prm.dissipation = 0.1;
         c.prm.walls = WALLS_NFM;
@@ -246,9 +231,3 @@ static void a_closed_tank_keeps_its_level(void **state)
         sph_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(friction_of_a_wave_is_of_fourth_order),
-               cmocka_unit_test(friction_of_a_parabola_is_exact),
-               cmocka_unit_test(a_particle_that_shifts_keeps_the_field),
-               cmocka_unit_test(noise_starts_packed),
-               cmocka_unit_test(a_closed_tank_keeps_its_level))

@@ -2,7 +2,6 @@
  * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdio.h>
 #include <unistd.h>
 
 #include "../../../common/files/h5.h"
@@ -46,17 +45,9 @@ static void agree(int dim, int cells, int steps)
     mem_free(shared);
 }
 
-static void ranks_agree_in_2d(void **state)
-{
-    (void)state;
-    agree(2, 30, 8);
-}
+TEST(ranks_agree_in_2d) { agree(2, 30, 8); }
 
-static void ranks_agree_in_3d(void **state)
-{
-    (void)state;
-    agree(3, 12, 4);
-}
+TEST(ranks_agree_in_3d) { agree(3, 12, 4); }
 
 static void set_open(struct sph_case *c, MPI_Comm comm)
 {
@@ -82,9 +73,8 @@ static void zone_sums(MPI_Comm comm, double *sums)
     sph_free(&c.s);
 }
 
-static void ranks_agree_with_open_sides(void **state)
+TEST(ranks_agree_with_open_sides)
 {
-    (void)state;
     double alone[SUM_COUNT], shared[SUM_COUNT];
     zone_sums(MPI_COMM_SELF, alone);
     zone_sums(MPI_COMM_WORLD, shared);
@@ -151,14 +141,6 @@ static void go_on_on(MPI_Comm comm, int dim, int steps, const char *path, double
     sph_free(&c.s);
 }
 
-static void same(const double *a, const double *b)
-{
-    double most = 0.0;
-    for (int k = 0; k < KEPT; k++)
-        most = fmax(most, fabs(a[k] - b[k]) / fmax(1.0, fabs(a[k])));
-    assert_true(max_anywhere(most) < 1e-9);
-}
-
 static void goes_on_on_others(int dim, int steps)
 {
     char path[1024];
@@ -170,7 +152,7 @@ static void goes_on_on_others(int dim, int steps)
     MPI_Bcast(path, sizeof path, MPI_CHAR, 0, MPI_COMM_WORLD);
     write_on(MPI_COMM_WORLD, dim, steps, path, straight);
     go_on_on(MPI_COMM_SELF, dim, steps, path, restarted);
-    same(straight, restarted);
+    assert_true(most_apart(KEPT, straight, restarted) < 1e-9);
     if (is_alone()) {
         remove(path);
         return;
@@ -180,25 +162,16 @@ static void goes_on_on_others(int dim, int steps)
         write_on(MPI_COMM_SELF, dim, steps, path, straight);
     MPI_Bcast(straight, KEPT, MPI_DOUBLE, 0, MPI_COMM_WORLD);
     go_on_on(MPI_COMM_WORLD, dim, steps, path, restarted);
-    same(straight, restarted);
+    assert_true(most_apart(KEPT, straight, restarted) < 1e-9);
     MPI_Barrier(MPI_COMM_WORLD);
     remove(path);
 }
 
 /* Written by all, read by one, and the other way. */
-static void other_ranks_go_on(void **state)
+TEST(other_ranks_go_on)
 {
-    (void)state;
     goes_on_on_others(2, 8);
     goes_on_on_others(3, 3);
 }
 
-static void other_ranks_go_on_with_open_sides(void **state)
-{
-    (void)state;
-    goes_on_on_others(0, SANITIZED ? 8 : 20);
-}
-
-TESTS_WITH_MPI(cmocka_unit_test(ranks_agree_in_2d), cmocka_unit_test(ranks_agree_in_3d),
-               cmocka_unit_test(ranks_agree_with_open_sides), cmocka_unit_test(other_ranks_go_on),
-               cmocka_unit_test(other_ranks_go_on_with_open_sides))
+TEST(other_ranks_go_on_with_open_sides) { goes_on_on_others(0, SANITIZED ? 8 : 20); }

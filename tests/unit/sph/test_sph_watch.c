@@ -14,9 +14,8 @@
 
 static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }
 
-static void a_sound_flow_gains_nothing(void **state)
+TEST(a_sound_flow_gains_nothing)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 24);
     sph_case_start(&c, NULL);
@@ -26,9 +25,8 @@ static void a_sound_flow_gains_nothing(void **state)
 }
 
 /* Beyond the bound of the Riemann schemes; strict bounds hold the densities meanwhile. */
-static void an_unstable_step_is_ended_by_its_energy(void **state)
+TEST(an_unstable_step_is_ended_by_its_energy)
 {
-    (void)state;
     struct sph_case c;
     struct diagnosis d = {0};
     if (SANITIZED)
@@ -65,9 +63,8 @@ static void channel(struct sph_case *c, double U, double force)
     c->prm.cfl_viscous = 0.025;
 }
 
-static void work_from_outside_is_no_gain(void **state)
+TEST(work_from_outside_is_no_gain)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
         double sums[SUM_COUNT];
@@ -87,9 +84,8 @@ static void work_from_outside_is_no_gain(void **state)
 }
 
 /* Two faults, on different ranks where there are some: the worse is named, by its place. */
-static void the_worst_particle_is_named(void **state)
+TEST(the_worst_particle_is_named)
 {
-    (void)state;
     static const double factor[2] = {3.0, 5.0};
     for (int worse = 0; worse < 2; worse++) {
         struct sph_case c;
@@ -113,9 +109,8 @@ static void the_worst_particle_is_named(void **state)
 }
 
 /* A square at Mach 0.1 into a wall: compressed by a tenth, as rho c U wants it, and no fault. */
-static void an_impact_is_no_fault(void **state)
+TEST(an_impact_is_no_fault)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 24);
     struct scene *e = &c.run.scene;
@@ -159,18 +154,16 @@ static double shift_speed(enum initial_field field, double U, double V)
     return speed;
 }
 
-static void shifting_has_the_scale_of_the_flow(void **state)
+TEST(shifting_has_the_scale_of_the_flow)
 {
-    (void)state;
     assert_close(shift_speed(FIELD_TAYLOR_GREEN, 1.0, 0.0), 1.0, 0.02);
     assert_close(shift_speed(FIELD_TAYLOR_GREEN, 1.0, 2.0), 1.0, 0.02);
     assert_close(shift_speed(FIELD_UNIFORM, 5.0, 2.0), 0.0, 1e-9);
 }
 
 /* Worst values, budget and work after a restart are those of a run in one piece. */
-static void a_restart_judges_as_one_run(void **state)
+TEST(a_restart_judges_as_one_run)
 {
-    (void)state;
     struct sph_watch after[2];
     for (int restart = 0; restart < 2; restart++) {
         struct sph_case c;
@@ -193,25 +186,15 @@ static void a_restart_judges_as_one_run(void **state)
 
 /* A square at rest in a tank at rest; what the fluid loses to it is said to be more by a tenth of
  * the pressure on its faces than it is. */
-static void forces_are_compared_at_rest(void **state)
+TEST(forces_are_compared_at_rest)
 {
-    (void)state;
     for (int wrong = 0; wrong < 3; wrong++) { /* the third moves */
         struct sph_case c;
         struct diagnosis d = {0};
         double pushed, pressure;
-        sph_case_set(&c, 2, 20);
-        struct scene *e = &c.run.scene;
+        struct scene *e = sph_case_tank(&c, 20, 1.0, 4);
         const double square[4][2] = {{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}};
-        e->initial.field = FIELD_REST;
-        e->initial.level = LEVEL_TOP;
-        e->fluid.nu = 0.0;
-        e->fluid.gravity[1] = -1.0;
         e->time.end = 10.0;
-        e->domain.periodic[0] = e->domain.periodic[1] = false;
-        e->nwalls = 4;
-        for (int k = 0; k < 4; k++)
-            e->walls[k].side = SIDE_X_MIN + k;
         e->nbodies = 1;
         e->bodies[0].points.n = 4;
         memcpy(e->bodies[0].points.x, square, sizeof square);
@@ -234,12 +217,3 @@ static void forces_are_compared_at_rest(void **state)
         sph_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(forces_are_compared_at_rest),
-               cmocka_unit_test(a_sound_flow_gains_nothing),
-               cmocka_unit_test(an_unstable_step_is_ended_by_its_energy),
-               cmocka_unit_test(work_from_outside_is_no_gain),
-               cmocka_unit_test(the_worst_particle_is_named),
-               cmocka_unit_test(an_impact_is_no_fault),
-               cmocka_unit_test(shifting_has_the_scale_of_the_flow),
-               cmocka_unit_test(a_restart_judges_as_one_run))

@@ -133,9 +133,8 @@ static void find_gaps(const struct sph *q, const struct triangle *t, double gap[
  * with a spacing of 15/16 dx; midway between two rows there the nearest particle is
  * hypot(0.38, 0.71) = 0.80 dx away. Steps of a lattice: 0 to 1.1 dx. Corners miss, or have too
  * much, up to 0.7 dx^2 each. */
-static void levels_end_at_the_surface(void **state)
+TEST(levels_end_at_the_surface)
 {
-    (void)state;
     for (int seed = 0; seed < (SANITIZED ? 1 : 12); seed++) {
         const struct triangle t = triangle_of(seed, false);
         struct sph_case c;
@@ -151,9 +150,8 @@ static void levels_end_at_the_surface(void **state)
     }
 }
 
-static void mirrors_and_units_agree(void **state)
+TEST(mirrors_and_units_agree)
 {
-    (void)state;
     for (int seed = 0; seed < (SANITIZED ? 1 : 4); seed++) {
         const struct triangle t = triangle_of(seed, false), u = triangle_of(seed, true);
         struct sph_case c, d;
@@ -169,9 +167,8 @@ static void mirrors_and_units_agree(void **state)
 
 /* Under gravity each column stands under the surface above it, at every level: to what the surface
  * falls over half a coarse spacing and the half of it that a row moves aside. */
-static void columns_weigh_what_is_above_them(void **state)
+TEST(columns_weigh_what_is_above_them)
 {
-    (void)state;
     const double g = 9.81, left = 0.63, right = 0.38, slope = (left - right) / 0.75;
     const double x[4][2] = {{0.125, 0.0}, {0.875, 0.0}, {0.875, right}, {0.125, left}};
     const struct triangle t = triangle_of(0, false);
@@ -208,9 +205,8 @@ static void columns_weigh_what_is_above_them(void **state)
 
 /* A dam and a level whose surfaces lie anywhere between rows: all of their water is there, the last
  * row half of its spacing inside. */
-static void flat_surfaces_hold_their_water(void **state)
+TEST(flat_surfaces_hold_their_water)
 {
-    (void)state;
     const struct triangle t = triangle_of(0, false);
     for (int k = 0; k < (SANITIZED ? 2 : 6); k++) {
         const double dx = 1.0 / CELLS, width = (30.0 + 0.37 * k) * dx,
@@ -235,16 +231,4 @@ static void flat_surfaces_hold_their_water(void **state)
         }
         finish(&c);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(flat_surfaces_hold_their_water),
-                                       cmocka_unit_test(levels_end_at_the_surface),
-                                       cmocka_unit_test(mirrors_and_units_agree),
-                                       cmocka_unit_test(columns_weigh_what_is_above_them)};
-    MPI_Init(NULL, NULL);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
 }

@@ -7,9 +7,8 @@
 #include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
-static void the_law_is_the_printed_one(void **state)
+TEST(the_law_is_the_printed_one)
 {
-    (void)state;
     assert_close(surface_beta(-0.2), 1.0, 1e-15);
     assert_close(surface_beta(0.1), 1.0, 1e-15);
     assert_close(surface_beta(0.3), 0.0625, 1e-15); /* half way, to the fourth */
@@ -20,19 +19,9 @@ static void the_law_is_the_printed_one(void **state)
 /* A column that collapses in a corner, without weight from the test on. */
 static struct sph *collapse(struct sph_case *c)
 {
-    sph_case_set(c, 2, 32);
-    struct scene *e = &c->run.scene;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
-    e->fluid.nu = 0.0;
+    struct scene *e = sph_case_tank(c, 32, 1.0, 3);
     e->fluid.rho = 1000.0;
-    e->fluid.gravity[1] = -1.0;
     e->time.end = 10.0;
-    e->nwalls = 3;
-    for (int k = 0; k < 3; k++) {
-        e->domain.periodic[k] = false;
-        e->walls[k].side = SIDE_X_MIN + k;
-    }
     e->nshapes = 1;
     e->shapes[0].form = SHAPE_BOX;
     e->shapes[0].box[1][0] = e->shapes[0].box[1][1] = 0.5;
@@ -66,9 +55,8 @@ static double shepard(const struct sph *s, int i, double *nearest)
 
 /* Shifts of a fifth of u, across it, which no bound cuts, go through the law: those on the surface
  * stay, those beyond 2 dx of it keep all of theirs, and between beta of their own sums is left. */
-static void shifts_fade_with_the_support(void **state)
+TEST(shifts_fade_with_the_support)
 {
-    (void)state;
     struct sph_case c;
     struct sph *s = collapse(&c);
     int on = 0, part = 0, inner = 0;
@@ -97,6 +85,3 @@ static void shifts_fade_with_the_support(void **state)
     assert_true(on > 5 && part > 5 && inner > 5);
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(the_law_is_the_printed_one),
-               cmocka_unit_test(shifts_fade_with_the_support))

@@ -2,10 +2,6 @@
  * walls that only touch stay as they are. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../sph/walls/wall_cover.h"
 
@@ -60,9 +56,8 @@ static double left(const struct tank *t)
 }
 
 /* From the floor to the right side; longer by shares of it below the floor and beyond the side. */
-static void beaches_hide_the_floor(void **state)
+TEST(beaches_hide_the_floor)
 {
-    (void)state;
     for (int k = 0; k < 60; k++) {
         struct tank t;
         tank_make(&t, k % 2);
@@ -74,9 +69,8 @@ static void beaches_hide_the_floor(void **state)
     }
 }
 
-static void bumps_hide_the_floor(void **state)
+TEST(bumps_hide_the_floor)
 {
-    (void)state;
     for (int k = 0; k < 60; k++) {
         struct tank t;
         tank_make(&t, k % 2);
@@ -89,9 +83,8 @@ static void bumps_hide_the_floor(void **state)
     }
 }
 
-static void blocks_on_the_floor_have_no_bottom(void **state)
+TEST(blocks_on_the_floor_have_no_bottom)
 {
-    (void)state;
     for (int k = 0; k < 40; k++) {
         struct tank t;
         tank_make(&t, k % 2);
@@ -106,9 +99,8 @@ static void blocks_on_the_floor_have_no_bottom(void **state)
 
 /* A bed that comes in through one open side and leaves through the other: the floor under it goes,
  * with what it has beyond both sides. */
-static void beds_through_open_sides_hide_the_floor(void **state)
+TEST(beds_through_open_sides_hide_the_floor)
 {
-    (void)state;
     for (int k = 0; k < 40; k++) {
         struct tank t = {.hi = {2.0, 1.0}};
         const double low = any(0.05, 0.4), high = any(0.05, 0.9), more = any(0.0, 0.5);
@@ -123,9 +115,8 @@ static void beds_through_open_sides_hide_the_floor(void **state)
 
 /* A plate that stands in the fluid, a triangle that floats in it, a deck that goes on from the rim
  * (but not from a side that goes on beyond the domain). */
-static void what_hides_nothing_stays(void **state)
+TEST(what_hides_nothing_stays)
 {
-    (void)state;
     for (int k = 0; k < 40; k++) {
         struct tank t;
         tank_make(&t, k % 2);
@@ -141,9 +132,8 @@ static void what_hides_nothing_stays(void **state)
 }
 
 /* Walls that meet at their ends alone. */
-static void corners_cut_nothing(void **state)
+TEST(corners_cut_nothing)
 {
-    (void)state;
     for (int k = 0; k < 20; k++) {
         struct tank t;
         tank_make(&t, k % 2);
@@ -158,9 +148,8 @@ static void corners_cut_nothing(void **state)
 }
 
 /* Behind a beach from the floor to the side, wherever the point is nearest; before it nowhere. */
-static void rooms_behind_beaches_are_shut(void **state)
+TEST(rooms_behind_beaches_are_shut)
 {
-    (void)state;
     for (int k = 0; k < 200; k++) {
         struct tank t;
         const double foot = any(0.2, 1.6), top = any(0.2, 0.9);
@@ -174,9 +163,3 @@ static void rooms_behind_beaches_are_shut(void **state)
                 over < 0.0);
     }
 }
-
-TESTS(cmocka_unit_test(beaches_hide_the_floor), cmocka_unit_test(bumps_hide_the_floor),
-      cmocka_unit_test(blocks_on_the_floor_have_no_bottom),
-      cmocka_unit_test(beds_through_open_sides_hide_the_floor),
-      cmocka_unit_test(what_hides_nothing_stays), cmocka_unit_test(corners_cut_nothing),
-      cmocka_unit_test(rooms_behind_beaches_are_shut))

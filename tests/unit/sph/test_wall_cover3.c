@@ -2,10 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../sph/walls/wall_cover3.h"
 
@@ -49,9 +45,8 @@ static double floor_left(struct trimesh *m, double size, int *triangles)
     return area;
 }
 
-static void slopes_hide_the_floor(void **state)
+TEST(slopes_hide_the_floor)
 {
-    (void)state;
     for (int k = 0; k < 20; k++) {
         const double foot = any(0.2, 1.8), more = k % 2 ? 0.3 : 0.0; /* beyond the sides */
         struct trimesh m = slope(foot, any(0.1, 2.0), -more, 1.0 + more, more);
@@ -63,9 +58,8 @@ static void slopes_hide_the_floor(void **state)
 }
 
 /* Through the floor, or on it with the faces back to back; its outline is no line of the cut. */
-static void columns_hide_the_floor(void **state)
+TEST(columns_hide_the_floor)
 {
-    (void)state;
     for (int k = 0; k < 10; k++) {
         const double lo[3] = {any(0.1, 0.9), any(0.1, 0.4), k % 2 ? 0.0 : -0.2};
         const double hi[3] = {any(1.1, 1.9), any(0.6, 0.9), 0.5};
@@ -78,10 +72,9 @@ static void columns_hide_the_floor(void **state)
     }
 }
 
-static void what_hides_nothing_cuts_nothing(void **state)
+TEST(what_hides_nothing_cuts_nothing)
 {
     int triangles;
-    (void)state;
     for (int k = 0; k < 10; k++) {
         const double middle[3] = {any(0.5, 1.5), 0.5, any(0.31, 0.6)};
         struct trimesh m = trimesh_sphere(middle, 0.3, 2);
@@ -93,9 +86,8 @@ static void what_hides_nothing_cuts_nothing(void **state)
     }
 }
 
-static void slopes_end_at_the_sides(void **state)
+TEST(slopes_end_at_the_sides)
 {
-    (void)state;
     for (int k = 0; k < 20; k++) {
         const double foot = any(0.2, 1.8), rise = any(0.1, 2.0);
         struct trimesh m = slope(foot, rise, -0.3, 1.4, 0.5);
@@ -105,6 +97,3 @@ static void slopes_end_at_the_sides(void **state)
         trimesh_free(&m);
     }
 }
-
-TESTS(cmocka_unit_test(slopes_hide_the_floor), cmocka_unit_test(columns_hide_the_floor),
-      cmocka_unit_test(what_hides_nothing_cuts_nothing), cmocka_unit_test(slopes_end_at_the_sides))

@@ -9,18 +9,9 @@
 /* A full tank of 1 m x 1 m of still water; `cells' across. */
 static void tank(struct sph_case *c, int cells)
 {
-    sph_case_set(c, 2, cells);
-    struct scene *e = &c->run.scene;
+    struct scene *e = sph_case_tank(c, cells, 9.81, 4);
     e->fluid.rho = 1000.0;
-    e->fluid.nu = 0.0;
-    e->fluid.gravity[1] = -9.81;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
     e->initial.U = 3.13;
-    e->domain.periodic[0] = e->domain.periodic[1] = false;
-    e->nwalls = 4;
-    for (int k = 0; k < 4; k++)
-        e->walls[k].side = SIDE_X_MIN + k;
     c->prm.c0 = 32.0;
     c->prm.dissipation = 0.1; /* as sph_params has it there */
     c->prm.walls = WALLS_FIXED;
@@ -45,11 +36,10 @@ static double add_star(struct sph_case *c, int n, const double r[2], double turn
 /* Ghosts at the depth d have the layer's length at that radius, so that theirs and their images',
  * whose layer is as far before the wall, have the ratio (Rc - d)/(Rc + d) of a curved wall [3.11],
  * and its inverse in a round tank. */
-static void layers_are_curved(void **state)
+TEST(layers_are_curved)
 {
     const double dx = 1.0 / 32.0, radius[2] = {0.2, 0.2};
     struct sph_case c;
-    (void)state;
     tank(&c, 32);
     add_star(&c, 48, radius, 0.0);
     c.prm.packing = 0;
@@ -79,11 +69,10 @@ static void layers_are_curved(void **state)
 }
 
 /* Behind the sides of a tank the layers fill its frame, corners included. */
-static void layers_fill_corners(void **state)
+TEST(layers_fill_corners)
 {
     struct sph_case c;
     double sum = 0.0;
-    (void)state;
     tank(&c, 20);
     struct sph *s = sph_case_start(&c, NULL);
     struct fixed_layers layers = {0};
@@ -117,12 +106,8 @@ static void rests_round(int n, const double r[2], double turned)
     sph_free(&c.s);
 }
 
-static void rests_round_bodies(void **state)
+TEST(rests_round_bodies)
 {
-    (void)state;
     rests_round(48, (double[2]){0.2, 0.2}, 0.1);
     rests_round(4, (double[2]){0.2, 0.2}, 0.3);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(layers_are_curved), cmocka_unit_test(layers_fill_corners),
-               cmocka_unit_test(rests_round_bodies))

@@ -10,15 +10,8 @@ enum { CELLS = 20 };
 /* A tank of 1 m, dx 0.05 m, half full, and a body. */
 static struct sph *tank(struct sph_case *c, int n, double x[][2])
 {
-    sph_case_set(c, 2, CELLS);
-    struct scene *e = &c->run.scene;
-    e->fluid.nu = 0.0;
-    e->fluid.gravity[1] = -9.81;
-    e->initial.field = FIELD_REST;
-    e->domain.periodic[0] = e->domain.periodic[1] = false;
-    e->nwalls = 3;
-    for (int k = 0; k < 3; k++)
-        e->walls[k].side = SIDE_X_MIN + k;
+    struct scene *e = sph_case_tank(c, CELLS, 9.81, 3);
+    e->initial.level = 0.0;
     e->nshapes = 1;
     e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
     e->nbodies = 1;
@@ -41,10 +34,9 @@ static int joints_of(int n, double x[][2])
     return joints;
 }
 
-static void walls_that_part_are_found(void **state)
+TEST(walls_that_part_are_found)
 {
     const double far = 0.2 / CELLS; /* in which water may pass */
-    (void)state;
     assert_int_equal(joints_of(3, (double[][2]){{0.5, 0.0}, {0.4, 0.9}, {0.6, 0.9}}),
                      1); /* on its tip */
     assert_int_equal(joints_of(3, (double[][2]){{0.5, far}, {0.4, 0.9}, {0.6, 0.9}}), 0);
@@ -58,11 +50,10 @@ static void walls_that_part_are_found(void **state)
 
 /* Beside the tip of a wedge those on one side see each other and not the others; over its top they
  * do. */
-static void nobody_sees_through(void **state)
+TEST(nobody_sees_through)
 {
     struct sph_case c;
     struct wall_joints found = {0};
-    (void)state;
     wall_joints_find(tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.4, 0.6}, {0.6, 0.6}}), &found);
     assert_int_equal(found.n, 1);
     const struct wall_joint *j = found.of;
@@ -81,11 +72,10 @@ static void nobody_sees_through(void **state)
 }
 
 /* Beside the top of a square that stands on its corner the water is one again. */
-static void fluids_meet_over_a_small_body(void **state)
+TEST(fluids_meet_over_a_small_body)
 {
     struct sph_case c;
     struct wall_joints found = {0};
-    (void)state;
     wall_joints_find(tank(&c, 4, (double[][2]){{0.5, 0.0}, {0.3, 0.2}, {0.5, 0.4}, {0.7, 0.2}}),
                      &found);
     assert_int_equal(found.n, 1);
@@ -111,11 +101,10 @@ static double gamma_of_mirror(const struct sph *s, const double *gamma, const do
 
 /* The floor on either side of a tip is its own water's alone: the first half of its segment as well
  * as the second. */
-static void sides_of_a_tip_are_mirrors(void **state)
+TEST(sides_of_a_tip_are_mirrors)
 {
     struct sph_case c;
     double worst = 0.0;
-    (void)state;
     struct sph *s = tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.3, 0.35}, {0.7, 0.35}});
     integrate_prepare(s);
     double *gamma = NEW(double, s->p.n);
@@ -131,11 +120,10 @@ static void sides_of_a_tip_are_mirrors(void **state)
 }
 
 /* A driven tip that leaves the floor opens it, one that comes down closes it. */
-static void joints_come_and_go(void **state)
+TEST(joints_come_and_go)
 {
     struct sph_case c;
     struct wall_joints found = {0};
-    (void)state;
     struct sph *s = tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.4, 0.9}, {0.6, 0.9}});
     s->walls->bodies[0].moves = true;
     for (int up = 0; up < 3; up++) {
@@ -149,7 +137,3 @@ static void joints_come_and_go(void **state)
     wall_joints_free(&found);
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(walls_that_part_are_found), cmocka_unit_test(nobody_sees_through),
-               cmocka_unit_test(fluids_meet_over_a_small_body),
-               cmocka_unit_test(sides_of_a_tip_are_mirrors), cmocka_unit_test(joints_come_and_go))

@@ -43,9 +43,8 @@ static double of_plane(const struct sph *s, double h) /* int W dS, 1/m */
     return sum * s->R / POINTS;
 }
 
-static void layers_that_end_before_a_wall_rest(void **state)
+TEST(layers_that_end_before_a_wall_rest)
 {
-    (void)state;
     static const double supports[3] = {2.5, 3.0, 4.0};
     for (int v = 0; v < 6; v++) {
         struct sph s = {.dim = 2 + v % 2, .dx = 0.1, .R = 0.1 * supports[v / 2]};
@@ -63,5 +62,3 @@ static void layers_that_end_before_a_wall_rest(void **state)
         }
     }
 }
-
-TESTS(cmocka_unit_test(layers_that_end_before_a_wall_rest))

@@ -24,9 +24,8 @@ static struct sph *cube(struct sph_case *c, int nsides, const int *sides)
     return sph_case_start(c, NULL);
 }
 
-static void a_box_of_walls_is_one_closed_mesh(void **state)
+TEST(a_box_of_walls_is_one_closed_mesh)
 {
-    (void)state;
     static const int all[] = {SIDE_X_MIN, SIDE_X_MAX, SIDE_Y_MIN,
                               SIDE_Y_MAX, SIDE_Z_MIN, SIDE_Z_MAX};
     struct sph_case c;
@@ -49,9 +48,8 @@ static void a_box_of_walls_is_one_closed_mesh(void **state)
 
 /* Beside a plane a half of the kernel is behind it, in an edge three quarters, in a corner seven
  * eighths; the same by the mesh's own frame. */
-static void what_is_behind_faces_is_known_in_their_frame(void **state)
+TEST(what_is_behind_faces_is_known_in_their_frame)
 {
-    (void)state;
     static const int all[] = {SIDE_X_MIN, SIDE_X_MAX, SIDE_Y_MIN,
                               SIDE_Y_MAX, SIDE_Z_MIN, SIDE_Z_MAX};
     struct sph_case c;
@@ -69,9 +67,8 @@ static void what_is_behind_faces_is_known_in_their_frame(void **state)
 }
 
 /* Bottom and one side; the bottom goes on by 2.5 R where no wall ends it. */
-static void open_sides_prolong_the_others(void **state)
+TEST(open_sides_prolong_the_others)
 {
-    (void)state;
     static const int two[] = {SIDE_Z_MIN, SIDE_X_MIN};
     struct sph_case c;
     struct sph *s = cube(&c, 2, two);
@@ -87,9 +84,8 @@ static void open_sides_prolong_the_others(void **state)
     sph_free(&c.s);
 }
 
-static void walls_unlike_each_other_are_meshes_of_their_own(void **state)
+TEST(walls_unlike_each_other_are_meshes_of_their_own)
 {
-    (void)state;
     struct sph_case c;
     static const int none[1];
     struct sph *s;
@@ -109,9 +105,8 @@ static void walls_unlike_each_other_are_meshes_of_their_own(void **state)
 
 /* A floor that ends at periodic sides goes on beyond them without a rim; a ball near one of them
  * has an image. */
-static void meshes_repeat_with_the_domain(void **state)
+TEST(meshes_repeat_with_the_domain)
 {
-    (void)state;
     static const int none[1];
     const double o[3] = {0.2, 0.5, 0.6};
     struct sph_case c;
@@ -156,9 +151,8 @@ static void meshes_repeat_with_the_domain(void **state)
     scene_meshes_free(e);
 }
 
-static void poses_carry_there_and_back(void **state)
+TEST(poses_carry_there_and_back)
 {
-    (void)state;
     const double q = 0.7, cq = cos(q), sq = sin(q), x[3] = {1.0, -2.0, 0.5};
     const struct wall_mesh m = {.X = {3.0, 2.0, 1.0},
                                 .Q = {{cq, -sq, 0.0}, {sq, cq, 0.0}, {0.0, 0.0, 1.0}}};
@@ -169,10 +163,3 @@ static void poses_carry_there_and_back(void **state)
     for (int a = 0; a < 3; a++)
         assert_close(own[a], x[a], 1e-14);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(a_box_of_walls_is_one_closed_mesh),
-               cmocka_unit_test(what_is_behind_faces_is_known_in_their_frame),
-               cmocka_unit_test(open_sides_prolong_the_others),
-               cmocka_unit_test(walls_unlike_each_other_are_meshes_of_their_own),
-               cmocka_unit_test(meshes_repeat_with_the_domain),
-               cmocka_unit_test(poses_carry_there_and_back))

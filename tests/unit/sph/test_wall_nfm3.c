@@ -63,11 +63,10 @@ static double gamma_in_box(const double *x, double R)
     return 1.0 + sum.gamma;
 }
 
-static void every_particle_finds_its_walls(void **state)
+TEST(every_particle_finds_its_walls)
 {
     struct sph_case c;
     double worst = 0.0;
-    (void)state;
     tank(&c, 8, false);
     c.prm.noise = 0.4;
     struct sph *s = sph_case_start(&c, NULL);
@@ -84,11 +83,10 @@ static void every_particle_finds_its_walls(void **state)
 }
 
 /* Periodic along y: as far from the ends of the walls as anywhere. */
-static void walls_go_on_beyond_periodic_sides(void **state)
+TEST(walls_go_on_beyond_periodic_sides)
 {
     struct sph_case c;
     double worst = 0.0;
-    (void)state;
     tank(&c, 8, false);
     struct scene *e = &c.run.scene;
     e->domain.periodic[1] = true;
@@ -153,10 +151,9 @@ static double laplacian(int row, int power)
 }
 
 /* The wall's share of the Laplacian; limits 0 and 2, at R/dx = 4 as near to them as in 2D. */
-static void laplacian_at_a_wall(void **state)
+TEST(laplacian_at_a_wall)
 {
     const double R = 4.0 / 12.0;
-    (void)state;
     print_message("Lap z %.3f %.3f /R, Lap z^2 %.3f %.3f\n", laplacian(0, 1) * R,
                   laplacian(1, 1) * R, laplacian(0, 2), laplacian(1, 2));
     assert_close(laplacian(0, 1) * R, 0.0, 0.15);
@@ -166,12 +163,11 @@ static void laplacian_at_a_wall(void **state)
 }
 
 /* A uniform flow along slip walls stays: no force, no change of volume. */
-static void a_stream_along_walls_stays(void **state)
+TEST(a_stream_along_walls_stays)
 {
     for (int scheme = SCHEME_RIEMANN_ALE; scheme <= SCHEME_DELTA; scheme++) {
         struct sph_case c;
         double worst = 0.0;
-        (void)state;
         sph_case_set(&c, 3, 8);
         struct scene *e = &c.run.scene;
         e->fluid.nu = 0.0;
@@ -197,9 +193,8 @@ static void a_stream_along_walls_stays(void **state)
 }
 
 /* Flat surface: row 1 and no other; along walls, in edges and corners nobody. */
-static void surface_is_found(void **state)
+TEST(surface_is_found)
 {
-    (void)state;
     for (int noise = 0; noise < 2; noise++) {
         struct sph_case c;
         long missed = 0, falsely = 0;
@@ -249,9 +244,8 @@ static double left_over(const struct sph *s, double *scale)
     return most;
 }
 
-static void momentum_is_balanced(void **state)
+TEST(momentum_is_balanced)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         struct sph_case c;
         double scale, sums[SUM_COUNT];
@@ -268,11 +262,10 @@ static void momentum_is_balanced(void **state)
 }
 
 /* The floor carries the water: force and its moment about the origin. */
-static void walls_carry_the_weight(void **state)
+TEST(walls_carry_the_weight)
 {
     struct sph_case c;
     struct force sum = {0};
-    (void)state;
     tank(&c, 12, true);
     struct sph *s = sph_case_start(&c, NULL);
     while (s->t < (SANITIZED ? 0.05 : 0.6)) {
@@ -302,11 +295,10 @@ static void walls_carry_the_weight(void **state)
 
 /* A side is cut into two triangles and yet its own mirror image: water at rest in a square tank has
  * no way to go sideways. */
-static void a_square_tank_has_no_sense(void **state)
+TEST(a_square_tank_has_no_sense)
 {
     struct sph_case c;
     double sums[SUM_COUNT];
-    (void)state;
     tank(&c, 8, true);
     struct sph *s = sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, 10, 100.0));
@@ -318,11 +310,10 @@ static void a_square_tank_has_no_sense(void **state)
     sph_free(&c.s);
 }
 
-static void a_particle_behind_is_put_back(void **state)
+TEST(a_particle_behind_is_put_back)
 {
     struct sph_case c;
     double scale;
-    (void)state;
     tank(&c, 8, true);
     struct sph *s = sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, 1, 100.0));
@@ -363,11 +354,10 @@ static double *rows_after(MPI_Comm comm, int steps, int *n)
     return all;
 }
 
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
     int n;
     double *together = rows_after(MPI_COMM_WORLD, 10, &n), *alone, worst = 0.0;
-    (void)state;
     alone = rows_after(MPI_COMM_SELF, 10, &n);
     for (int k = 0; k < 8 * n; k++)
         worst = fmax(worst, fabs(together[k] - alone[k]));
@@ -384,22 +374,12 @@ static double *run_scene(bool restart, int *n)
     return sph_case_twelve(&c, restart, n);
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
     int n[2];
     double *straight = run_scene(false, n), *again = run_scene(true, n + 1);
-    (void)state;
     const bool same = n[0] == n[1] && memcmp(straight, again, (size_t)n[0] * sizeof(double)) == 0;
     assert_true(none_anywhere(!same));
     mem_free(straight);
     mem_free(again);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(every_particle_finds_its_walls),
-               cmocka_unit_test(walls_go_on_beyond_periodic_sides),
-               cmocka_unit_test(laplacian_at_a_wall), cmocka_unit_test(a_stream_along_walls_stays),
-               cmocka_unit_test(surface_is_found), cmocka_unit_test(momentum_is_balanced),
-               cmocka_unit_test(walls_carry_the_weight),
-               cmocka_unit_test(a_square_tank_has_no_sense),
-               cmocka_unit_test(a_particle_behind_is_put_back), cmocka_unit_test(ranks_agree),
-               cmocka_unit_test(restart_is_exact))

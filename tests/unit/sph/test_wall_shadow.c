@@ -2,9 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 #include "../../../sph/walls/wall_shadow.h"
 
 static const double R = 0.3;
@@ -68,9 +65,8 @@ static void any_triangle_beyond(double least, double (*v)[3])
             v[k][a] = a == axis ? way * any(least, R) : any(-R, R);
 }
 
-static void a_box_hides_all_beyond_it(void **state)
+TEST(a_box_hides_all_beyond_it)
 {
-    (void)state;
     for (int k = 0; k < 200; k++) {
         double lo[3], hi[3], v[3][3];
         for (int a = 0; a < 3; a++) {
@@ -83,9 +79,8 @@ static void a_box_hides_all_beyond_it(void **state)
     }
 }
 
-static void what_is_before_is_not_hidden(void **state)
+TEST(what_is_before_is_not_hidden)
 {
-    (void)state;
     for (int k = 0; k < 200; k++) {
         const double lo[3] = {-R, -R, -R}, hi[3] = {R, R, R};
         double v[3][3];
@@ -98,9 +93,8 @@ static void what_is_before_is_not_hidden(void **state)
 
 /* A box without one side hides what an open box does: from a plane beyond the open side, all but
  * the cone through the opening, which the side itself would hide. */
-static void parts_add_up(void **state)
+TEST(parts_add_up)
 {
-    (void)state;
     for (int k = 0; k < 100; k++) {
         double lo[3], hi[3], v[3][3], door[3][3];
         struct wall_integrals parts, whole;
@@ -126,9 +120,8 @@ static void parts_add_up(void **state)
     }
 }
 
-static void the_plane_beyond_an_edge_is_hidden_with_it(void **state)
+TEST(the_plane_beyond_an_edge_is_hidden_with_it)
 {
-    (void)state;
     for (int k = 0; k < 200; k++) {
         const double lo[3] = {-0.1 * R, -0.1 * R, -0.1 * R}, hi[3] = {0.1 * R, 0.1 * R, 0.1 * R};
         double v[3][3], y[4][3];
@@ -139,6 +132,3 @@ static void the_plane_beyond_an_edge_is_hidden_with_it(void **state)
         assert_close(sum.W * R, facet_rim(&f, 0, origin, R) * R, 2e-5);
     }
 }
-
-TESTS(cmocka_unit_test(a_box_hides_all_beyond_it), cmocka_unit_test(what_is_before_is_not_hidden),
-      cmocka_unit_test(parts_add_up), cmocka_unit_test(the_plane_beyond_an_edge_is_hidden_with_it))

@@ -2,10 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../../sph/walls/wall_thin.h"
 
 /* Points turned by an angle; in reverse order if backwards. */
@@ -35,11 +31,10 @@ static double any_angle(void) { return 6.28 * rand() / RAND_MAX; }
 
 /* A plate 0.2 thick and 3 long as a body, whichever way round it is given; with a gap in its
  * outline as an open wall; its upper and lower face as two walls. */
-static void plates_are_thin(void **state)
+TEST(plates_are_thin)
 {
     double plate[4][2] = {{-1.5, -0.1}, {-1.5, 0.1}, {1.5, 0.1}, {1.5, -0.1}};
     struct wall_thin t;
-    (void)state;
     for (int k = 0; k < 20; k++) {
         struct scene *c = scene_new();
         const double angle = any_angle();
@@ -65,10 +60,9 @@ static void plates_are_thin(void **state)
 }
 
 /* Wedges from 6 to 120 degrees, alone or as two walls that meet; the small square. */
-static void corners_are_not_thin(void **state)
+TEST(corners_are_not_thin)
 {
     struct wall_thin t;
-    (void)state;
     for (int k = 0; k < 40; k++) {
         struct scene *c = scene_new();
         const double half = (3.0 + 57.0 * k / 39.0) * M_PI / 180.0, angle = any_angle();
@@ -94,12 +88,11 @@ static void corners_are_not_thin(void **state)
 }
 
 /* A box over the floor: on it, too near, far enough; a cylinder that nearly touches it. */
-static void gaps(void **state)
+TEST(gaps)
 {
     struct scene *c = scene_new();
     struct wall_thin t;
     double circle[32][2];
-    (void)state;
     c->nwalls = c->nbodies = 1;
     c->walls[0].side = SIDE_Y_MIN;
     for (int k = 0; k < 3; k++) {
@@ -133,13 +126,12 @@ static void gaps(void **state)
 /* A slot between two plates is a passage, and one between a plate and a side; a tank that is as
  * narrow is none, nor are the two sides of a nozzle that one line draws, nor a block that is far.
  */
-static void passages(void **state)
+TEST(passages)
 {
     struct scene *c = scene_new();
     struct wall_thin t;
     double left[4][2] = {{-2.0, 0.0}, {-0.1, 0.0}, {-0.1, -0.2}, {-2.0, -0.2}};
     double right[4][2] = {{0.1, 0.0}, {2.0, 0.0}, {2.0, -0.2}, {0.1, -0.2}};
-    (void)state;
     c->nbodies = 2;
     c->fluid.gravity[1] = -9.81;
     set_points(&c->bodies[0].points, 4, left, 0.0, false);
@@ -172,12 +164,11 @@ static void passages(void **state)
 }
 
 /* A sill 0.2 high that lies on the floor, on another body or on a line has fluid on one side. */
-static void sills_are_not_thin(void **state)
+TEST(sills_are_not_thin)
 {
     double sill[4][2] = {{-1.5, 0.0}, {-1.5, 0.2}, {1.5, 0.2}, {1.5, 0.0}},
            base[4][2] = {{-2.0, -1.0}, {-2.0, 0.0}, {2.0, 0.0}, {2.0, -1.0}};
     struct wall_thin t;
-    (void)state;
     struct scene *c = scene_new();
     c->nbodies = 1;
     set_points(&c->bodies[0].points, 4, sill, 0.0, false);
@@ -200,11 +191,4 @@ static void sills_are_not_thin(void **state)
     free(c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plates_are_thin), cmocka_unit_test(corners_are_not_thin),
-        cmocka_unit_test(sills_are_not_thin), cmocka_unit_test(gaps), cmocka_unit_test(passages)};
-    srand(11);
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+void unit_begin(void) { srand(11); }

@@ -54,13 +54,12 @@ static double gamma_of(double p[20][2], int n, const double *x)
     return gamma;
 }
 
-static void gamma_agrees_with_the_table(void **state)
+TEST(gamma_agrees_with_the_table)
 {
     char line[256], what[128];
     double x[2], wanted, p[20][2], worst = 0.0;
     int n = 0;
     FILE *f = fopen("tests/data/gamma2d.csv", "r");
-    (void)state;
     assert_non_null(f);
     while (fgets(line, sizeof line, f)) {
         if (sscanf(line, "%127[^,],%lf,%lf,%lf", what, x, x + 1, &wanted) != 4)
@@ -85,10 +84,9 @@ static double line_integral(double d)
 
 /* Against Simpson's rule, for walls at random; and sums over the pieces of a wall are the wall's.
  */
-static void moments_are_integrals(void **state)
+TEST(moments_are_integrals)
 {
     enum { POINTS = 2000, WALLS = 300 };
-    (void)state;
     srand(7);
     for (int k = 0; k < WALLS; k++) {
         const double d = 1e-3 + rand() / (double)RAND_MAX;
@@ -124,10 +122,9 @@ static void moments_are_integrals(void **state)
 /* Of a wall through points h apart at the distance d the part of Poisson's kernel that the Shepard
  * factor has, d/(pi r^2), sums to tanh(pi d/h) where the foot is between two points and to
  * coth(pi d/h) where it is on one; its integral is 1, and the rest is smooth. */
-static void points_miss_gamma_before_them(void **state)
+TEST(points_miss_gamma_before_them)
 {
     const double h = 1.0 / WALL_POINTS;
-    (void)state;
     for (double d = 0.005; d < 1.0; d *= 1.3)
         for (int on = 0; on < 2; on++) {
             const double from = -5.0 + 0.5 * h * on, law = tanh(M_PI * d / h);
@@ -140,10 +137,9 @@ static void points_miss_gamma_before_them(void **state)
 
 /* Midpoints of h err by h^2/24 times the largest second derivative along the wall: 140/pi of W,
  * less of W y. */
-static void points_are_of_second_order(void **state)
+TEST(points_are_of_second_order)
 {
     const double h = 1.0 / WALL_POINTS, most = 140.0 / M_PI * h * h / 24.0;
-    (void)state;
     srand(9);
     for (int k = 0; k < 300; k++) {
         const double d = 1.2 * rand() / RAND_MAX, from = 2.4 * rand() / RAND_MAX - 1.2;
@@ -157,9 +153,8 @@ static void points_are_of_second_order(void **state)
 }
 
 /* W is the derivative of gamma over a plane. */
-static void gamma_rises_with_the_wall(void **state)
+TEST(gamma_rises_with_the_wall)
 {
-    (void)state;
     for (double d = 0.02; d < 1.0; d += 0.07) {
         const double h = 1e-5, g1 = wall_moments(d, -5.0, 5.0).gamma;
         assert_close(wall_moments(d, -5.0, 5.0).W, line_integral(d), 1e-10);
@@ -205,9 +200,8 @@ static double laplacian(int row, int power)
 /* Friction on a wall leaves linear profiles as they are, and is 2 of y^2 as far as a lattice's
  * second moment goes; with the kernel's own integrals a linear one had 0.103 and -0.036 /R in two
  * rows. */
-static void laplacian_at_a_wall(void **state)
+TEST(laplacian_at_a_wall)
 {
-    (void)state;
     const double R = 4.0 / 32.0;
     print_message("Lap y %.3f %.3f /R, Lap y^2 %.3f %.3f\n", laplacian(0, 1) * R,
                   laplacian(1, 1) * R, laplacian(0, 2), laplacian(1, 2));
@@ -220,17 +214,8 @@ static void laplacian_at_a_wall(void **state)
 /* Box [0,1]^2 of still fluid under gravity; closed walls on all sides, or open above. */
 static void tank(struct sph_case *c, int cells, bool surface, int walls)
 {
-    sph_case_set(c, 2, cells);
-    struct scene *e = &c->run.scene;
+    struct scene *e = sph_case_tank(c, cells, 9.81, surface ? 3 : 4);
     e->fluid.rho = 1000.0;
-    e->fluid.nu = 0.0;
-    e->fluid.gravity[1] = -9.81;
-    e->initial.field = FIELD_REST;
-    e->initial.level = LEVEL_TOP;
-    e->domain.periodic[0] = e->domain.periodic[1] = false;
-    e->nwalls = surface ? 3 : 4;
-    for (int k = 0; k < 4; k++)
-        e->walls[k].side = SIDE_X_MIN + k;
     if (surface) {
         e->nshapes = 1;
         e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
@@ -255,9 +240,8 @@ static double largest_speed(const struct sph *s)
     return max_anywhere(most);
 }
 
-static void water_at_rest_stays(void **state)
+TEST(water_at_rest_stays)
 {
-    (void)state;
     for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++) {
         static const double wanted[] = {1e-3, 1e-3}; /* of c0 */
         struct sph_case c;
@@ -303,9 +287,8 @@ static double shift_work(int scheme)
 }
 
 /* Else the level sinks: of densities that do not know of the shift. */
-static void the_shift_is_workless(void **state)
+TEST(the_shift_is_workless)
 {
-    (void)state;
     assert_true(shift_work(SCHEME_RIEMANN) < 1e-12);
     assert_true(shift_work(SCHEME_RIEMANN_ALE) > 1e-4); /* its densities know */
 }
@@ -332,9 +315,8 @@ static void float_in_still_water(int integrals)
     sph_free(&c.s);
 }
 
-static void body_in_still_water(void **state)
+TEST(body_in_still_water)
 {
-    (void)state;
     float_in_still_water(INTEGRALS_CLOSED);
     float_in_still_water(INTEGRALS_CENTROIDS);
     float_in_still_water(INTEGRALS_NUMERICAL);
@@ -367,20 +349,18 @@ static double least_room(double degrees)
 
 /* In the corner of a tank a quarter of the support is fluid, before tips more than half of it: none
  * of those particles is taken for one behind a wall, whose volume would be none. */
-static void sharp_tips_leave_room(void **state)
+TEST(sharp_tips_leave_room)
 {
-    (void)state;
     for (double degrees = 0.0; degrees < 90.0; degrees += 5.0)
         assert_true(least_room(degrees) > 0.25);
 }
 
 /* A gauge with a radius reads the mean over its face: the weight of the water in its middle, and of
  * one particle's own pressure no more than that particle's share of the face. */
-static void gauge_reads_mean(void **state)
+TEST(gauge_reads_mean)
 {
     struct sph_case c;
     double row[2], loud[2];
-    (void)state;
     tank(&c, 50, false, WALLS_NFM);
     c.run.scene.nprobes = 2;
     for (int k = 0; k < 2; k++)
@@ -412,9 +392,8 @@ static void gauge_reads_mean(void **state)
 }
 
 /* A closed ALE run: pair fluxes with mirrored ghosts are antisymmetric, NFM gives mass back. */
-static void mass_is_kept(void **state)
+TEST(mass_is_kept)
 {
-    (void)state;
     for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++) {
         struct sph_case c;
         double sums[SUM_COUNT];
@@ -430,9 +409,8 @@ static void mass_is_kept(void **state)
 }
 
 /* Flat surface: row 1 and no other; along walls nobody, with wall terms or with ghosts. */
-static void surface_is_found(void **state)
+TEST(surface_is_found)
 {
-    (void)state;
     for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++)
         for (int noise = 0; noise < 3; noise++) {
             struct sph_case c;
@@ -452,11 +430,10 @@ static void surface_is_found(void **state)
         }
 }
 
-static void eigenvalues(void **state)
+TEST(eigenvalues)
 {
     const double M[9] = {2.0, 0.3, 0.1, 0.3, 1.5, -0.2, 0.1, -0.2, 0.7};
     const double lambda = eigenvalue_smallest(M, 3), shift = lambda + 1e-9;
-    (void)state;
     /* det(M - lambda) changes sign there and M - lambda is positive semidefinite */
     const double a = M[0] - lambda, b = M[4] - lambda, c = M[8] - lambda;
     const double det = a * (b * c - 0.04) - 0.3 * (0.3 * c + 0.02) + 0.1 * (-0.06 - 0.1 * b);
@@ -482,9 +459,8 @@ static double energy_after(int walls, MPI_Comm comm)
 }
 
 /* A disordered tank after 20 steps, shared out over the ranks and by each rank alone. */
-static void ranks_agree(void **state)
+TEST(ranks_agree)
 {
-    (void)state;
     for (int walls = WALLS_NFM; walls <= WALLS_GHOSTS; walls++) {
         const double together = energy_after(walls, MPI_COMM_WORLD);
         const double alone = energy_after(walls, MPI_COMM_SELF);
@@ -525,9 +501,8 @@ static double *run_scene(int kind, bool restart, int *n)
     return sph_case_twelve(&c, restart, n);
 }
 
-static void restart_is_exact(void **state)
+TEST(restart_is_exact)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++) {
         int n[2];
         double *straight = run_scene(kind, false, n), *again = run_scene(kind, true, n + 1);
@@ -542,11 +517,10 @@ static void restart_is_exact(void **state)
 }
 
 /* walls_velocity is the derivative of places. */
-static void motion(void **state)
+TEST(motion)
 {
     struct sph_case c;
     double u[2], du[2], before[2], after[2];
-    (void)state;
     tank(&c, 20, true, WALLS_NFM);
     struct scene_body *b = c.run.scene.bodies;
     c.run.scene.nbodies = 1;
@@ -574,9 +548,8 @@ static void motion(void **state)
 }
 
 /* Nothing flows yet when the first lattice is rearranged, with a free surface or without. */
-static void packing_moves_the_lattice(void **state)
+TEST(packing_moves_the_lattice)
 {
-    (void)state;
     for (int surface = 0; surface <= 1; surface++) {
         struct sph_case c;
         double most = 0.0;
@@ -595,15 +568,3 @@ static void packing_moves_the_lattice(void **state)
         sph_free(&c.s);
     }
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(gamma_agrees_with_the_table),
-               cmocka_unit_test(moments_are_integrals),
-               cmocka_unit_test(points_miss_gamma_before_them),
-               cmocka_unit_test(points_are_of_second_order),
-               cmocka_unit_test(gamma_rises_with_the_wall), cmocka_unit_test(eigenvalues),
-               cmocka_unit_test(surface_is_found), cmocka_unit_test(the_shift_is_workless),
-               cmocka_unit_test(body_in_still_water), cmocka_unit_test(sharp_tips_leave_room),
-               cmocka_unit_test(gauge_reads_mean), cmocka_unit_test(motion),
-               cmocka_unit_test(laplacian_at_a_wall), cmocka_unit_test(mass_is_kept),
-               cmocka_unit_test(packing_moves_the_lattice), cmocka_unit_test(water_at_rest_stays),
-               cmocka_unit_test(ranks_agree), cmocka_unit_test(restart_is_exact))

@@ -117,9 +117,8 @@ static void waves_obey_the_equations(int kind, int up, double sign)
     sph_free(&c.s);
 }
 
-static void under_any_gravity(void **state)
+TEST(under_any_gravity)
 {
-    (void)state;
     waves_obey_the_equations(WAVE_REGULAR, 1, 1.0);
     waves_obey_the_equations(WAVE_REGULAR, 1, -1.0);
     waves_obey_the_equations(WAVE_REGULAR, 0, 1.0);
@@ -129,11 +128,10 @@ static void under_any_gravity(void **state)
 }
 
 /* Volume through a vertical over a period, by Simpson's rule over heights and a mean over times. */
-static void the_mean_discharge_is_the_current_s(void **state)
+TEST(the_mean_discharge_is_the_current_s)
 {
     enum { TIMES = 40, PARTS = 32 };
     struct sph_case c;
-    (void)state;
     struct sph *s = start(&c, WAVE_REGULAR, 1, 1.0);
     const double T = 1.1149;
     double sum = 0.0, x[3], u[2], p, phi, g3[3];
@@ -151,6 +149,3 @@ static void the_mean_discharge_is_the_current_s(void **state)
     assert_close(sum, current * depth, 2e-3);
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(under_any_gravity),
-               cmocka_unit_test(the_mean_discharge_is_the_current_s))

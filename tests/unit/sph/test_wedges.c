@@ -15,15 +15,8 @@ static const double depth = 0.8, radius = 0.2;
 static struct sph *tank(struct sph_case *c, double low, bool block)
 {
     static const double box[4][2] = {{0.3, 0.0}, {0.3, 0.4}, {0.7, 0.4}, {0.7, 0.0}};
-    sph_case_set(c, 2, CELLS);
-    struct scene *e = &c->run.scene;
-    e->fluid.nu = 0.0;
-    e->fluid.gravity[1] = -9.81;
-    e->initial.field = FIELD_REST;
-    e->domain.periodic[0] = e->domain.periodic[1] = false;
-    e->nwalls = 3;
-    for (int k = 0; k < 3; k++)
-        e->walls[k].side = SIDE_X_MIN + k;
+    struct scene *e = sph_case_tank(c, CELLS, 9.81, 3);
+    e->initial.level = 0.0;
     e->nshapes = 1;
     e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = depth};
     e->nbodies = 1;
@@ -51,11 +44,10 @@ static void press(struct sph *s, double body[2], double walls[2])
 
 /* Where a disc stands the water below it bears it: by no more than its pressure on the floor over
  * the width above which the gap is 3 dx. */
-static void disc_on_the_floor_is_borne(void **state)
+TEST(disc_on_the_floor_is_borne)
 {
     struct sph_case c;
     double on[2], back[2];
-    (void)state;
     struct sph *s = tank(&c, 0.0, false);
     const double gap = 3.0 / CELLS, width = 2.0 * sqrt(gap * (2.0 * radius - gap));
     press(s, on, back);
@@ -67,10 +59,9 @@ static void disc_on_the_floor_is_borne(void **state)
 }
 
 /* No water is below a block on the floor; a disc above it has particles all round. Neither asks. */
-static void others_have_none(void **state)
+TEST(others_have_none)
 {
     struct sph_case c;
-    (void)state;
     assert_int_equal(tank(&c, 0.0, true)->walls->nwedges, 0);
     sph_free(&c.s);
     assert_int_equal(tank(&c, 4.0 / CELLS, false)->walls->nwedges, 0);
@@ -79,10 +70,9 @@ static void others_have_none(void **state)
 
 /* Of a plane floor: half of the kernel on it, nothing from R on; in the corner with a side three
  * quarters; and as much from a place just behind it. */
-static void shares_of_planes(void **state)
+TEST(shares_of_planes)
 {
     struct sph_case c;
-    (void)state;
     struct sph *s = tank(&c, 4.0 / CELLS, false);
     const double e = 1e-9, R = s->R;
     assert_close(wall_share(s, -1, (const double[3]){0.5, e}), 0.5, 1e-6);
@@ -94,10 +84,9 @@ static void shares_of_planes(void **state)
 
 /* Forces of pairs on either side of a slit of height h, of p at their middle, are those of p at the
  * upper face and rho g h/2 more for both: over the kernel's part behind the floor, g h times it. */
-static void weight_in_a_slit(void **state)
+TEST(weight_in_a_slit)
 {
     struct sph_case c;
-    (void)state;
     struct sph *s = tank(&c, 0.0, true);
     for (int k = 1; k < 8; k++) {
         const double h = k * s->R / 10.0, x[3] = {0.5, h, 0.0}, up[3] = {0.0, 1.0, 0.0};
@@ -109,6 +98,3 @@ static void weight_in_a_slit(void **state)
     }
     sph_free(&c.s);
 }
-
-TESTS_WITH_MPI(cmocka_unit_test(disc_on_the_floor_is_borne), cmocka_unit_test(others_have_none),
-               cmocka_unit_test(shares_of_planes), cmocka_unit_test(weight_in_a_slit))

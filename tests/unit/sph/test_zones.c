@@ -97,27 +97,24 @@ static void check_flow(int dim, double u, double v, double least, int steps)
 
 /* Births ahead, removals behind: what a flow through a box at rest does, a box does that moves
  * through the fluid. */
-static void a_box_moves_through_the_fluid(void **state)
+TEST(a_box_moves_through_the_fluid)
 {
-    (void)state;
     check_moving(2, 0.0, 0.0, (const double[2]){-0.9, 0.0}, 1.0 - 1e-9, 60);
     check_moving(2, 0.3, 0.0, (const double[2]){1.0, 0.6}, 0.5, 120);
     check_moving(3, 0.0, 0.0, (const double[2]){0.0, 1.0}, 1.0 - 1e-9, 25);
 }
 
 /* Along the lattice, births make the same lattice again, at any time step. */
-static void aligned_flow_keeps_the_lattice(void **state)
+TEST(aligned_flow_keeps_the_lattice)
 {
-    (void)state;
     check_flow(2, 1.0, 0.0, 1.0 - 1e-9, 60);
     if (!SANITIZED)
         check_flow(2, 0.0, -0.7, 1.0 - 1e-9, 60);
     check_flow(3, 1.0, 0.0, 1.0 - 1e-9, 25);
 }
 
-static void oblique_flow_leaves_no_clusters(void **state)
+TEST(oblique_flow_leaves_no_clusters)
 {
-    (void)state;
     check_flow(2, 0.8, 0.6, 0.5, 120);
     if (!SANITIZED)
         check_flow(2, -0.3, 0.9, 0.5, 120);
@@ -156,9 +153,8 @@ static double carried(double u, double v, bool boxed)
 /* What comes in through open sides disturbs no more than SPH by itself errs. With volumes dx^D that
  * the packing did not have it was 2.3 times that, with no more shift in the zones than elsewhere
  * 1.2 times where the flow is swift. */
-static void vortices_come_in_undisturbed(void **state)
+TEST(vortices_come_in_undisturbed)
 {
-    (void)state;
     static const double of[][2] = {{0.6, 0.25}, {0.3, -2.0}};
     for (int k = 0; k < (SANITIZED || !is_alone() ? 0 : 2); k++) {
         const double alone = carried(of[k][0], of[k][1], false),
@@ -173,9 +169,8 @@ enum { TRAVEL = SANITIZED ? 1 : 10 }; /* dx */
 
 /* Threshold 1 and birth dx/2 inside: one column born for each dx of travel, with the mass of a
  * particle. */
-static void one_birth_a_face_and_spacing(void **state)
+TEST(one_birth_a_face_and_spacing)
 {
-    (void)state;
     struct sph_case c;
     struct sph *s = start(&c, 2, 1.0, 0.0);
     double born = 0.0, gone = 0.0;
@@ -228,9 +223,8 @@ static double columns(int births, double way, double *off)
 
 /* At vertices, on the side, with half of the mass [6.12]: columns come half a spacing earlier and
  * stand, a whole one from the last, in rows between those of the lattice. */
-static void vertices_shift_the_lattice(void **state)
+TEST(vertices_shift_the_lattice)
 {
-    (void)state;
     double off[2] = {0.0, 0.0};
     assert_close(columns(BIRTHS_FACES, TRAVEL + 0.75, off), TRAVEL, 0.0);
     assert_close(off[0], 0.5, 1e-9);
@@ -241,9 +235,8 @@ static void vertices_shift_the_lattice(void **state)
 
 /* [6.8]: what is blended in is the depth into the transition over its width; across a side half of
  * it, for one of two characteristics leaves as it was. */
-static void blending_follows_the_depth(void **state)
+TEST(blending_follows_the_depth)
 {
-    (void)state;
     struct sph_case c;
     struct sph *s = start(&c, 2, 1.0, 0.0);
     for (int i = 0; i < s->p.n; i++)
@@ -266,9 +259,8 @@ static void blending_follows_the_depth(void **state)
 
 /* coupling.blend = all, for comparison [6.7-6.8]: at any side both p and u are means of within, at
  * rest under 10 Pa, and outside, where u is 1 m/s and p is 0. */
-static void all_is_blended_on_request(void **state)
+TEST(all_is_blended_on_request)
 {
-    (void)state;
     struct sph_case c;
     struct sph *s = start(&c, 2, 1.0, 0.0);
     c.run.scene.coupling.blend = BLEND_ALL;
@@ -291,9 +283,8 @@ static void all_is_blended_on_request(void **state)
 
 /* A box that reaches the domain's sides: there it ends, below a surface or at a partner's wall, and
  * only the sides inside the domain are open. */
-static void sides_of_the_domain_stay_closed(void **state)
+TEST(sides_of_the_domain_stay_closed)
 {
-    (void)state;
     struct sph_case c;
     double lo[3], hi[3];
     sph_case_set(&c, 2, 25);
@@ -327,9 +318,8 @@ static void sides_of_the_domain_stay_closed(void **state)
 }
 
 /* Mass that blending made is answered by the pressure outside, ten times its weight. */
-static void gauge_is_the_level_inside_and_weighs_the_missing_mass(void **state)
+TEST(gauge_is_the_level_inside_and_weighs_the_missing_mass)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 50);
     struct scene *e = &c.run.scene;
@@ -356,9 +346,8 @@ static void gauge_is_the_level_inside_and_weighs_the_missing_mass(void **state)
 
 /* A void that went out leaves a face with the mass of 20 particles booked that never came: 20
  * particles leave the region for it, by all faces, at the rate that drains it in 50 R/c0. */
-static void what_voids_left_is_drained(void **state)
+TEST(what_voids_left_is_drained)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 25);
     struct scene *e = &c.run.scene;
@@ -419,9 +408,8 @@ static struct diagnosis judge(struct sph *s)
 
 /* The overlap is sound where both flows agree; another velocity, another pressure and a surface in
  * the zones end the run, each by its name. */
-static void the_overlap_is_watched(void **state)
+TEST(the_overlap_is_watched)
 {
-    (void)state;
     struct sph_case c;
     sph_case_set(&c, 2, 25);
     struct scene *e = &c.run.scene;
@@ -469,10 +457,9 @@ static void the_overlap_is_watched(void **state)
 
 /* What faces wait for stays theirs where the outside has a surface, also before it is known: a
  * restart. */
-static void voids_wait_where_a_surface_crosses(void **state)
+TEST(voids_wait_where_a_surface_crosses)
 {
     struct sph_case c;
-    (void)state;
     struct sph *s = start(&c, 2, 1.0, 0.0);
     struct openings *o = s->zones->openings;
     struct free_surface none = {0};
@@ -508,9 +495,8 @@ static void stand(struct sph *s, double way)
 /* Behind one of constant speed it does not lag; it stays within the domain, and rests where there
  * is none. */
 /* A bed rises through both open sides: their faces are cut off below it, however deep. */
-static void faces_end_at_a_bed(void **state)
+TEST(faces_end_at_a_bed)
 {
-    (void)state;
     for (int k = 0; k < 6; k++) {
         struct sph_case c;
         const double low = 0.05 + 0.06 * k, high = 0.45 - 0.03 * k;
@@ -541,12 +527,11 @@ static void faces_end_at_a_bed(void **state)
     }
 }
 
-static void a_box_goes_with_a_crest(void **state)
+TEST(a_box_goes_with_a_crest)
 {
     static const bool along[3] = {true, false, false};
     struct sph_case c;
     double way[3] = {0.0, 0.0, 0.0}, t = 0.0;
-    (void)state;
     struct sph *s = start(&c, 2, 0.0, 0.0);
     c.run.scene.fluid.gravity[1] = -1.0;
     c.run.scene.initial.level = 0.5;
@@ -572,28 +557,4 @@ static void a_box_goes_with_a_crest(void **state)
         box_tracking_step(s, 0.01, along, way);
     assert_true(fabs(way[0] - there) < 0.5 * s->dx);
     sph_free(&c.s);
-}
-
-int main(int argc, char **argv)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_goes_with_a_crest),
-        cmocka_unit_test(faces_end_at_a_bed),
-        cmocka_unit_test(voids_wait_where_a_surface_crosses),
-        cmocka_unit_test(aligned_flow_keeps_the_lattice),
-        cmocka_unit_test(oblique_flow_leaves_no_clusters),
-        cmocka_unit_test(a_box_moves_through_the_fluid),
-        cmocka_unit_test(vortices_come_in_undisturbed),
-        cmocka_unit_test(vertices_shift_the_lattice),
-        cmocka_unit_test(one_birth_a_face_and_spacing),
-        cmocka_unit_test(blending_follows_the_depth),
-        cmocka_unit_test(all_is_blended_on_request),
-        cmocka_unit_test(sides_of_the_domain_stay_closed),
-        cmocka_unit_test(gauge_is_the_level_inside_and_weighs_the_missing_mass),
-        cmocka_unit_test(what_voids_left_is_drained),
-        cmocka_unit_test(the_overlap_is_watched)};
-    MPI_Init(&argc, &argv);
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-    MPI_Finalize();
-    return failed;
 }
