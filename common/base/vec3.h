@@ -46,6 +46,15 @@ static inline double vec3_distance(const double *a, const double *b)
     return vec3_length(d);
 }
 
+/* The square of the distance between two points of dim coordinates. */
+static inline double vec_distance2(int dim, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int k = 0; k < dim; k++)
+        sum += (b[k] - a[k]) * (b[k] - a[k]);
+    return sum;
+}
+
 /* Makes a unit vector of a and returns the length it had; a zero vector stays zero. */
 static inline double vec3_unit(double *a)
 {

@@ -162,17 +162,20 @@ void trimesh_connect(struct trimesh *m)
 
 /* Swapping vertices 1 and 2 turns the normal; sides 0 and 2 change places with them, side 1
  * stays. */
+void trimesh_turn_one(struct trimesh *m, int t)
+{
+    const int v = m->vertex[t][1], q = m->neighbour[t][0];
+    m->vertex[t][1] = m->vertex[t][2];
+    m->vertex[t][2] = v;
+    m->neighbour[t][0] = m->neighbour[t][2];
+    m->neighbour[t][2] = q;
+}
+
 void trimesh_turn(struct trimesh *m, int part)
 {
-    for (int t = 0; t < m->ntriangles; t++) {
-        if (part >= 0 && m->part[t] != part)
-            continue;
-        const int v = m->vertex[t][1], q = m->neighbour[t][0];
-        m->vertex[t][1] = m->vertex[t][2];
-        m->vertex[t][2] = v;
-        m->neighbour[t][0] = m->neighbour[t][2];
-        m->neighbour[t][2] = q;
-    }
+    for (int t = 0; t < m->ntriangles; t++)
+        if (part < 0 || m->part[t] == part)
+            trimesh_turn_one(m, t);
 }
 
 /* --- measures --- */

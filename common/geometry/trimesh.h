@@ -35,8 +35,10 @@ void trimesh_connect(struct trimesh *m);
 /* Adds copies of the triangles of `more' to m; vertices are not joined. The mesh must be connected
  * anew. */
 void trimesh_append(struct trimesh *m, const struct trimesh *more);
-/* Reverses the normals of one part, or of all (part -1), and keeps the neighbours up to date. */
+/* Reverses the normals of one part, or of all (part -1), or of one triangle, and keeps the
+ * neighbours up to date. */
 void trimesh_turn(struct trimesh *m, int part);
+void trimesh_turn_one(struct trimesh *m, int triangle);
 /* Bounding box of the vertices, m; without vertices lo = INFINITY, hi = -INFINITY. */
 void trimesh_bounds(const struct trimesh *m, double lo[3], double hi[3]);
 /* Sets the unit normal n of a triangle (0 if it has no area) and returns its area, m^2. */

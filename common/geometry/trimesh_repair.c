@@ -172,15 +172,6 @@ static bool same_sense(const struct trimesh *m, int t, int k)
     return false;
 }
 
-static void turn_one(struct trimesh *m, int t)
-{
-    const int v = m->vertex[t][1], q = m->neighbour[t][0];
-    m->vertex[t][1] = m->vertex[t][2];
-    m->vertex[t][2] = v;
-    m->neighbour[t][0] = m->neighbour[t][2];
-    m->neighbour[t][2] = q;
-}
-
 /* Walks over the neighbours of one part from its first triangle; who[]: the part's triangles. Fewer
  * are turned than not. Returns the number turned. Breadth first: who[] is the queue, and in the end
  * the list of the part's triangles. */
@@ -196,13 +187,13 @@ static int orient_part(struct trimesh *m, int first, int *who, bool *seen)
                 continue;
             const bool against = same_sense(m, t, k);
             if (against)
-                turn_one(m, q);
+                trimesh_turn_one(m, q);
             count += against;
             seen[q] = true;
             who[n++] = q;
         }
     for (int i = 0; 2 * count > n && i < n; i++)
-        turn_one(m, who[i]);
+        trimesh_turn_one(m, who[i]);
     return 2 * count > n ? n - count : count;
 }
 

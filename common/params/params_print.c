@@ -211,22 +211,15 @@ static void print_text(char *to, size_t size, const char *text)
     to[n] = '\0';
 }
 
-static void print_points(char *to, size_t size, const struct param_points *p)
+/* n points x[n][dim] as ((x, y), ..), as many as fit in. */
+static void print_points(char *to, size_t size, int n, int dim, const double *x)
 {
-    size_t n = (size_t)snprintf(to, size, "(");
-    for (int k = 0; k < p->n && n + 80 < size; k++)
-        n += (size_t)snprintf(to + n, size - n, "%s(%.17g, %.17g)", k ? ", " : "", p->x[k][0],
-                              p->x[k][1]);
-    snprintf(to + n, size - n, ")");
-}
-
-static void print_places(char *to, size_t size, const struct param_places *p)
-{
-    size_t n = (size_t)snprintf(to, size, "(");
-    for (int k = 0; k < p->n && n + 100 < size; k++)
-        n += (size_t)snprintf(to + n, size - n, "%s(%.17g, %.17g, %.17g)", k ? ", " : "",
-                              p->x[k][0], p->x[k][1], p->x[k][2]);
-    snprintf(to + n, size - n, ")");
+    size_t at = (size_t)snprintf(to, size, "(");
+    for (int k = 0; k < n && at + 40 + 20 * (size_t)dim < size; k++)
+        for (int a = 0; a < dim; a++)
+            at += (size_t)snprintf(to + at, size - at, "%s%s%.17g%s", k || a ? ", " : "",
+                                   a ? "" : "(", x[dim * k + a], a == dim - 1 ? ")" : "");
+    snprintf(to + at, size - at, ")");
 }
 
 /* Value as libconfig text. */
@@ -266,10 +259,12 @@ static void print_value(char *to, size_t size, const struct param *r, const void
                       ((const struct param_numbers *)(const void *)at)->n);
         break;
     case PARAM_POINTS:
-        print_points(to, size, (const struct param_points *)(const void *)at);
+        print_points(to, size, ((const struct param_points *)(const void *)at)->n, 2,
+                     (const double *)(const void *)(at + offsetof(struct param_points, x)));
         break;
     case PARAM_PLACES:
-        print_places(to, size, (const struct param_places *)(const void *)at);
+        print_points(to, size, ((const struct param_places *)(const void *)at)->n, 3,
+                     (const double *)(const void *)(at + offsetof(struct param_places, x)));
         break;
     default:
         print_numbers(to, size, r, at, 3);

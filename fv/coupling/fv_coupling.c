@@ -229,22 +229,14 @@ void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])
     }
 }
 
-/* What the sources give, where their boxes stand. */
-static void given_boxes(const struct link *k, double box[PARTNERS_MAX][2][3])
+/* What the sources give, or all that they compute, where their boxes stand. */
+static void boxes_of(const struct link *k, bool all, double box[PARTNERS_MAX][2][3])
 {
     for (int q = 0; q < k->n; q++)
         for (int side = 0; side < 2; side++)
             for (int a = 0; a < 3; a++)
-                box[q][side][a] = k->of[q].given[side][a] + k->of[q].stands[a];
-}
-
-/* All that they compute, where their boxes stand. */
-static void all_boxes(const struct link *k, double box[PARTNERS_MAX][2][3])
-{
-    for (int q = 0; q < k->n; q++)
-        for (int side = 0; side < 2; side++)
-            for (int a = 0; a < 3; a++)
-                box[q][side][a] = k->of[q].box[side][a] + k->of[q].stands[a];
+                box[q][side][a] =
+                    (all ? k->of[q].box : k->of[q].given)[side][a] + k->of[q].stands[a];
 }
 
 void coupling_refuse(const struct fv *s, const char *reason) { refuse(s->link, reason); }
@@ -254,7 +246,7 @@ static void make_patch(struct fv *s, struct link *k, const double (*given)[2][3]
 {
     double box[PARTNERS_MAX][2][3], where[3];
     char reason[500];
-    all_boxes(k, box);
+    boxes_of(k, true, box);
     if (patch_create(s, k->n, (const double(*)[2][3])box, given, &k->patch, where))
         return;
     snprintf(reason, sizeof reason,
@@ -269,7 +261,7 @@ static void compare_walls(struct fv *s, const struct link *k, const double (*giv
 {
     double box[PARTNERS_MAX][2][3];
     char why[400];
-    all_boxes(k, box);
+    boxes_of(k, true, box);
     if (!shared_walls_agree(s, k->n, given, (const double(*)[2][3])box, why, sizeof why))
         refuse(k, why);
 }
@@ -375,7 +367,7 @@ void fv_coupling_create(struct fv *s)
 {
     struct link *k = s->link;
     double all[PARTNERS_MAX][2][3];
-    given_boxes(k, all);
+    boxes_of(k, false, all);
     if (s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2])
         moved_box_prepare(s, (const double(*)[2][3])all);
     s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
@@ -602,7 +594,7 @@ void coupling_summary(const struct fv *s, struct summary *to)
 static void move_patch(struct fv *s, struct link *k, const double (*given)[2][3])
 {
     double box[PARTNERS_MAX][2][3], where[3];
-    all_boxes(k, box);
+    boxes_of(k, true, box);
     if (!patch_renew(s, k->n, (const double(*)[2][3])box, given, &k->patch, where))
         snprintf(k->lost, sizeof k->lost,
                  "sph needs the flow at (%g, %g, %g) m, and no block computes it there", where[0],
@@ -618,7 +610,7 @@ static bool stand(struct fv *s)
         for (int side = 0; side < 2; side++)
             for (int a = 0; a < 3; a++)
                 s->partners.box[q][side][a] = k->of[q].free[side][a] + k->of[q].stands[a];
-    given_boxes(k, box);
+    boxes_of(k, false, box);
     const bool moved = moved_box(s, k->n, (const double(*)[2][3])box, k->lost);
     if (moved && s->m && !*k->lost)
         move_patch(s, k, (const double(*)[2][3])box);

@@ -129,12 +129,8 @@ static void keep_made(struct mesh_block *b)
 /* Distance of the farthest vertex from the centre, m: the rotation's part of `speed'. */
 static void set_reach(struct mesh_motion *v, const struct mesh_block *b, int dim)
 {
-    for (int64_t k = 0; k < vertices(b); k++) {
-        double r2 = 0.0;
-        for (int c = 0; c < dim; c++)
-            r2 += (b->x[k][c] - v->centre[c]) * (b->x[k][c] - v->centre[c]);
-        v->reach = fmax(v->reach, sqrt(r2));
-    }
+    for (int64_t k = 0; k < vertices(b); k++)
+        v->reach = fmax(v->reach, sqrt(vec_distance2(dim, b->x[k], v->centre)));
 }
 
 /* Whether any term of the motion rotates; of a file any number of its columns of angles. */

@@ -18,9 +18,8 @@
 #include "blocked_cells.h"
 #include "operators.h"
 
-/* out = q on the lower faces along the stride, for a row of n cells. Fourth order for averages of
- * even cells; the compiler vectorises it. */
-static void face_row(const double *restrict q, int64_t along, int64_t n, double *restrict out)
+/* Fourth order for averages of even cells; the compiler vectorises it. */
+void convection_face_row(const double *restrict q, int64_t along, int64_t n, double *restrict out)
 {
     for (int64_t i = 0; i < n; i++)
         out[i] = (7.0 * (q[i - along] + q[i]) - (q[i - 2 * along] + q[i + along])) * (1.0 / 12.0);
@@ -45,12 +44,11 @@ void convection_face_values(const struct fv *s, const double *q, int a, double *
             weighted_row(q + c, b->rows->face[j], b->stride[a], n, out + c);
     else
         BLOCK_NEAR (s, 1, c, n)
-            face_row(q + c, b->stride[a], n, out + c);
+            convection_face_row(q + c, b->stride[a], n, out + c);
 }
 
-/* Adds the upwind bias to face values of a row of n faces; C is fv.upwind. */
-static void bias_row(const double *restrict q, const double *restrict U, int64_t along, int64_t n,
-                     double C, double *restrict out)
+void convection_bias_row(const double *restrict q, const double *restrict U, int64_t along,
+                         int64_t n, double C, double *restrict out)
 {
     for (int64_t i = 0; i < n; i++) {
         const double a = q[i - along] - q[i - 2 * along], b = q[i] - q[i - along],
@@ -140,7 +138,8 @@ void convection(struct fv *s, double *const N[3])
             convection_face_values(s, s->u[q], a, s->faces[0]);
             if (s->prm.upwind > 0.0)
                 BLOCK_NEAR (s, 1, c, n)
-                    bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind, s->faces[0] + c);
+                    convection_bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind,
+                                        s->faces[0] + c);
             if (s->blocked)
                 blocked_faces(s, q, a, s->u[q], s->U[a], s->prm.upwind, s->faces[0]);
             convection_beside_walls(s, a, s->faces[0]);

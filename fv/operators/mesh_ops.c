@@ -34,33 +34,13 @@ static int tangents(const struct part *p, int dim, int a, int64_t d[2], int axis
     return n;
 }
 
-/* Face values of a row of n faces with stride s. */
-static void face_row(const double *restrict q, int64_t s, int64_t n, double *restrict out)
-{
-    for (int64_t i = 0; i < n; i++)
-        out[i] = (7.0 * (q[i - s] + q[i]) - (q[i - 2 * s] + q[i + s])) * (1.0 / 12.0);
-}
-
 /* Face values of q on the lower faces along a of a part, with t layers of tangents. */
 static void face_values(const struct part *p, int dim, int a, int t, const double *q, double *out)
 {
     int down[3], up[3];
     layers(dim, a, t, down, up);
     PART_ROWS (p, down, up, c, n)
-        face_row(q + c, p->stride[a], n, out + c);
-}
-
-/* See convection.c. */
-static void bias_row(const double *restrict q, const double *restrict U, int64_t s, int64_t n,
-                     double C, double *restrict out)
-{
-    for (int64_t i = 0; i < n; i++) {
-        const double a = q[i - s] - q[i - 2 * s], b = q[i] - q[i - s], c = q[i + s] - q[i],
-                     d = a - 2.0 * b + c;
-        const double r = fabs(d) / (fabs(a) + 2.0 * fabs(b) + fabs(c) + 1e-300);
-        const double theta = C * r * r < 1.0 ? C * r * r : 1.0; /* fmin would be called */
-        out[i] += copysign(theta * (1.0 / 12.0), U[i]) * d;
-    }
+        convection_face_row(q + c, p->stride[a], n, out + c);
 }
 
 /* F += eps |U| times the third difference of q, |U| smooth where it is small beside U0 |S|.
@@ -261,8 +241,8 @@ void mesh_convection(struct fv *s, double *const N[3])
                 layers(m->dim, a, 1, down, up);
                 if (s->prm.upwind > 0.0)
                     PART_ROWS (p, down, up, c, n)
-                        bias_row(s->u[k] + c, U[a] + c, p->stride[a], n, s->prm.upwind,
-                                 s->faces[0] + c);
+                        convection_bias_row(s->u[k] + c, U[a] + c, p->stride[a], n, s->prm.upwind,
+                                            s->faces[0] + c);
                 mesh_bc_beside_walls(s, p, a, s->faces[0]);
                 layers(m->dim, a, 0, down, up);
                 PART_ROWS (p, down, up, c, n)

@@ -9,6 +9,11 @@
 /* convection.c: N_a = (sum over faces of F)/h, F = U q with transverse corrections; needs u with
  * ghosts, and U. */
 void convection(struct fv *s, double *const N[3]);
+/* q on the lower faces of a row of n even cells, `along' the stride to the cell below; bias_row
+ * adds the upwind bias, C is fv.upwind. */
+void convection_face_row(const double *q, int64_t along, int64_t n, double *out);
+void convection_bias_row(const double *q, const double *U, int64_t along, int64_t n, double C,
+                         double *out);
 /* q on the lower faces along axis a of all cells and one layer more. */
 void convection_face_values(const struct fv *s, const double *q, int a, double *out);
 /* U = I(u).n on all faces that this rank's stencils see. */

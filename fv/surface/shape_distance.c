@@ -122,9 +122,7 @@ static double polygon(const struct fv *s, const struct param_points *p, const do
 
 static double shape(const struct fv *s, const struct scene_shape *h, const double *x)
 {
-    double r2 = 0.0;
-    for (int a = 0; a < s->dim; a++)
-        r2 += (x[a] - h->centre[a]) * (x[a] - h->centre[a]);
+    const double r2 = vec_distance2(s->dim, x, h->centre);
     switch (h->form) {
     case SHAPE_BOX:
         return box(s, h, x);

@@ -405,15 +405,14 @@ static double density_near(const struct sph *q, const struct fill *f, const doub
     double still[3], level = NAN, least = INFINITY;
     for (int k = 0; k < (q->dim == 3 ? 27 : 9); k++) {
         const int way[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - (q->dim == 3)};
-        double y[3] = {0.0, 0.0, 0.0}, d2 = 0.0;
+        double y[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < q->dim; a++)
             y[a] = x[a] + way[a] * l->dx;
         const int64_t cell = lattice_find(l, q->dim, y);
         if (cell < 0 || !lattice_has(l, cell))
             continue;
         lattice_place(l, cell, q->dim, y);
-        for (int a = 0; a < q->dim; a++)
-            d2 += (y[a] - x[a]) * (y[a] - x[a]);
+        const double d2 = vec_distance2(q->dim, x, y);
         if (d2 < least)
             level = level_of(q, f->basins, cell);
         least = fmin(least, d2);

@@ -33,10 +33,7 @@ static double shift2(const struct sph *s, int i)
     const int dim = s->dim;
     const double *u = prim_line(&s->p, i) + dim;
     const double *u0 = slope_line(&s->p, i) + dim + dim * dim;
-    double sum = 0.0;
-    for (int a = 0; a < dim; a++)
-        sum += (u0[a] - u[a]) * (u0[a] - u[a]);
-    return sum;
+    return vec_distance2(dim, u0, u);
 }
 
 static void move(struct sph *s, double dt)

@@ -159,9 +159,7 @@ static bool crowded(const struct birth_strip *t, const struct openings *o, const
         for (off[1] = -1; off[1] <= 1; off[1]++)
             for (off[0] = -1; off[0] <= 1; off[0]++)
                 for (int k = t->head[strip_cell(t, o, x, off)]; k >= 0; k = t->next[k]) {
-                    double r2 = 0.0;
-                    for (int a = 0; a < o->dim; a++)
-                        r2 += (x[a] - t->x[k][a]) * (x[a] - t->x[k][a]);
+                    const double r2 = vec_distance2(o->dim, x, t->x[k]);
                     if (r2 < least2)
                         return true;
                 }

@@ -113,11 +113,8 @@ double box_motion_speed(const struct run *r, const struct sph_params *prm)
     if (!box_motion_foretold(r, prm, 0.0, before))
         return prm->speed.speed;
     for (int k = 1; k <= TIMES; k++) {
-        double d2 = 0.0;
         box_motion_foretold(r, prm, k * step, now);
-        for (int a = 0; a < 3; a++)
-            d2 += (now[a] - before[a]) * (now[a] - before[a]);
-        most = fmax(most, sqrt(d2) / step);
+        most = fmax(most, vec3_distance(before, now) / step);
         memcpy(before, now, sizeof now);
     }
     return most;

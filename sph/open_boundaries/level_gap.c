@@ -153,9 +153,7 @@ static void add_particle(const struct sph *s, struct gap_columns *c, const doubl
     for (int j = first; j <= last; j++)
         for (int i = i0 > more ? i0 - more : 0; i <= i0 + more && i < c->n[0]; i++) {
             const int k = i + c->n[0] * j;
-            double r2 = 0.0;
-            for (int b = 0; b < s->dim; b++)
-                r2 += (y[b] - c->x[k][b]) * (y[b] - c->x[k][b]);
+            const double r2 = vec_distance2(s->dim, y, c->x[k]);
             if (c->depth[k] > 0.0 && r2 < s->R * s->R)
                 c->share[k] += w * kernel_w(s->dim, sqrt(r2), s->R);
         }

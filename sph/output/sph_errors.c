@@ -115,10 +115,7 @@ static double least_among_particles(const struct sph *s)
         const double *x = prim_line(&s->p, i);
         const int *j = l->j + l->start[i];
         for (int k = l->tail[i]; k < l->count[i]; k++) {
-            const double *xj = prim_line(&s->p, j[k]);
-            double r2 = 0.0;
-            for (int a = 0; a < s->dim; a++)
-                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            const double r2 = vec_distance2(s->dim, x, prim_line(&s->p, j[k]));
             least = j[k] < real && r2 < least ? r2 : least;
         }
     }

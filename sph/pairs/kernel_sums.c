@@ -19,9 +19,7 @@ double kernel_sum(const struct sph *s, int i)
     double sum = x[at_volume(dim)] * kernel_w0(dim, s->R);
     for (int k = 0; k < s->list->count[i]; k++) {
         const double *q = prim_line(&s->p, j[k]);
-        double r2 = 0.0;
-        for (int a = 0; a < dim; a++)
-            r2 += (q[a] - x[a]) * (q[a] - x[a]);
+        const double r2 = vec_distance2(dim, q, x);
         sum += q[at_volume(dim)] * kernel_w(dim, sqrt(r2), s->R);
     }
     return sum;

@@ -279,9 +279,7 @@ static void add_close(const struct sph *s, int i, double close2)
     for (int k = l->tail[i]; k < l->count[i]; k++) {
         const int j = l->j[l->start[i] + k];
         const double *y = prim_line(&s->p, j);
-        double r2 = 0.0;
-        for (int a = 0; a < s->dim; a++)
-            r2 += (y[a] - x[a]) * (y[a] - x[a]);
+        const double r2 = vec_distance2(s->dim, y, x);
         if (r2 >= close2)
             continue;
         if (l->nclose == l->close_capacity) {
@@ -534,13 +532,8 @@ int64_t neighbours_pairs(const struct sph *s)
     for (int i = 0; i < l->n; i++) {
         const double *x = prim_line(&s->p, i);
         const int *j = l->j + l->start[i];
-        for (int k = 0; k < l->count[i]; k++) {
-            const double *xj = prim_line(&s->p, j[k]);
-            double r2 = 0.0;
-            for (int a = 0; a < s->dim; a++)
-                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
-            pairs += r2 < s->R * s->R;
-        }
+        for (int k = 0; k < l->count[i]; k++)
+            pairs += vec_distance2(s->dim, x, prim_line(&s->p, j[k])) < s->R * s->R;
     }
     return pairs;
 }

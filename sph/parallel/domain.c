@@ -202,23 +202,6 @@ static void cuts_changed(struct sph *s)
     }
 }
 
-/* Halves the node in proportion to its ranks, on a lattice face: what a uniform filling needs. */
-static void cut_evenly(struct sph *s, const struct domain_node *t)
-{
-    struct domain *d = s->domain;
-    if (t->end - t->first < 2)
-        return;
-    const int m = t->first + (t->end - t->first) / 2, a = longest_axis(t, d->dim);
-    const double share = (double)(m - t->first) / (t->end - t->first);
-    const double at = t->lo[a] + share * (t->hi[a] - t->lo[a]);
-    d->cuts[m - 1] = (struct domain_cut){a, d->lo[a] + s->dx * round((at - d->lo[a]) / s->dx)};
-    struct domain_node left = *t, right = *t;
-    left.end = right.first = m;
-    left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
-    cut_evenly(s, &left);
-    cut_evenly(s, &right);
-}
-
 /* Work of the node's particles in each bin of [lo, hi) along an axis, over all ranks; the first
  * bin also counts what lies below, the last what lies above. */
 static void count_bins(const struct sph *s, const struct domain_node *t, int axis, double lo,
@@ -272,24 +255,27 @@ static int split(const struct domain_node *t, const struct domain_cut *c)
     return n;
 }
 
-/* Cuts the node where its ranks' share of the work lies below, and then both halves. All ranks act
- * alike: the cut comes from reduced sums. */
-static void cut_by_work(struct sph *s, const struct domain_node *t)
+/* Cuts the node where its ranks' share of the work lies below, or evenly: of the volume, on a
+ * lattice face, as a uniform filling needs; then both halves. All ranks act alike: the cut comes
+ * from reduced sums. */
+static void cut(struct sph *s, const struct domain_node *t, bool evenly)
 {
     struct domain *d = s->domain;
     if (t->end - t->first < 2)
         return;
     const int m = t->first + (t->end - t->first) / 2, a = longest_axis(t, d->dim);
     const double share = (double)(m - t->first) / (t->end - t->first);
-    d->cuts[m - 1] = (struct domain_cut){a, quantile(s, t, a, share)};
+    const double at = evenly ? t->lo[a] + share * (t->hi[a] - t->lo[a]) : quantile(s, t, a, share);
+    d->cuts[m - 1] =
+        (struct domain_cut){a, evenly ? d->lo[a] + s->dx * round((at - d->lo[a]) / s->dx) : at};
     struct domain_node left = *t, right = *t;
     left.end = right.first = m;
     left.hi[a] = right.lo[a] = d->cuts[m - 1].at;
     left.n = split(t, d->cuts + m - 1);
     right.who = t->who + left.n;
     right.n = t->n - left.n;
-    cut_by_work(s, &left);
-    cut_by_work(s, &right);
+    cut(s, &left, evenly);
+    cut(s, &right, evenly);
 }
 
 /* The node of all ranks and the whole region. */
@@ -320,7 +306,7 @@ struct domain *domain_create(struct sph *s)
     if (s->coarser)
         memcpy(d->cuts, s->coarser->domain->cuts, (size_t)d->size * sizeof *d->cuts);
     else
-        cut_evenly(s, &t);
+        cut(s, &t, true);
     cuts_changed(s);
     return d;
 }
@@ -376,7 +362,7 @@ static void cut_anew(struct sph *s, int n, const double (*x)[3], const int *work
     t.who = NEW(int, n);
     for (int i = 0; i < n; i++)
         t.who[i] = i;
-    cut_by_work(s, &t);
+    cut(s, &t, false);
     mem_free(t.who);
     cuts_changed(s);
 }

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "box_union.h"
 
 /* Whether x lies in the room, faces included. */
@@ -24,10 +25,7 @@ static bool holds(const struct box *room, int dim, const double *x)
 /* Distance of two points, m. */
 static double distance(int dim, const double *a, const double *b)
 {
-    double sum = 0.0;
-    for (int k = 0; k < dim; k++)
-        sum += (a[k] - b[k]) * (a[k] - b[k]);
-    return sqrt(sum);
+    return sqrt(vec_distance2(dim, a, b));
 }
 
 /* A sphere in the axes that are not fixed; of the others foot has the coordinates already. */

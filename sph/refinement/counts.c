@@ -66,10 +66,7 @@ static int role_of(const struct sph *s, int i)
 /* Distance of two positions, m. */
 static double distance(int dim, const double *x, const double *y)
 {
-    double r2 = 0.0;
-    for (int a = 0; a < dim; a++)
-        r2 += (x[a] - y[a]) * (x[a] - y[a]);
-    return sqrt(r2);
+    return sqrt(vec_distance2(dim, x, y));
 }
 
 /* W(r)/W(0): 1 for a particle at the same place. */

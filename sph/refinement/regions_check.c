@@ -130,17 +130,12 @@ static void check_levels(const struct run *r, const struct apr_params *prm, stru
 {
     int most = 0;
     char key[80];
-    for (int k = 0; k < prm->regions.n; k++) {
-        const int level = prm->regions.of[k].level;
+    for (int k = 0; k < prm->regions.n + prm->criteria.n; k++) {
+        const int c = k - prm->regions.n;
+        const int level = c < 0 ? prm->regions.of[k].level : prm->criteria.of[c].level;
         most = level > most ? level : most;
-        snprintf(key, sizeof key, "apr.regions.[%d].level", k);
-        if (level > prm->levels)
-            params_fault(r->params, f, key, "%d is above apr.levels = %d", level, prm->levels);
-    }
-    for (int k = 0; k < prm->criteria.n; k++) {
-        const int level = prm->criteria.of[k].level;
-        most = level > most ? level : most;
-        snprintf(key, sizeof key, "apr.criteria.[%d].level", k);
+        snprintf(key, sizeof key, "apr.%s.[%d].level", c < 0 ? "regions" : "criteria",
+                 c < 0 ? k : c);
         if (level > prm->levels)
             params_fault(r->params, f, key, "%d is above apr.levels = %d", level, prm->levels);
     }

@@ -193,9 +193,7 @@ static void take_normal(const struct sph *s, struct free_surface *f, int i, int 
 {
     const int dim = s->dim;
     const double *x = prim_line(&s->p, i), *y = prim_line(&s->p, j);
-    double r2 = 0.0;
-    for (int a = 0; a < dim; a++)
-        r2 += (y[a] - x[a]) * (y[a] - x[a]);
+    const double r2 = vec_distance2(dim, y, x);
     const double W = kernel_w(dim, sqrt(r2), 1.05 * s->R);
     if (r2 < f->reach * f->reach)
         f->is[i] = SURFACE_NEAR;

@@ -68,9 +68,7 @@ static void rub_row(struct sph *s, const struct ghost_block *g, int i, double mu
             continue;
         const double *xj = prim_line(&s->p, j[k]);
         const double *rub = g->rub + (size_t)dim * (j[k] - first);
-        double r2 = 0.0;
-        for (int a = 0; a < dim; a++)
-            r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+        const double r2 = vec_distance2(dim, x, xj);
         const double t = fmax(1.0 - sqrt(r2) / s->R, 0.0),
                      f = factor * xj[at_volume(dim)] * t * t * t;
         for (int a = 0; a < dim; a++)

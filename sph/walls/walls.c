@@ -372,9 +372,7 @@ bool walls_put_back(struct sph *s, int i)
 {
     const double *y = state_row(&s->p, s->p.y, i);
     const struct wall_foot f = foot_of(s, y);
-    double away2 = 0.0;
-    for (int a = 0; a < s->dim; a++)
-        away2 += (y[a] - f.x[a]) * (y[a] - f.x[a]);
+    const double away2 = vec_distance2(s->dim, y, f.x);
     if (away2 > s->dx * s->dx || is_round_end(s, y)) {
         for (int a = 0; s->walls->gone == 0 && a < s->dim; a++)
             s->walls->gone_at[a] = y[a];

@@ -164,10 +164,7 @@ static double paired_of_level(const struct sph *s)
         const int *j = l->j + l->start[i];
         bool paired = false;
         for (int k = 0; k < l->count[i]; k++) {
-            const double *xj = prim_line(&s->p, j[k]);
-            double r2 = 0.0;
-            for (int a = 0; a < s->dim; a++)
-                r2 += (x[a] - xj[a]) * (x[a] - xj[a]);
+            const double r2 = vec_distance2(s->dim, x, prim_line(&s->p, j[k]));
             paired = paired || (r2 < near2 && j[k] < real);
         }
         n += paired;
