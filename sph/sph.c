@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "../coupler/cpl_partner.h"
 #include "bodies/sph_bodies.h"
@@ -198,10 +197,8 @@ static void warn_of_passage(const struct run *r, const struct sph_params *prm)
     if (r->scene.domain.dim == 3 || !prm->speed.moves ||
         !wall_thin_passage(&r->scene, SPH_PASSAGE * prm->dx, &t))
         return;
-    char where[320];
-    snprintf(where, sizeof where, "%s are %.3g m apart at (%g, %g)", t.what, t.width, t.at[0],
-             t.at[1]);
-    sph_passage_warn(where, t.width, prm->dx);
+    sph_passage_warn(key_text("%s are %.3g m apart at (%g, %g)", t.what, t.width, t.at[0], t.at[1]),
+                     t.width, prm->dx);
 }
 
 /* Pairs of a lattice transmit less than the pressure where the support is small (0.967 of it at

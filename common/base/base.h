@@ -7,6 +7,7 @@
 #include "digits.h"
 #include "exit.h"
 #include "fit.h"
+#include "key_text.h"
 #include "lanes.h"
 #include "log.h"
 #include "mem.h"

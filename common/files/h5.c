@@ -274,12 +274,10 @@ static struct h5_part rows_part(const struct h5 *f, int64_t n, int ncomp)
 /* In a restart file: how many records each rank wrote, one number a rank. */
 static void write_rows(struct h5 *f, const char *name, int64_t n)
 {
-    char rows[256];
     if (!f->restart)
         return;
-    snprintf(rows, sizeof rows, "%s_rows", name);
     const struct h5_part p = rows_part(f, 1, 1);
-    write_part(f, rows, NULL, &p, H5T_NATIVE_INT64, H5T_NATIVE_INT64, &n);
+    write_part(f, key_text("%s_rows", name), NULL, &p, H5T_NATIVE_INT64, H5T_NATIVE_INT64, &n);
 }
 
 void h5_write_real(struct h5 *f, const char *name, const char *unit, int64_t n, int ncomp,
@@ -351,11 +349,9 @@ static bool read_rows(struct h5 *f, const char *name, const struct h5_part *p, h
 
 int64_t h5_rows(struct h5 *f, const char *name)
 {
-    char rows[256];
     int64_t n = 0;
-    snprintf(rows, sizeof rows, "%s_rows", name);
     const struct h5_part p = rows_part(f, 1, 1);
-    return read_rows(f, rows, &p, H5T_NATIVE_INT64, &n) ? n : -1;
+    return read_rows(f, key_text("%s_rows", name), &p, H5T_NATIVE_INT64, &n) ? n : -1;
 }
 
 /* An equal share is [n r/size, n (r + 1)/size) in whole numbers: the shares of all ranks add up to
@@ -462,10 +458,8 @@ bool h5_read_parts(struct h5 *f, const char *name, int n, double *v)
 /* The counts of the writers become their running sum, each before its own records. */
 int64_t *h5_first_rows(struct h5 *f, const char *name)
 {
-    char rows[256];
     int64_t n;
-    snprintf(rows, sizeof rows, "%s_rows", name);
-    int64_t *first = h5_read_all_int(f, rows, &n), before = 0;
+    int64_t *first = h5_read_all_int(f, key_text("%s_rows", name), &n), before = 0;
     if (!first || n != f->ranks) {
         mem_free(first);
         return NULL;

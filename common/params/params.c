@@ -179,14 +179,13 @@ static struct override *override_of(struct params *p, const char *group, int ele
                                     const char *key)
 {
     struct override *found = NULL;
-    char whole[256], own[160];
+    char whole[256];
     if (element < 0)
         snprintf(whole, sizeof whole, "%s.%s", group, key);
     else
         snprintf(whole, sizeof whole, "%s.[%d].%s", group, element, key);
     for (int k = 0; k < p->noverrides; k++) {
-        snprintf(own, sizeof own, "%s.%s", p->overrides[k].group, p->overrides[k].key);
-        if (strcmp(own, whole) == 0) {
+        if (strcmp(key_text("%s.%s", p->overrides[k].group, p->overrides[k].key), whole) == 0) {
             found = p->overrides + k; /* the last one counts */
             found->used = true;
         }
@@ -476,10 +475,8 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
         for (int i = 0; i < p->ngroups; i++)
             if (strcmp(p->groups[i].name, o->group) == 0)
                 g = p->groups + i;
-        char word[80];
-        snprintf(word, sizeof word, " %s ", o->group);
         const size_t n = strlen(p->names);
-        if (!strstr(p->names, word))
+        if (!strstr(p->names, key_text(" %s ", o->group)))
             snprintf(p->names + n, sizeof p->names - n, "%s ", o->group);
         snprintf(place, sizeof place, "command line: -p %s: %s%s%s", o->text, o->group,
                  *o->key ? "." : "", o->key);
@@ -502,14 +499,12 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
 /* Keys of elements of lists that no list of the case has. */
 static void find_unused_overrides(const struct params *p, struct faults *f)
 {
-    char place[256];
     for (int k = 0; k < p->noverrides; k++) {
         const struct override *o = p->overrides + k;
         if (!o->known || o->used)
             continue;
-        snprintf(place, sizeof place, "command line: -p %s: %s.%s", o->text, o->group, o->key);
         params_add_fault(
-            f, place,
+            f, key_text("command line: -p %s: %s.%s", o->text, o->group, o->key),
             "no such element of a list in the case, or no such key: elements count from 0, as in "
             "walls.[0].kind, and must be there; the command line adds none");
     }
@@ -648,9 +643,7 @@ int params_programs(const struct params *p, const char *kind, char names[PARAM_P
 
 bool params_has_group(const struct params *p, const char *group)
 {
-    char word[80];
-    snprintf(word, sizeof word, " %s ", group);
-    return strstr(p->names, word) != NULL;
+    return strstr(p->names, key_text(" %s ", group)) != NULL;
 }
 
 unsigned long long params_hash(const struct params *p) { return p->hash; }
@@ -662,9 +655,7 @@ static const config_setting_t *value_of(const struct params *p, const char *name
     const char *key = key_of(p, name, buffer);
     for (int k = p->noverrides - 1; p->rank == 0 && k >= 0; k--) {
         const struct override *o = p->overrides + k;
-        char whole[160];
-        snprintf(whole, sizeof whole, "%s.%s", o->group, o->key);
-        if (strcmp(whole, key) == 0)
+        if (strcmp(key_text("%s.%s", o->group, o->key), key) == 0)
             return config_lookup(&o->cfg, "value");
     }
     return p->read ? config_lookup(&p->cfg, key) : NULL;

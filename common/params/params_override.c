@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../base/base.h"
 #include "params_hints.h"
 
 /* "accept=()", "bodies=({ ... })": a list or group as a whole. */
@@ -98,12 +99,11 @@ void override_graft(struct override *o, config_t *cfg, struct faults *f)
 {
     const config_setting_t *value = config_lookup(&o->cfg, "value");
     config_setting_t *root = config_root_setting(cfg);
-    char place[256];
     if (!*o->group || *o->key || !value)
         return;
     (void)config_setting_remove(root, o->group); /* it need not be there */
-    snprintf(place, sizeof place, "command line: -p %s", o->text);
     if (!copy(root, o->group, value))
-        params_add_fault(f, place, "`%s' is not the name of a group", o->group);
+        params_add_fault(f, key_text("command line: -p %s", o->text),
+                         "`%s' is not the name of a group", o->group);
     o->used = true;
 }

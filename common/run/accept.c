@@ -210,8 +210,7 @@ static void check_number(const struct scene *s, int k, const struct params *p, s
         {"height.", "gauge", {s->probes->name, sizeof *s->probes, s->nprobes}},
         {"reflection.", "group of gauges", {s->gauges->name, sizeof *s->gauges, s->ngauges}}};
     const char *what = s->accept[k].what;
-    char key[64];
-    snprintf(key, sizeof key, "accept.[%d].what", k);
+    const char *key = key_text("accept.[%d].what", k);
     if (is_probe(s, what))
         params_fault(p, f, key,
                      "%s is a gauge, a column of series.csv: give a reference to compare it with, "
@@ -234,8 +233,8 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
 {
     for (int k = 0; k < s->naccept; k++) {
         const struct scene_accept *a = s->accept + k;
-        char key[64], path[1024 + PARAM_TEXT_SIZE];
-        snprintf(key, sizeof key, "accept.[%d].reference", k);
+        char path[1024 + PARAM_TEXT_SIZE];
+        const char *key = key_text("accept.[%d].reference", k);
         if (!*a->reference) {
             check_number(s, k, p, f);
             continue;
@@ -266,12 +265,10 @@ static void check_gauges(const struct scene *s, const struct params *p, int n,
 {
     for (int k = 0; k < s->nprobes; k++) {
         int alike = 0;
-        char key[64];
         for (int i = 0; i < n; i++)
             alike += is_column(columns[i], s->probes[k].name);
-        snprintf(key, sizeof key, "probes.[%d].name", k);
         if (alike > 1)
-            params_fault(p, f, key,
+            params_fault(p, f, key_text("probes.[%d].name", k),
                          "%s: series.csv has a column of this name already: give the "
                          "gauge another",
                          s->probes[k].name);
@@ -289,7 +286,7 @@ void accept_check_columns(const struct scene *s, const struct params *p, int n,
         const struct scene_accept *a = s->accept + k;
         struct hint_nearest near = hint_nearest_start(a->what);
         bool found = !*a->reference; /* a number of the summary, which is made at the end */
-        char key[64], name[PARAM_TEXT_SIZE], word[PARAM_TEXT_SIZE] = "";
+        char name[PARAM_TEXT_SIZE], word[PARAM_TEXT_SIZE] = "";
         for (int i = 0; i < n && !found; i++) {
             found = is_column(columns[i], a->what);
             const int length = (int)strcspn(columns[i], "[");
@@ -301,8 +298,8 @@ void accept_check_columns(const struct scene *s, const struct params *p, int n,
         }
         if (found)
             continue;
-        snprintf(key, sizeof key, "accept.[%d].what", k);
-        params_fault(p, f, key, "series.csv of this run has no column %s%s%s%s", a->what,
+        params_fault(p, f, key_text("accept.[%d].what", k),
+                     "series.csv of this run has no column %s%s%s%s", a->what,
                      *word ? ": did you mean " : "", word, *word ? "?" : "");
     }
 }

@@ -6,7 +6,6 @@
 #include "crossing.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../scene/scene.h"
@@ -14,10 +13,8 @@
 bool crossing_box(const struct run *r, const char *group, double box[2][3])
 {
     static const char *const keys[] = {"box", "free"};
-    char key[80];
     for (int i = 0; i < 2; i++) {
-        snprintf(key, sizeof key, ":%.63s.%s", group, keys[i]);
-        if (params_peek_pair(r->params, r->comm, key, box))
+        if (params_peek_pair(r->params, r->comm, key_text(":%s.%s", group, keys[i]), box))
             return true;
     }
     return false;
@@ -93,14 +90,14 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
  * may lie in it for a while. Collective. */
 static bool any_moves(const struct run *r)
 {
-    char names[PARAM_PROGRAMS_MAX][64], key[96];
+    char names[PARAM_PROGRAMS_MAX][64];
     const int n = params_programs(r->params, "sph", names);
     bool moves = false;
     for (int k = 0; k < n; k++) {
-        snprintf(key, sizeof key, ":%.63s.box_velocity", names[k]);
-        moves = params_peek_any(r->params, r->comm, key) || moves;
-        snprintf(key, sizeof key, ":%.63s.box_follows", names[k]);
-        moves = params_peek_any(r->params, r->comm, key) || moves;
+        const char *velocity = key_text(":%s.box_velocity", names[k]);
+        const char *follows = key_text(":%s.box_follows", names[k]);
+        moves = params_peek_any(r->params, r->comm, velocity) || moves;
+        moves = params_peek_any(r->params, r->comm, follows) || moves;
     }
     return moves;
 }
@@ -141,8 +138,7 @@ static void deal_section(struct run *r, int k, double box[PARAM_PROGRAMS_MAX][2]
     const struct scene_probe *g = r->scene.probes + k;
     const bool particles = strncmp(r->name, "sph", 3) == 0;
     bool inside = false;
-    char key[64];
-    snprintf(key, sizeof key, "probes.[%d].at", k);
+    const char *key = key_text("probes.[%d].at", k);
     if (any_moves(r))
         params_fault(r->params, f, key,
                      "%s: a discharge is read by one program, and the box of the particles moves: "

@@ -5,7 +5,6 @@
 #include "discharge_gauges.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "../base/base.h"
 
@@ -37,11 +36,9 @@ static void judge_one(const struct scene *s, const struct scene_probe *g, const 
             add_interval(v[0] - v[-t->ncolumns], v[column - t->ncolumns], v[column], volume);
     }
     const double all[] = {volume[0] - volume[1], volume[0], volume[1], largest};
-    for (int k = 0; k < 4 && column >= 0; k++) {
-        char key[PARAM_TEXT_SIZE + 32];
-        snprintf(key, sizeof key, "discharge.%s.%s", g->name, what[k]);
-        summary_real(summary, key, all[k]);
-    }
+    for (int k = 0; k < 4 && column >= 0; k++)
+        summary_real(summary, key_text("discharge.%s.%s", g->name, what[k]), all[k]);
+
     if (column >= 0)
         log_say("discharge  %s: %.4g m^%d in all, %.4g onward and %.4g back, at most %.3g m^%d/s",
                 g->name, all[0], s->domain.dim, all[1], all[2], largest, s->domain.dim);

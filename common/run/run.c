@@ -342,14 +342,13 @@ static void summarise_timers(struct run *r)
     int n = r->timers.n;
     MPI_Bcast(&n, 1, MPI_INT, 0, r->comm);
     for (int k = 0; k < n; k++) {
-        char name[64] = "", key[96];
+        char name[64] = "";
         if (r->rank == 0)
             snprintf(name, sizeof name, "%s", r->timers.of[k].name);
         MPI_Bcast(name, sizeof name, MPI_CHAR, 0, r->comm);
         double v = timer_wall(&r->timers, name);
         MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, r->comm);
-        snprintf(key, sizeof key, "time_s.%s", name);
-        summary_real(r->summary, key, v);
+        summary_real(r->summary, key_text("time_s.%s", name), v);
     }
 }
 

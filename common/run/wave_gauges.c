@@ -138,11 +138,11 @@ void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struc
 {
     for (int k = 0; k < s->ngauges; k++) {
         const struct scene_gauges *g = s->gauges + k;
-        char key[64], wrong[PARAM_TEXT_SIZE];
+        char wrong[PARAM_TEXT_SIZE];
         int probe[GAUGE_PROBES];
         const int n = probes_of(s, g, probe, wrong);
         const double period = period_of(s, g);
-        snprintf(key, sizeof key, "gauges.[%d].probes", k);
+        const char *key = key_text("gauges.[%d].probes", k);
         if (n < 0)
             params_fault(p, f, key, "%s is no level gauge of the list probes, or there are over %d",
                          wrong, GAUGE_PROBES);
@@ -160,13 +160,12 @@ void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struc
                          s->probes[probe[0]].name, s->probes[apart(elsewhere, n, probe)].name);
         else if (!(scene_waves_depth(s) > 0.0))
             params_fault(p, f, key, "no shape tells how deep the water is (waves.depth)");
-        snprintf(key, sizeof key, "gauges.[%d].period", k);
         if (!(period > 0.0))
-            params_fault(p, f, key, "no group waves tells the period: give it, s");
-        snprintf(key, sizeof key, "gauges.[%d].from", k);
+            params_fault(p, f, key_text("gauges.[%d].period", k),
+                         "no group waves tells the period: give it, s");
         if (g->from > 0.0 && period > 0.0 && s->time.end - g->from < 2.0 * period)
-            params_fault(p, f, key, "%g s: less than two periods (%.4g s) before time.end", g->from,
-                         period);
+            params_fault(p, f, key_text("gauges.[%d].from", k),
+                         "%g s: less than two periods (%.4g s) before time.end", g->from, period);
         if (f->n > 0)
             continue;
         warn_of_places(s, g, n, probe, number_of(s, period));
@@ -255,13 +254,9 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
     const bool told = sums[0] + sums[1] > 0.0;
     const double incident = told ? sqrt(fmax(sums[0], sums[1])) : NAN,
                  back = told ? sqrt(fmin(sums[0], sums[1])) : NAN;
-    char key[PARAM_TEXT_SIZE + 32];
-    snprintf(key, sizeof key, "reflection.%s.incident", g->name);
-    summary_real(summary, key, incident);
-    snprintf(key, sizeof key, "reflection.%s.reflected", g->name);
-    summary_real(summary, key, back);
-    snprintf(key, sizeof key, "reflection.%s.R", g->name);
-    summary_real(summary, key, back / incident);
+    summary_real(summary, key_text("reflection.%s.incident", g->name), incident);
+    summary_real(summary, key_text("reflection.%s.reflected", g->name), back);
+    summary_real(summary, key_text("reflection.%s.R", g->name), back / incident);
     if (!told)
         log_warn("gauges %s: from where they stand what runs onward and back is not told apart",
                  g->name);
@@ -291,11 +286,8 @@ static void tell_heights(const struct scene *s, const struct history *h, int n, 
                             w.n,
                             w.spectral,
                             fabs(w.spectral / s->waves.height - 1.0)};
-        for (int k = 0; k < (makes_sea(s) ? 7 : 6); k++) {
-            char key[PARAM_TEXT_SIZE + 32];
-            snprintf(key, sizeof key, "height.%s.%s", name, what[k]);
-            summary_real(summary, key, v[k]);
-        }
+        for (int k = 0; k < (makes_sea(s) ? 7 : 6); k++)
+            summary_real(summary, key_text("height.%s.%s", name, what[k]), v[k]);
     }
 }
 

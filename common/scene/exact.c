@@ -4,7 +4,8 @@
 
 #include <complex.h>
 #include <math.h>
-#include <stdio.h>
+
+#include "../base/base.h"
 
 static void set_mode(struct exact *e, int m, double kx, double ky, double A, double s)
 {
@@ -422,9 +423,6 @@ void norm_tell(struct summary *to, const char *name, const struct norm *n, doubl
     static const char *const part[] = {"vol", "e1", "e2", "r2", "emax", "unit"};
     const double v[] = {n->vol, n->e1, n->e2, n->r2, n->emax, unit};
     const size_t parts = sizeof v / sizeof v[0] - (unit > 0.0 ? 0 : 1);
-    for (size_t k = 0; k < parts; k++) {
-        char key[96];
-        snprintf(key, sizeof key, "norm.%s.%s", name, part[k]);
-        summary_real(to, key, v[k]);
-    }
+    for (size_t k = 0; k < parts; k++)
+        summary_real(to, key_text("norm.%s.%s", name, part[k]), v[k]);
 }

@@ -385,8 +385,7 @@ static void check_walls(const struct scene *s, const struct params *p, struct fa
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         const int a = (w->side - SIDE_X_MIN) / 2;
-        char key[32];
-        snprintf(key, sizeof key, "walls.[%d]", k);
+        const char *key = key_text("walls.[%d]", k);
         const bool mesh = *w->surface.mesh != '\0';
         if (w->side == SIDE_NONE && w->points.n < 2 && !mesh)
             params_fault(p, f, key, "wall %d: give a side, a mesh or at least two points", k + 1);

@@ -2,7 +2,6 @@
 #include "scene_forms.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../geometry/geometry.h"
@@ -33,9 +32,7 @@ enum body_form scene_form_of(const struct scene_body *b)
 
 static bool has(int k, const char *what, const struct params *p)
 {
-    char key[64];
-    snprintf(key, sizeof key, "bodies.[%d].%s", k, what);
-    return params_given(p, key);
+    return params_given(p, key_text("bodies.[%d].%s", k, what));
 }
 
 static bool is_clear(const struct scene *s, int k, const struct params *p, struct faults *f)
@@ -43,11 +40,10 @@ static bool is_clear(const struct scene *s, int k, const struct params *p, struc
     const struct scene_body *b = s->bodies + k;
     const struct scene_surface *is = &b->surface;
     const int from = f->n;
-    char key[64];
-    snprintf(key, sizeof key, "bodies.[%d].%s", k,
-             has_box(b)        ? "box"
-             : b->radius > 0.0 ? "radius"
-                               : "length");
+    const char *key = key_text("bodies.[%d].%s", k,
+                               has_box(b)        ? "box"
+                               : b->radius > 0.0 ? "radius"
+                                                 : "length");
     if (scene_form_of(b) == FORM_PRISM && b->points.n < 3)
         params_fault(p, f, key, "a prism needs three points or more, of its section");
     else if (has_box(b) && b->length > 0.0)

@@ -203,10 +203,7 @@ void scene_meshes_summary(const struct scene *s, struct summary *to)
                    {"edge_mean", m->sizes.mean},
                    {"edge_most", m->sizes.most},
                    {"sagitta", m->sizes.sagitta}};
-        for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-            char key[128];
-            snprintf(key, sizeof key, "mesh.%s.%s", m->name, all[i].name);
-            summary_real(to, key, all[i].value);
-        }
+        for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+            summary_real(to, key_text("mesh.%s.%s", m->name, all[i].name), all[i].value);
     }
 }

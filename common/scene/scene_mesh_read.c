@@ -247,11 +247,9 @@ static void orient_open(const struct reading *r, struct scene_mesh *m)
 {
     const struct scene_wall *w = r->s->walls + m->index;
     double volume, n[3];
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].flip", m->index);
     if (w->flip)
         trimesh_turn(&m->mesh, -1);
-    m->turned = !params_given(r->p, key) && is_turned(r, m);
+    m->turned = !params_given(r->p, key_text("walls.[%d].flip", m->index)) && is_turned(r, m);
     if (m->turned)
         trimesh_turn(&m->mesh, -1);
     const double plane = trimesh_openness(&m->mesh, &volume, n);
@@ -285,15 +283,13 @@ static void check_pumping(const struct reading *r, const struct scene_mesh *m)
     const struct scene_wall *w = r->s->walls + m->index;
     const double size = vec3_length(w->velocity);
     double most = 0.0;
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].velocity", m->index);
     for (int t = 0; t < m->mesh.ntriangles && size > 0.0; t++) {
         double n[3];
         trimesh_normal(&m->mesh, t, n);
         most = fmax(most, fabs(vec3_dot(w->velocity, n)));
     }
     if (most > 1e-6 * size)
-        params_fault(r->p, r->f, key,
+        params_fault(r->p, r->f, key_text("walls.[%d].velocity", m->index),
                      "%g m/s across the wall, which stays where it is: it would pump fluid "
                      "through. Give the part along it; what moves is a body",
                      most);

@@ -156,11 +156,10 @@ static void range_of(const struct motion_file *m, double range[2])
 static void check_file(const struct params *p, struct faults *f, int k, const char *name,
                        const char *file, const struct motion_file *m, bool also_constant)
 {
-    char key[64];
     double range[2];
     if (!m)
         return;
-    snprintf(key, sizeof key, "walls.[%d].%s_file", k, name);
+    const char *key = key_text("walls.[%d].%s_file", k, name);
     if (m->n < 0)
         params_fault(p, f, key, "%s: no such file beside the case", file);
     else if (m->n == 0)
@@ -184,13 +183,12 @@ static void check_level(const struct scene *s, const struct params *p, struct fa
 {
     const struct scene_wall *w = s->walls + k;
     double low, high, range[2] = {w->level, w->level};
-    char key[64];
     if (!w->has_level || w->kind < WALL_INFLOW || scene_still_axis(s) < 0 ||
         (w->levels && w->levels->n <= 0))
         return;
     if (w->levels)
         range_of(w->levels, range);
-    snprintf(key, sizeof key, "walls.[%d].level%s", k, w->levels ? "_file" : "");
+    const char *key = key_text("walls.[%d].level%s", k, w->levels ? "_file" : "");
     scene_heights(s, &low, &high);
     if (range[1] > high + 1e-9 * (high - low))
         params_fault(p, f, key,

@@ -24,11 +24,11 @@ void scene_outline_place(const struct scene_surface *is, int n, const double (*x
 static bool read_one(const char *dir, const char *group, int k, const struct scene_surface *is,
                      struct param_points *to, const struct params *p, struct faults *f)
 {
-    char key[64], file[1024 + PARAM_TEXT_SIZE], text[1400];
+    char file[1024 + PARAM_TEXT_SIZE], text[1400];
     struct outline o;
     if (!*is->outline)
         return false;
-    snprintf(key, sizeof key, "%s.[%d].outline", group, k);
+    const char *key = key_text("%s.[%d].outline", group, k);
     snprintf(file, sizeof file, "%s%s%s", *is->outline == '/' ? "" : dir,
              *is->outline == '/' ? "" : "/", is->outline);
     if (to->n > 0)

@@ -2,7 +2,6 @@
  * dimensions do not have, lines that are none, walls that pump, water outside the domain.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../base/base.h"
@@ -15,15 +14,13 @@
 static void check_surface(const struct scene *s, const struct params *p, struct faults *f,
                           const char *group, int k, const struct scene_surface *is)
 {
-    char key[64];
-    snprintf(key, sizeof key, "%s.[%d].mesh", group, k);
     if (*is->mesh && s->domain.dim == 2)
-        params_fault(p, f, key,
+        params_fault(p, f, key_text("%s.[%d].mesh", group, k),
                      "a surface of triangles bounds a fluid of 3 dimensions: in the "
                      "plane give points");
-    snprintf(key, sizeof key, "%s.[%d].outline", group, k);
     if (*is->outline && s->domain.dim == 3)
-        params_fault(p, f, key, "an outline bounds a fluid of 2 dimensions: in space give a mesh");
+        params_fault(p, f, key_text("%s.[%d].outline", group, k),
+                     "an outline bounds a fluid of 2 dimensions: in space give a mesh");
 }
 
 static void check_surfaces(const struct scene *s, const struct params *p, struct faults *f)
@@ -40,8 +37,7 @@ void scene_check_motion(const struct scene_motions *all, const char *list, int k
                         const struct params *p, struct faults *f)
 {
     for (int i = 0; i < all->n; i++) {
-        char key[80];
-        snprintf(key, sizeof key, "%s.[%d].motion.[%d].kind", list, k, i);
+        const char *key = key_text("%s.[%d].motion.[%d].kind", list, k, i);
         if (all->of[i].kind == MOTION_WAVES)
             params_fault(p, f, key, "only the motion of a body makes waves");
         if (all->of[i].kind == MOTION_PARTNER)
@@ -60,15 +56,14 @@ static void check_line(const struct params *p, struct faults *f, const char *gro
         "runs back over itself: a wall needs a thickness",
         "crosses or touches itself: order the points along the outline, or make two lines of it"};
     struct line l = line_of(points, closed);
-    char key[64];
     double at[2];
     if (l.n < (closed ? 3 : 2))
         return; /* said elsewhere */
     line_trim(&l);
     const enum line_fault is = line_check(&l, at);
-    snprintf(key, sizeof key, "%s.[%d].points", group, k);
     if (is)
-        params_fault(p, f, key, "at (%g, %g) m: %s", at[0], at[1], what[is]);
+        params_fault(p, f, key_text("%s.[%d].points", group, k), "at (%g, %g) m: %s", at[0], at[1],
+                     what[is]);
 }
 
 static void check_lines(const struct scene *s, const struct params *p, struct faults *f)
@@ -93,8 +88,6 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
     const struct scene_wall *w = s->walls + k;
     const double *u = w->velocity, size = vec3_length(u);
     double across = 0.0;
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].velocity", k);
     if (w->side != SIDE_NONE)
         across = fabs(u[(w->side - SIDE_X_MIN) / 2]);
     const struct line l = line_of(&w->points, w->closed);
@@ -105,7 +98,7 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
     }
     if (across > 1e-6 * size)
         params_fault(
-            p, f, key,
+            p, f, key_text("walls.[%d].velocity", k),
             "%g m/s across the wall, which stays where it is: it would pump fluid through. "
             "Give the part along it; what moves is a body, what lets in is an inflow",
             across);
@@ -115,11 +108,9 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
 static void check_inflow(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     const struct scene_wall *w = s->walls + k;
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].velocity", k);
     if (w->kind == WALL_INFLOW && w->side != SIDE_NONE && !w->has_level && !w->has_discharge &&
         vec3_length(w->velocity) == 0.0 && !params_given(p, "blocks"))
-        params_fault(p, f, key,
+        params_fault(p, f, key_text("walls.[%d].velocity", k),
                      "an inflow of 0 m/s lets nothing in: give it a velocity into the domain%s",
                      scene_has_surface(s) ? ", a discharge or a level" : "");
 }
@@ -135,10 +126,8 @@ static void check_openings(const struct scene *s, const struct params *p, struct
         /* what a side without a wall is, only the solver knows */
         out = out || (w ? w->kind > WALL_INFLOW : !s->domain.periodic[(side - SIDE_X_MIN) / 2]);
     }
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].kind", in);
     if (in >= 0 && !out)
-        params_fault(p, f, key,
+        params_fault(p, f, key_text("walls.[%d].kind", in),
                      "inflow into a closed box: give another side the kind outflow or absorbing");
 }
 
@@ -161,8 +150,7 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
     const struct scene_domain *d = &s->domain;
     double lo[3], hi[3], low, high, still[3];
     const double g = scene_still_gravity(s, still);
-    char key[64];
-    snprintf(key, sizeof key, "shapes.[%d]", k);
+    const char *key = key_text("shapes.[%d]", k);
     if (h->hole && k == 0)
         params_fault(p, f, key,
                      "a hole takes fluid out of the shapes before it, and there is none");
@@ -223,16 +211,15 @@ static void check_section(const struct scene *s, const struct params *p, int k, 
 {
     const struct scene_probe *g = s->probes + k;
     const struct scene_domain *d = &s->domain;
-    char key[64];
-    snprintf(key, sizeof key, "probes.[%d].at", k);
     for (int a = 0; a < d->dim; a++) {
         const double lo = fmin(g->at[a], g->to[a]), hi = fmax(g->at[a], g->to[a]);
         const double near = 1e-6 * (d->max[a] - d->min[a]);
         const bool is_outside = hi < d->min[a] - near || lo > d->max[a] + near;
         const bool is_longer = d->periodic[a] && (lo < d->min[a] - near || hi > d->max[a] + near);
         if (is_outside || is_longer)
-            params_fault(p, f, key, "%s: its section, %c from %g to %g m, %s, %g to %g m", g->name,
-                         "xyz"[a], lo, hi,
+            params_fault(p, f, key_text("probes.[%d].at", k),
+                         "%s: its section, %c from %g to %g m, %s, %g to %g m", g->name, "xyz"[a],
+                         lo, hi,
                          is_outside ? "lies outside the domain" : "reaches beyond the period",
                          d->min[a], d->max[a]);
     }
@@ -242,11 +229,10 @@ static void check_section(const struct scene *s, const struct params *p, int k, 
 static void check_discharge(const struct scene *s, const struct params *p, int k, struct faults *f)
 {
     const struct scene_probe *g = s->probes + k;
-    char key[64];
     int same = 0;
     for (int a = 0; a < s->domain.dim; a++)
         same += g->at[a] == g->to[a];
-    snprintf(key, sizeof key, "probes.[%d].to", k);
+    const char *key = key_text("probes.[%d].to", k);
     if (g->kind != PROBE_DISCHARGE)
         return;
     if (!params_given(p, key))
@@ -266,9 +252,8 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
     for (int k = 0; k < s->nprobes; k++) {
         const struct scene_probe *g = s->probes + k;
         const int axes = g->kind == PROBE_DISCHARGE ? 0 : probe_is_point(g) ? d->dim : d->dim - 1;
-        char key[64];
         check_discharge(s, p, k, f);
-        snprintf(key, sizeof key, "probes.[%d].at", k);
+        const char *key = key_text("probes.[%d].at", k);
         for (int a = 0; a < axes; a++)
             if (g->at[a] < d->min[a] - 1e-6 * (d->max[a] - d->min[a]) ||
                 g->at[a] > d->max[a] + 1e-6 * (d->max[a] - d->min[a])) {
@@ -302,10 +287,9 @@ static void check_names(const struct scene *s, const struct params *p, struct fa
     for (int k = 0; k < s->nbodies; k++)
         for (int i = 0; i < k; i++)
             if (strcmp(s->bodies[i].name, s->bodies[k].name) == 0) {
-                char key[64];
-                snprintf(key, sizeof key, "bodies.[%d].name", k);
-                params_fault(p, f, key, "bodies %d and %d are both called `%s': give each a name",
-                             i + 1, k + 1, s->bodies[k].name);
+                params_fault(p, f, key_text("bodies.[%d].name", k),
+                             "bodies %d and %d are both called `%s': give each a name", i + 1,
+                             k + 1, s->bodies[k].name);
                 break;
             }
 }

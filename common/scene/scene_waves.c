@@ -179,12 +179,11 @@ void scene_waves_resolve(struct scene *s)
 static void check_zone(const struct scene *s, const struct params *p, int k, struct faults *f)
 {
     const struct scene_wall *w = s->walls + k;
-    char key[64];
     bool low;
     const int axis = scene_zone_axis(w, &low);
-    snprintf(key, sizeof key, "walls.[%d].beach", k);
+    const char *key = key_text("walls.[%d].beach", k);
     if (!params_given(p, key))
-        snprintf(key, sizeof key, "walls.[%d].kind", k);
+        key = key_text("walls.[%d].kind", k);
     if (w->side == SIDE_NONE)
         params_fault(p, f, key, "a zone stands before a side of the domain, not along points");
     else if (w->zone == ZONE_WAVE && !s->has_waves)

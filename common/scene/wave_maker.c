@@ -108,8 +108,7 @@ void wave_makers_check(const struct scene *s, const struct params *p, struct fau
         for (int i = 0; i < s->bodies[k].motion.n; i++) {
             const struct scene_body *b = s->bodies + k;
             const struct scene_motion *m = b->motion.of + i;
-            char key[80];
-            snprintf(key, sizeof key, "bodies.[%d].motion.[%d].kind", k, i);
+            const char *key = key_text("bodies.[%d].motion.[%d].kind", k, i);
             if (m->kind != MOTION_WAVES)
                 continue;
             if (!s->has_waves)

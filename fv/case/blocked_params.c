@@ -280,14 +280,12 @@ static bool check_box(const struct run *r, int k, struct faults *f)
         check_sides(r, k, lo, hi, f);
     for (int q = 0; q < r->scene.nprobes; q++) {
         const struct scene_probe *g = r->scene.probes + q;
-        char key[32];
         bool in = probe_is_point(g);
         for (int a = 0; a < d->dim; a++)
             in = in && g->at[a] > p->min[a] + 1e-9 && g->at[a] < p->max[a] - 1e-9;
-        snprintf(key, sizeof key, "probes.[%d].at", q);
         if (in)
-            params_fault(r->params, f, key, "probe \"%s\" lies in the box \"%s\"", g->name,
-                         p->name);
+            params_fault(r->params, f, key_text("probes.[%d].at", q),
+                         "probe \"%s\" lies in the box \"%s\"", g->name, p->name);
     }
     return f->n == before;
 }

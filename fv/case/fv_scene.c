@@ -45,9 +45,7 @@ void fv_scene_describe(const struct run *r)
 
 static void wall_fault(const struct run *r, struct faults *f, int k, const char *what)
 {
-    char key[32];
-    snprintf(key, sizeof key, "walls.[%d]", k);
-    params_fault(r->params, f, key, "wall %d: %s", k + 1, what);
+    params_fault(r->params, f, key_text("walls.[%d]", k), "wall %d: %s", k + 1, what);
 }
 
 /* --- walls and openings --- */
@@ -202,8 +200,7 @@ static void check_shape(const struct run *r, struct faults *f, int k)
     const int dim = s->domain.dim;
     double lo[3], hi[3], g[3], bottom, top;
     const double size = scene_still_gravity(s, g);
-    char key[32];
-    snprintf(key, sizeof key, "shapes.[%d]", k);
+    const char *key = key_text("shapes.[%d]", k);
     scene_heights(s, &bottom, &top);
     if (h->form == SHAPE_BELOW && !(h->level > bottom && h->level < top))
         params_fault(r->params, f, key,
@@ -303,11 +300,9 @@ static void check_grains(const struct run *r, struct faults *f)
 /* Where the water meets a shore is sph's to say, on a shore of its own. */
 static void check_shores(const struct run *r, struct faults *f)
 {
-    char key[32];
     for (int k = 0; k < r->scene.nprobes; k++) {
-        snprintf(key, sizeof key, "probes.[%d].at", k);
         if (r->scene.probes[k].kind == PROBE_SHORE && r->crossed && !r->gauge_elsewhere[k])
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("probes.[%d].at", k),
                          "probe \"%s\": (%g, %g) m lies in fv's part, and only sph reads a shore; "
                          "put it into sph.box",
                          r->scene.probes[k].name, r->scene.probes[k].at[0],
@@ -517,8 +512,7 @@ static void check_probe(const struct run *r, struct faults *f, int k)
     const struct scene_probe *p = s->probes + k;
     const double(*hole)[3] = fv_params_of(r)->hole;
     bool in_hole = true;
-    char key[32];
-    snprintf(key, sizeof key, "probes.[%d].at", k);
+    const char *key = key_text("probes.[%d].at", k);
     for (int a = 0; a < s->domain.dim; a++) {
         const double eps = 1e-9 * (s->domain.max[a] - s->domain.min[a]);
         const bool needed =

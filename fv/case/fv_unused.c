@@ -4,7 +4,6 @@
 #include "../fv.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -229,11 +228,9 @@ static void check_probes(const struct run *r, struct faults *f)
 {
     for (int k = 0; k < r->scene.nprobes && !r->coupled; k++) {
         bool known = false;
-        char key[64];
         for (int b = 0; b < mesh_given_count; b++)
             known = known || strcmp(mesh_given[b].name, r->scene.probes[k].body) == 0;
-        snprintf(key, sizeof key, "probes.[%d].body", k);
-        params_unused(r->params, f, key, known,
+        params_unused(r->params, f, key_text("probes.[%d].body", k), known,
                       "no block of that name moves: bodies of fv stand still");
     }
 }
@@ -243,25 +240,20 @@ static void check_elements(const struct run *r, struct faults *f)
 {
     static const char *const of_others[] = {"centre", "force", "contact"};
     const struct scene *s = &r->scene;
-    char key[64];
     for (int k = 0; k < s->nbodies; k++) {
         struct blocked_params box;
         const char *why = body_box(r, k, &box);
-        snprintf(key, sizeof key, "bodies.[%d]", k);
         if (why)
-            params_fault(r->params, f, key, "is not used: %s", why);
-        for (size_t i = 0; !why && i < sizeof of_others / sizeof of_others[0]; i++) {
-            snprintf(key, sizeof key, "bodies.[%d].%s", k, of_others[i]);
-            params_unused(r->params, f, key, false, "fv has the force on a box alone");
-        }
+            params_fault(r->params, f, key_text("bodies.[%d]", k), "is not used: %s", why);
+        for (size_t i = 0; !why && i < sizeof of_others / sizeof of_others[0]; i++)
+            params_unused(r->params, f, key_text("bodies.[%d].%s", k, of_others[i]), false,
+                          "fv has the force on a box alone");
     }
-    for (int k = 0; k < s->nshapes && !surface_wanted(r); k++) {
-        snprintf(key, sizeof key, "shapes.[%d]", k);
-        params_fault(r->params, f, key,
+    for (int k = 0; k < s->nshapes && !surface_wanted(r); k++)
+        params_fault(r->params, f, key_text("shapes.[%d]", k),
                      "is not used: without a free surface (%s) the fluid is "
                      "everywhere",
                      "fv.surface");
-    }
 }
 
 /* Each word names a field that this solver can write; partners have others. */

@@ -8,8 +8,6 @@
 #include "fv_facts.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #define SIDES "overlap|joined|periodic|wall|slip|inflow|outflow|exact"
 #define P struct mesh_block_params
@@ -133,8 +131,7 @@ static bool has_partner(const struct run *r) { return r->coupled && r->scene.has
 static void check_wall(const struct run *r, struct faults *f, int k)
 {
     const struct scene_wall *w = r->scene.walls + k;
-    char key[32];
-    snprintf(key, sizeof key, "walls.[%d]", k);
+    const char *key = key_text("walls.[%d]", k);
     if (w->side == SIDE_NONE && !has_partner(r))
         params_fault(r->params, f, key,
                      "walls within the domain are a block's sides here (blocks.i_min = \"wall\")");
@@ -148,13 +145,11 @@ static void check_taken(const struct run *r, struct faults *f, const struct mesh
 {
     for (int w = 0; w < r->scene.nwalls; w++) {
         bool taken = has_partner(r);
-        char key[32];
         for (int k = 0; k < m->nblocks; k++)
             for (int side = 0; side < 2 * m->dim; side++)
                 taken = taken || m->block[k].wall[side] == r->scene.walls + w;
-        snprintf(key, sizeof key, "walls.[%d]", w);
         if (!taken)
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("walls.[%d]", w),
                          "is not used: no side of a block that has no kind of its own lies wholly "
                          "on this side of the "
                          "domain");

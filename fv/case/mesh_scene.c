@@ -1,7 +1,6 @@
 /* mesh_scene.c - what contradicts itself in a scene on blocks: refused with the reason before
  * anything runs. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/scene/scene.h"
@@ -317,11 +316,9 @@ static void check_bodies(const struct run *r, struct faults *f, const struct mes
 {
     for (int k = 0; k < r->scene.nprobes && !r->coupled; k++)
         for (int b = 0; b < m->nblocks; b++) {
-            char key[32];
-            snprintf(key, sizeof key, "probes.[%d].body", k);
             if (strcmp(m->block[b].prm->name, r->scene.probes[k].body) == 0)
-                params_unused(r->params, f, key, m->block[b].motion != NULL,
-                              "no block of that name moves");
+                params_unused(r->params, f, key_text("probes.[%d].body", k),
+                              m->block[b].motion != NULL, "no block of that name moves");
         }
 }
 
@@ -333,10 +330,8 @@ static void check_probes(const struct run *r, struct faults *f, const struct mes
     struct overset *o = overset_search(r, m);
     for (int k = 0; k < r->scene.nprobes; k++) {
         const struct scene_probe *p = r->scene.probes + k;
-        char key[32];
-        snprintf(key, sizeof key, "probes.[%d].at", k);
         if (!r->gauge_elsewhere[k] && p->kind != PROBE_DISCHARGE && !is_covered(r, m, o, p))
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("probes.[%d].at", k),
                          "probe \"%s\": no block has computed cells around (%g, %g, %g) m", p->name,
                          p->at[0], p->at[1], p->at[2]);
     }

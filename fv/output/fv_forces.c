@@ -137,10 +137,10 @@ static void summarise_force(const struct fv *s, const char *of, const double for
 {
     static const char *const names[] = {"x", "y", "z", "moment"};
     const int dim = s->dim, moment = s->prm.blocks.n > 0;
-    char key[PARAM_TEXT_SIZE + 24];
     for (int a = 0; a < dim + moment; a++) {
-        snprintf(key, sizeof key, "force.%s%s%s", of, *of ? "." : "", names[a < dim ? a : 3]);
-        summary_real(s->run->summary, key, force[a < dim ? a : 3]);
+        summary_real(s->run->summary,
+                     key_text("force.%s%s%s", of, *of ? "." : "", names[a < dim ? a : 3]),
+                     force[a < dim ? a : 3]);
     }
 }
 

@@ -4,7 +4,6 @@
 #include "output.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -146,14 +145,13 @@ static const struct part *range(const struct fv *s, int k, int lo[3], int hi[3])
 static void write(const struct fv *s, struct h5 *f, int k, const struct field *of, double *const *q)
 {
     int lo[3], hi[3], i[3];
-    char name[64];
     const struct part *p = range(s, k, lo, hi);
     double *v = NEW(double, p ? (int64_t)of->ncomp * p->n[0] * p->n[1] * p->n[2] : 0), *to = v;
     if (p)
         PART_CELLS (p, i, c)
             for (int a = 0; a < of->ncomp; a++)
                 *to++ = is_blank(s, of->flows, c) ? NAN : q[a][c];
-    snprintf(name, sizeof name, "%s_%d", of->name, k + 1);
+    const char *name = key_text("%s_%d", of->name, k + 1);
     h5_write_block(f, in_blocks(s) ? name : of->name, of->unit, s->dim, grid_cells(&s->grid, k), lo,
                    hi, of->ncomp, v, true);
     mem_free(v);
@@ -163,7 +161,6 @@ static void write(const struct fv *s, struct h5 *f, int k, const struct field *o
 static void write_vertices(const struct fv *s, struct h5 *f, int k)
 {
     int lo[3], hi[3], n[3], i[3];
-    char name[32];
     const bool any = range(s, k, lo, hi);
     int64_t count = 1;
     for (int a = 0; a < 3; a++) {
@@ -178,8 +175,8 @@ static void write_vertices(const struct fv *s, struct h5 *f, int k)
                 grid_vertex(&s->grid, k, i, x);
                 memcpy(to, x, (size_t)s->dim * sizeof *x);
             }
-    snprintf(name, sizeof name, "x_%d", k + 1);
-    h5_write_block(f, in_blocks(s) ? name : "vertices", "m", s->dim, n, lo, hi, s->dim, all, false);
+    h5_write_block(f, in_blocks(s) ? key_text("x_%d", k + 1) : "vertices", "m", s->dim, n, lo, hi,
+                   s->dim, all, false);
     mem_free(all);
 }
 

@@ -303,11 +303,8 @@ bool newton_step(struct fv *s, double *dt, struct diagnosis *d)
         good = solve_step(s, *dt);
     }
     stop(s, "newton");
-    if (!good) {
-        char after[64];
-        snprintf(after, sizeof after, "%d halvings of the step to %g s", HALVINGS, *dt);
-        newton_describe(s, after, d);
-    }
+    if (!good)
+        newton_describe(s, key_text("%d halvings of the step to %g s", HALVINGS, *dt), d);
     return good;
 }
 

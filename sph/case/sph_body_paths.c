@@ -164,13 +164,11 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
             const struct scene_body *b = r->scene.bodies + k;
             const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6);
             double at[2] = {0.0, 0.0};
-            char key[64];
             if (m == k || !b->free || b->hinge.n == 0 || (is_free(&r->scene, all + m) && m > k))
                 continue;
             const double d = free_gap(b, &all[k].line, &all[m].line, gap, at);
-            snprintf(key, sizeof key, "bodies.[%d]", k);
             if (d < gap)
-                params_fault(r->params, f, key,
+                params_fault(r->params, f, key_text("bodies.[%d]", k),
                              "%s starts in contact with %s: %g m apart at (%g, %g) m, where "
                              "contact holds %g m (contact.gap): move it away by that" HINGE_HINT,
                              all[k].name, all[m].name, d, at[0], at[1], gap);
@@ -219,9 +217,8 @@ static void check_backs(const struct run *r, const struct sph_params *used, cons
         const struct bound *at_back = nearest_wall(r, all, n, true, all[k].line.x[0], &shows);
         if (!at_back)
             continue;
-        char key[64];
-        snprintf(key, sizeof key, "bodies.[%d]", k);
-        params_fault(r->params, f, key, "%s stands behind %s, %s: %s", all[k].name, at_back->name,
+        params_fault(r->params, f, key_text("bodies.[%d]", k), "%s stands behind %s, %s: %s",
+                     all[k].name, at_back->name,
                      at_back->line.closed ? "within what is solid there"
                                           : "an open line, which acts on its left alone",
                      at_back->line.closed ? "move it"
@@ -239,12 +236,11 @@ static bool check_domain(const struct run *r, int k, const double *x, const char
     const struct scene_domain *d = &r->scene.domain;
     for (int a = 0; a < 3; a++) {
         const double small = 1e-9 * (d->max[a] - d->min[a]); /* a rotation's last digits */
-        char key[64];
         if (x[a] >= d->min[a] - small && x[a] <= d->max[a] + small)
             continue;
-        snprintf(key, sizeof key, "bodies.[%d]", k);
         params_fault(
-            r->params, f, key, "%s %s %c at (%g, %g, %g) m, %s: %s", r->scene.bodies[k].name,
+            r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g, %g) m, %s: %s",
+            r->scene.bodies[k].name,
             d->periodic[a] ? "crosses the periodic side" : "leaves the domain across", "xyz"[a],
             x[0], x[1], x[2], when,
             d
@@ -296,8 +292,7 @@ static void fault_contact(const struct run *r, int k, const char *other, double 
                           const double *at, struct faults *f)
 {
     const char *name = r->scene.bodies[k].name;
-    char key[64];
-    snprintf(key, sizeof key, "bodies.[%d]", k);
+    const char *key = key_text("bodies.[%d]", k);
     if (d < 0.0)
         params_fault(r->params, f, key, "%s reaches %g m into %s at (%g, %g, %g) m: move it away",
                      name, -d, other, at[0], at[1], at[2]);
@@ -410,11 +405,10 @@ static bool check_room(const struct run *r, const struct sph_params *used, const
         for (int a = 0; a < 2; a++) {
             const double x = l->x[i][a];
             const bool leaves = x < d->min[a] - small || x > d->max[a] + small;
-            char key[64];
             if (x >= lo[a] + way[a] - small && x <= hi[a] + way[a] + small)
                 continue;
-            snprintf(key, sizeof key, "bodies.[%d]", b->body);
-            params_fault(r->params, f, key, "%s %s %c at (%g, %g) m, %s: %s", b->name,
+            params_fault(r->params, f, key_text("bodies.[%d]", b->body),
+                         "%s %s %c at (%g, %g) m, %s: %s", b->name,
                          !leaves          ? "leaves the free zone of the particles across"
                          : d->periodic[a] ? "crosses the periodic side"
                                           : "leaves the domain across",
@@ -434,10 +428,8 @@ static void fault_of_places(const struct run *r, struct faults *f, const struct 
                             const struct bound *other, const double *at, const char *when)
 {
     const bool wall = other->body < 0, moves = scene_body_moves(r->scene.bodies + b->body);
-    char key[64];
-    snprintf(key, sizeof key, "bodies.[%d]", b->body);
-    params_fault(r->params, f, key, "%s %s %s %s at (%g, %g) m: %s", b->name,
-                 wall ? "cuts" : "overlaps with", other->name, when, at[0], at[1],
+    params_fault(r->params, f, key_text("bodies.[%d]", b->body), "%s %s %s %s at (%g, %g) m: %s",
+                 b->name, wall ? "cuts" : "overlaps with", other->name, when, at[0], at[1],
                  moves ? "move it away, or make the motion smaller"
                  : wall
                      ? "let it end on the wall, with corners on it, or draw it as part of the wall"
@@ -509,10 +501,8 @@ static void check_size(const struct run *r, const struct sph_params *used, int k
 {
     const struct line l = line_of(&r->scene.bodies[k].points, true);
     const double size = line_size(&l);
-    char key[64];
-    snprintf(key, sizeof key, "bodies.[%d]", k);
     if (size < used->dx)
-        params_fault(r->params, f, key,
+        params_fault(r->params, f, key_text("bodies.[%d]", k),
                      "%s is %.3g m in size, less than sph.dx = %g m: no particle sees it. Are its "
                      "points in m? Else take sph.dx = %.2g or less",
                      r->scene.bodies[k].name, size, used->dx, 0.25 * size);

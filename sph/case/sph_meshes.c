@@ -2,8 +2,6 @@
  * too coarse, thinner than the particles' reach, gauges behind them; see sph_sense.h.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
@@ -144,13 +142,11 @@ static void check_probes(const struct run *r, const struct scene_mesh *m, double
     const struct scene *c = &r->scene;
     for (int k = 0; k < c->nprobes && m->mesh.closed; k++) {
         const struct scene_probe *g = c->probes + k;
-        char key[64];
         if (g->kind != PROBE_PRESSURE || scene_mesh_holds(m, g->at) ||
             fabs(tree_nearest(m->tree, g->at, INFINITY).distance) <= behind_and_on(m, dx))
             continue;
-        snprintf(key, sizeof key, "probes.[%d].at", k);
-        params_fault(r->params, f, key, "%s is behind the surface %s: put it before it", g->name,
-                     file_of(c, m));
+        params_fault(r->params, f, key_text("probes.[%d].at", k),
+                     "%s is behind the surface %s: put it before it", g->name, file_of(c, m));
     }
 }
 
@@ -245,10 +241,10 @@ static void warn_passage(const struct run *r, double dx)
         find_passage(r, r->scene.meshes->of + k, dx, &least);
     if (!least.any)
         return;
-    char where[200];
-    snprintf(where, sizeof where, "mesh %s is %.3g m apart from another at (%g, %g, %g) m",
-             least.met->name, least.width, least.from[0], least.from[1], least.from[2]);
-    sph_passage_warn(where, least.width, dx);
+    sph_passage_warn(key_text("mesh %s is %.3g m apart from another at (%g, %g, %g) m",
+                              least.met->name, least.width, least.from[0], least.from[1],
+                              least.from[2]),
+                     least.width, dx);
 }
 
 /* Surfaces that pierce each other. */

@@ -619,12 +619,10 @@ static void check_thin(const struct run *r, struct faults *f)
 /* A line has fluid on one side alone. */
 static void check_ends(const struct run *r, struct faults *f)
 {
-    char key[64];
     struct wall_end e;
     if (!wall_ends_open(&r->scene, given.dx, &e))
         return;
-    snprintf(key, sizeof key, "walls.[%d].points", e.wall);
-    params_fault(r->params, f, key,
+    params_fault(r->params, f, key_text("walls.[%d].points", e.wall),
                  "the line %s ends inside the domain at (%g, %g), so that fluid comes to its back, "
                  "where a line is no wall: extend it to a wall or to a side of the domain, or "
                  "draw both of its faces, %.3g m (0.7 sph.R_dx sph.dx) apart or more",
@@ -684,7 +682,6 @@ static void check_fixed_ghosts(const struct run *r, struct faults *f)
 static void check_wall_model(const struct run *r, struct faults *f)
 {
     const int bed = bed_with_friction(r);
-    char key[32];
     if (has_points(&r->scene) && r->scene.domain.dim == 3)
         params_fault(r->params, f, "walls",
                      "walls and bodies of points need 2 dimensions: in space give a mesh, of "
@@ -699,9 +696,8 @@ static void check_wall_model(const struct run *r, struct faults *f)
     if (r->scene.domain.dim == 3 && given.wall_integrals == INTEGRALS_NUMERICAL)
         params_fault(r->params, f, "sph.wall_integrals",
                      "the Shepard factor of triangles is closed: take centroids, or clipped");
-    snprintf(key, sizeof key, "walls.[%d].friction", bed);
     if (bed >= 0 && sph_params_of(r)->walls == WALLS_GHOSTS)
-        params_fault(r->params, f, key,
+        params_fault(r->params, f, key_text("walls.[%d].friction", bed),
                      "mirrored ghosts have no bed friction: take sph.walls = \"nfm\"");
 }
 

@@ -3,7 +3,6 @@
 #include "sph_sense.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -41,16 +40,14 @@ static void check_outlet(const struct run *r, int side, struct faults *f)
     const struct scene *c = &r->scene;
     const struct scene_wall *w = scene_wall_of(c, SIDE_X_MIN + side);
     double still[3], rise = 0.0;
-    char key[64];
     if (!is_pressure(w))
         return;
-    snprintf(key, sizeof key, "walls.[%d].pressure", (int)(w - c->walls));
     scene_still_gravity(c, still);
     for (int a = 0; a < c->domain.dim; a++)
         if (a != side / 2)
             rise += c->fluid.rho * fabs(still[a]) * (c->domain.max[a] - c->domain.min[a]);
     if (rise > 0.0)
-        params_fault(r->params, f, key,
+        params_fault(r->params, f, key_text("walls.[%d].pressure", (int)(w - c->walls)),
                      "one pressure all over this side, where gravity requires %g Pa more at its "
                      "bottom than at its top: leave fluid.gravity out, which without a free "
                      "surface only adds the weight of the column to the pressure",
@@ -79,8 +76,7 @@ static void check_level(const struct run *r, int k, struct faults *f)
 {
     const struct scene_wall *w = r->scene.walls + k;
     const int up = scene_still_axis(&r->scene);
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].kind", k);
+    const char *key = key_text("walls.[%d].kind", k);
     if (up < 0)
         params_fault(r->params, f, key,
                      "inlets and outlets under a free surface need gravity along one axis; "
@@ -135,8 +131,6 @@ static void check_profile(const struct run *r, const struct sph_params *used, in
 {
     const struct scene *c = &r->scene;
     const struct scene_wall *w = c->walls + wall;
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].profile", wall);
     if (w->kind != WALL_INFLOW || w->profile != PROFILE_PARABOLIC || !c->meshes)
         return;
     for (int k = 0; k < c->meshes->n; k++) {
@@ -144,7 +138,7 @@ static void check_profile(const struct run *r, const struct sph_params *used, in
         for (int t = 0; m->owner != MESH_OF_SHAPE && t < m->mesh.ntriangles; t++) {
             if (!crosses_side(&c->domain, w->side - SIDE_X_MIN, &m->mesh, t, 0.5 * used->dx))
                 continue;
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("walls.[%d].profile", wall),
                          "parabolic in 3D spans the whole side, through which mesh %s cuts: take "
                          "the uniform profile, with the mean velocity",
                          m->name);
@@ -210,13 +204,11 @@ static void check_islands(const struct run *r, const struct sph_params *used, st
 {
     const struct scene *c = &r->scene;
     bool held = has_tank(c) || used->outer == OUTER_EXACT || used->outer == OUTER_PARTNER;
-    char key[64];
     for (int side = 0; side < 2 * c->domain.dim; side++)
         held = held || c->domain.periodic[side / 2] || scene_wall_of(c, SIDE_X_MIN + side);
     for (int k = 0; k < c->nwalls && !held; k++)
         if (is_island(c->walls + k) && has_water_inside(c, c->walls + k)) {
-            snprintf(key, sizeof key, "walls.[%d].points", k);
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("walls.[%d].points", k),
                          "clockwise, so its fluid is outside, where no wall and no period holds "
                          "it: the corners of a tank run counter-clockwise");
         }
@@ -401,12 +393,10 @@ static void check_gauges(const struct run *r, struct faults *f)
     for (int a = 0; a < c->domain.dim; a++)
         axes += g[a] != 0.0;
     for (int k = 0; k < c->nprobes; k++) {
-        char key[64];
-        snprintf(key, sizeof key, "probes.[%d].body", k);
         if (c->probes[k].body[0] && !moves_by_name(c, c->probes[k].body))
-            params_fault(r->params, f, key, "%s: no body `%s' moves", c->probes[k].name,
-                         c->probes[k].body);
-        snprintf(key, sizeof key, "probes.[%d].kind", k);
+            params_fault(r->params, f, key_text("probes.[%d].body", k), "%s: no body `%s' moves",
+                         c->probes[k].name, c->probes[k].body);
+        const char *key = key_text("probes.[%d].kind", k);
         const int kind = c->probes[k].kind;
         if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && axes > 1)
             params_fault(r->params, f, key,
@@ -428,12 +418,10 @@ static void check_hidden(const struct run *r, const struct sph_params *used, str
         for (int m = 0; m < c->nwalls; m++) {
             const struct line l = line_of(&c->walls[m].points, true);
             const double *at = c->probes[k].at;
-            char key[64];
-            snprintf(key, sizeof key, "probes.[%d].at", k);
             if (probe_is_point(c->probes + k) && c->walls[m].closed &&
                 line_inside(&l, at) != (line_area(&l) > 0.0) && line_distance(&l, at) > used->dx)
-                params_fault(r->params, f, key, "%s is behind wall %d: put it before it",
-                             c->probes[k].name, m + 1);
+                params_fault(r->params, f, key_text("probes.[%d].at", k),
+                             "%s is behind wall %d: put it before it", c->probes[k].name, m + 1);
         }
 }
 

@@ -4,7 +4,6 @@
 #include "sph_unused.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/scene/scene.h"
@@ -106,20 +105,17 @@ static bool is_beyond(const struct run *r, const struct sph_params *used, int k)
 static void check_friction(const struct run *r, const struct sph_params *used, int k,
                            struct faults *f)
 {
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].friction", k);
-    params_unused(r->params, f, key, !is_beyond(r, used, k),
+    params_unused(r->params, f, key_text("walls.[%d].friction", k), !is_beyond(r, used, k),
                   "sph.box does not reach this side, and fv has no bed friction");
 }
 
 static void check_wall(const struct run *r, const struct sph_params *used, int k, struct faults *f)
 {
     const struct scene_wall *w = r->scene.walls + k;
-    char key[64];
-    snprintf(key, sizeof key, "walls.[%d].side", k);
-    params_unused(r->params, f, key, !is_beyond(r, used, k), "sph.box does not reach this side");
-    snprintf(key, sizeof key, "walls.[%d].points", k);
-    params_unused(r->params, f, key, w->side != SIDE_NONE || is_near(&r->scene, used, &w->points),
+    params_unused(r->params, f, key_text("walls.[%d].side", k), !is_beyond(r, used, k),
+                  "sph.box does not reach this side");
+    params_unused(r->params, f, key_text("walls.[%d].points", k),
+                  w->side != SIDE_NONE || is_near(&r->scene, used, &w->points),
                   "it lies outside the region of the particles");
 }
 
@@ -130,9 +126,8 @@ static void check_fields(const struct run *r, struct faults *f)
         " velocity pressure density vorticity volume zone age level guard id ";
     const char *at = r->scene.output.fields;
     while (*(at += strspn(at, " ,"))) {
-        char word[PARAM_TEXT_SIZE + 2];
         const int n = (int)strcspn(at, " ,");
-        snprintf(word, sizeof word, " %.*s ", n, at);
+        const char *word = key_text(" %.*s ", n, at);
         if (!strstr(known, word))
             params_fault(r->params, f, "output.fields", "no field%sof particles; there are:%s",
                          word, known);

@@ -38,10 +38,8 @@ bool body_coupling_possible(const struct run *r)
 {
     struct faults f = {0};
     for (int k = 0; k < r->scene.nbodies && !r->coupled; k++) {
-        char key[64];
-        snprintf(key, sizeof key, "bodies.[%d].motion", k);
         if (scene_body_partnered(r->scene.bodies + k))
-            params_fault(r->params, &f, key,
+            params_fault(r->params, &f, key_text("bodies.[%d].motion", k),
                          "a partner is to move body `%s', but no other program takes part in this "
                          "job: start it with cases/run CASE --with 'PROGRAM ...'",
                          r->scene.bodies[k].name);

@@ -5,7 +5,6 @@
  * that make sense.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/scene/scene.h"
@@ -192,18 +191,13 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
 {
     struct sph_params other = *prm;
     double given[3];
-    char key[72];
-    snprintf(key, sizeof key, ":%.60s.box", group);
-    if (params_peek_pair(r->params, r->comm, key, box))
+    if (params_peek_pair(r->params, r->comm, key_text(":%s.box", group), box))
         return true;
-    snprintf(key, sizeof key, ":%.60s.free", group);
-    if (!params_peek_pair(r->params, r->comm, key, box))
+    if (!params_peek_pair(r->params, r->comm, key_text(":%s.free", group), box))
         return false;
-    snprintf(key, sizeof key, ":%.60s.dx", group);
-    if (params_peek(r->params, r->comm, key, given))
+    if (params_peek(r->params, r->comm, key_text(":%s.dx", group), given))
         other.dx = given[0];
-    snprintf(key, sizeof key, ":%.60s.R_dx", group);
-    if (params_peek(r->params, r->comm, key, given))
+    if (params_peek(r->params, r->comm, key_text(":%s.R_dx", group), given))
         other.R_dx = given[0];
     for (int a = 0; a < r->scene.domain.dim; a++)
         zones_around(r, &other, a, box, &box[0][a], &box[1][a]);

@@ -6,7 +6,6 @@
 #include "coupling_solids.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "../../common/base/base.h"
 #include "../../common/run/run.h"
@@ -85,12 +84,10 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
     zones_given_box(r, prm, given[0], given[1]);
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nbodies; k++) {
-        char key[32];
         const double when =
             solids_elsewhere(r, MESH_OF_BODY, k) ? INFINITY : leaves(r, prm, k, given, open);
-        snprintf(key, sizeof key, "bodies.[%d]", k);
         if (when < INFINITY)
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("bodies.[%d]", k),
                          "body `%s' is outside of %s m at t = %.4g s: fv, which has no bodies, "
                          "takes that from sph alone; enlarge sph.box, or lower coupling.overlap, "
                          "time.end or the body's path",
@@ -161,14 +158,12 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
     for (int k = 0; k < r->scene.nwalls; k++) {
         const struct scene_wall *line = r->scene.walls + k;
         const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_OF_WALL, k);
-        char key[64];
-        snprintf(key, sizeof key, "walls.[%d].%s", k, mesh ? "mesh" : "points");
         if (solids_elsewhere(r, MESH_OF_WALL, k))
             continue;
         if ((line->points.n > 1 && !params_has_group(r->params, "blocks") && /* fv looks at them */
              line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
             (mesh && mesh_leaves(r, &mesh->mesh, box, open, 0.5 * prm->dx, at)))
-            params_fault(r->params, f, key,
+            params_fault(r->params, f, key_text("walls.[%d].%s", k, mesh ? "mesh" : "points"),
                          "at (%g, %g, %g) m it is outside of %s m: fv, which has no walls but the "
                          "domain's sides, takes only what lies deeper from sph; enlarge sph.box, "
                          "lower coupling.overlap, or refine fv.cells",

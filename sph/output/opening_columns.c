@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
@@ -97,7 +96,6 @@ void opening_summary(const struct sph *s, struct summary *to)
 {
     double through[6], sum = 0.0, in = s->start.mass;
     bool any = false;
-    char name[32];
     const bool around = s->prm.outer == OUTER_EXACT && s->zones && s->zones->surface;
     if (around)
         budget_summary(s, to);
@@ -106,8 +104,7 @@ void opening_summary(const struct sph *s, struct summary *to)
         if (passing(s->run, open_sides(s), side) == PASSES_NOTHING)
             continue;
         any = true;
-        snprintf(name, sizeof name, "through.%s", scene_side_names[side]);
-        summary_real(to, name, through[side]);
+        summary_real(to, key_text("through.%s", scene_side_names[side]), through[side]);
         sum += through[side];
         in += fmax(through[side], 0.0);
     }

@@ -1,0 +1,18 @@
+/* key_text.c - see key_text.h. SPDX-License-Identifier: BSD-3-Clause */
+#include "key_text.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+const char *key_text(const char *format, ...)
+{
+    static char text[8][256];
+    static int turn;
+    char *to = text[turn];
+    turn = (turn + 1) % 8;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(to, sizeof text[0], format, args);
+    va_end(args);
+    return to;
+}

@@ -1,0 +1,10 @@
+/* key_text.h - short texts put together on the way: keys of lists, names of columns.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_KEY_TEXT_H
+#define COMMON_KEY_TEXT_H
+
+/* The text that printf would write, as "walls.[2].kind", cut off after 255 bytes. Valid until the
+ * eighth call after this one; copy what must live longer. */
+const char *key_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+#endif
