@@ -380,6 +380,32 @@ bool scene_has_surface(const struct scene *s)
     return s->nshapes > 0 || scene_has_wave(s) || f == FIELD_PATCH || f == FIELD_DROP;
 }
 
+bool scene_has_openings(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->nwalls; k++)
+        any = any || scene_wall_opens(s->walls + k);
+    return any;
+}
+
+bool scene_has_no_slip(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->nwalls; k++)
+        any = any || s->walls[k].kind == WALL_NO_SLIP;
+    for (int k = 0; k < s->nbodies; k++)
+        any = any || s->bodies[k].kind == WALL_NO_SLIP;
+    return any;
+}
+
+bool scene_has_lines(const struct scene *s)
+{
+    bool any = s->nbodies > 0;
+    for (int k = 0; k < s->nwalls; k++)
+        any = any || s->walls[k].side == SIDE_NONE;
+    return any;
+}
+
 static void check_walls(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nwalls; k++) {

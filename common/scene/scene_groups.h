@@ -259,6 +259,11 @@ bool scene_has_steady_wave(const struct scene *s);
 double scene_wave_length(const struct scene *s);
 /* Whether there is a free surface: the water ends somewhere without a wall. */
 bool scene_has_surface(const struct scene *s);
+/* Whether some side opens; some wall or body has no slip; walls are lines or meshes, or bodies are
+ * there: more than sides of the domain. */
+bool scene_has_openings(const struct scene *s);
+bool scene_has_no_slip(const struct scene *s);
+bool scene_has_lines(const struct scene *s);
 
 /* Fills groups[SCENE_GROUPS] with the parameter table of the groups above, s being the target; s
  * must live as long as the groups. */

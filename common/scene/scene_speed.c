@@ -245,16 +245,6 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
     }
 }
 
-static bool has_friction(const struct scene *s)
-{
-    bool any = false;
-    for (int k = 0; k < s->nwalls; k++)
-        any = any || s->walls[k].kind == WALL_NO_SLIP;
-    for (int k = 0; k < s->nbodies; k++)
-        any = any || s->bodies[k].kind == WALL_NO_SLIP;
-    return any;
-}
-
 /* What an acceleration makes of fluid at rest within the run, at most the steady flow that friction
  * on walls allows: a h^2/(8 nu) between two planes h apart, a h^2/(2 nu) over one. */
 static double driven(const struct scene *s, double a)
@@ -270,7 +260,7 @@ static double driven(const struct scene *s, double a)
     double steady = INFINITY;
     if (s->fluid.nu > 0.0 && gap < INFINITY)
         steady = a * gap * gap / (8.0 * s->fluid.nu);
-    else if (s->fluid.nu > 0.0 && has_friction(s) && h < INFINITY)
+    else if (s->fluid.nu > 0.0 && scene_has_no_slip(s) && h < INFINITY)
         steady = a * h * h / (2.0 * s->fluid.nu);
     return fmin(a * s->time.end, steady);
 }
@@ -359,14 +349,14 @@ static double shortest(const struct scene *s)
 static bool has_jumps(const struct scene *s)
 {
     const bool stream = s->initial.field == FIELD_UNIFORM && vec3_length(s->initial.velocity) > 0.0;
-    bool jumps = stream && has_friction(s);
+    bool jumps = stream && scene_has_no_slip(s);
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         for (int a = 0; a < s->domain.dim; a++)
             jumps = jumps ||
                     (w->kind == WALL_NO_SLIP && w->velocity[a] != 0.0 && !s->domain.periodic[a]);
-        jumps =
-            jumps || (w->kind == WALL_INFLOW && w->profile != PROFILE_PARABOLIC && has_friction(s));
+        jumps = jumps ||
+                (w->kind == WALL_INFLOW && w->profile != PROFILE_PARABOLIC && scene_has_no_slip(s));
     }
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;

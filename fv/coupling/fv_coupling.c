@@ -9,7 +9,7 @@
 #include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/run/run.h"
-#include "../../coupler/cpl.h"
+#include "../../coupler/cpl_partner.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
@@ -63,16 +63,6 @@ struct link {
     double where[3];       /* m: one of them */
 };
 
-static void check(const struct link *k, int code)
-{
-    if (code == CPL_EPARTNER || code == CPL_EINPUT) {
-        signals_handled(); /* cpl_fail says it */
-        cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
-    }
-    if (code)
-        abort_run("coupling: %s", cpl_strerror(k->c));
-}
-
 /* m: edge of the cell whose average the kernel is. Of blocks that of the largest one that the
  * partner gives. */
 static double seen_size(const struct fv *s)
@@ -123,33 +113,34 @@ static const char *named(const struct source *g, const char *own, const char *na
 static void find_zone(const struct link *k, const struct source *g, const char *zone, double lo[3],
                       double hi[3])
 {
-    check(k, cpl_find_zone(k->c, named(g, NULL, zone), lo, hi));
+    partner_check(k->c, cpl_find_zone(k->c, named(g, NULL, zone), lo, hi));
 }
 
 static void declare_source(struct fv *s, struct link *k, struct source *g, int how)
 {
-    check(k, cpl_points(k->c, named(g, "fv.forced", ""), s->dim, support(s, k->seen), &g->forced));
-    check(k, cpl_field(k->c, g->forced, named(g, NULL, "velocity"), "m/s", s->dim, CPL_GET, how,
-                       &g->imposed));
-    check(k,
-          cpl_field(k->c, g->forced, named(g, NULL, "pressure"), "Pa", 1, CPL_GET, how, &g->seen));
+    partner_check(
+        k->c, cpl_points(k->c, named(g, "fv.forced", ""), s->dim, support(s, k->seen), &g->forced));
+    partner_check(k->c, cpl_field(k->c, g->forced, named(g, NULL, "velocity"), "m/s", s->dim,
+                                  CPL_GET, how, &g->imposed));
+    partner_check(k->c, cpl_field(k->c, g->forced, named(g, NULL, "pressure"), "Pa", 1, CPL_GET,
+                                  how, &g->seen));
     if (!g->moves)
         return;
-    check(k, cpl_points(k->c, named(g, "fv.place", ""), s->dim, k->seen, &g->place));
-    check(k,
-          cpl_field(k->c, g->place, named(g, NULL, "way"), "m", 9, CPL_GET, CPL_NEAREST, &g->way));
+    partner_check(k->c, cpl_points(k->c, named(g, "fv.place", ""), s->dim, k->seen, &g->place));
+    partner_check(k->c, cpl_field(k->c, g->place, named(g, NULL, "way"), "m", 9, CPL_GET,
+                                  CPL_NEAREST, &g->way));
 }
 
 static void declare_water(struct fv *s, struct link *k, int q)
 {
     struct source *g = k->of + q;
-    check(k,
-          cpl_points(k->c, named(g, "fv.surface", ""), s->dim, s->surface->forced->R, &g->places));
-    check(k,
-          cpl_field(k->c, g->places, named(g, NULL, "one"), "-", 1, CPL_GET, CPL_SUM, &g->filled));
-    check(k, cpl_points(k->c, named(g, "fv.budget", ""), s->dim, k->seen, &g->budget));
-    check(k, cpl_field(k->c, g->budget, named(g, NULL, "water"), "m^dim", 2, CPL_GET, CPL_NEAREST,
-                       &g->water));
+    partner_check(k->c, cpl_points(k->c, named(g, "fv.surface", ""), s->dim, s->surface->forced->R,
+                                   &g->places));
+    partner_check(k->c, cpl_field(k->c, g->places, named(g, NULL, "one"), "-", 1, CPL_GET, CPL_SUM,
+                                  &g->filled));
+    partner_check(k->c, cpl_points(k->c, named(g, "fv.budget", ""), s->dim, k->seen, &g->budget));
+    partner_check(k->c, cpl_field(k->c, g->budget, named(g, NULL, "water"), "m^dim", 2, CPL_GET,
+                                  CPL_NEAREST, &g->water));
     find_zone(k, g, "counted", k->of_water.box[q][0], k->of_water.box[q][1]);
 }
 
@@ -167,14 +158,15 @@ static void declare(struct fv *s, struct link *k)
         g.lo[a] = p->of.lo[a] > below ? p->of.lo[a] - below : 0;
         g.hi[a] = g.lo[a] + p->of.n[a];
     }
-    check(k, cpl_grid(k->c, "fv.cells", &g, &k->grid));
-    check(k, cpl_field(k->c, k->grid, "fv.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
-    check(k, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
+    partner_check(k->c, cpl_grid(k->c, "fv.cells", &g, &k->grid));
+    partner_check(k->c,
+                  cpl_field(k->c, k->grid, "fv.velocity", "m/s", s->dim, CPL_PUT, 0, &k->velocity));
+    partner_check(k->c, cpl_field(k->c, k->grid, "fv.pressure", "Pa", 1, CPL_PUT, 0, &k->pressure));
     for (int q = 0; q < k->n; q++)
         declare_source(s, k, k->of + q, how);
     if (!s->surface)
         return;
-    check(k, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
+    partner_check(k->c, cpl_field(k->c, k->grid, "fv.phi", "m", 1, CPL_PUT, 0, &k->phi));
     k->of_water = water_budget_create(k->n);
     for (int q = 0; q < k->n; q++)
         declare_water(s, k, q);
@@ -479,13 +471,13 @@ static void put(struct fv *s)
     struct course *c = k->course;
     const double *const *term = (const double *const *)c->term;
     int n = course_velocity(c);
-    check(k, cpl_put_course(k->c, k->velocity, s->t, c->n, n, term));
+    partner_check(k->c, cpl_put_course(k->c, k->velocity, s->t, c->n, n, term));
     n = course_pressure(c);
-    check(k, cpl_put_course(k->c, k->pressure, s->t, c->n, n, term));
+    partner_check(k->c, cpl_put_course(k->c, k->pressure, s->t, c->n, n, term));
     if (!s->surface)
         return;
     n = course_surface(c);
-    check(k, cpl_put_course(k->c, k->phi, s->t, c->n, n, term));
+    partner_check(k->c, cpl_put_course(k->c, k->phi, s->t, c->n, n, term));
 }
 
 /* Which cells take the partner's values. */
@@ -495,9 +487,9 @@ static void name_cells(struct fv *s)
     const struct forced_points *p = &k->points;
     const struct surface_forced *w = s->surface ? s->surface->forced : NULL;
     for (int q = 0; q < k->n; q++) {
-        check(k, cpl_move(k->c, k->of[q].forced, p->n, p->x, p->id, NULL));
+        partner_check(k->c, cpl_move(k->c, k->of[q].forced, p->n, p->x, p->id, NULL));
         if (w)
-            check(k, cpl_move(k->c, k->of[q].places, w->nplaces, w->x, NULL, NULL));
+            partner_check(k->c, cpl_move(k->c, k->of[q].places, w->nplaces, w->x, NULL, NULL));
     }
 }
 
@@ -511,9 +503,9 @@ void coupling_first(void *state)
     name_cells(s);
     for (int q = 0; q < k->n; q++) {
         if (s->surface)
-            check(k, cpl_move(k->c, k->of[q].budget, 1, one, NULL, NULL));
+            partner_check(k->c, cpl_move(k->c, k->of[q].budget, 1, one, NULL, NULL));
         if (k->of[q].moves)
-            check(k, cpl_move(k->c, k->of[q].place, 1, one, NULL, NULL));
+            partner_check(k->c, cpl_move(k->c, k->of[q].place, 1, one, NULL, NULL));
     }
     if (!s->run->restart) {
         const double before = s->exact.U > 0.0 ? 1e-3 * s->exact.L / s->exact.U : 1e-3;
@@ -674,8 +666,8 @@ static void take(struct fv *s)
         memcpy(f->v_next[a], f->v[a], (size_t)n * sizeof(double));
     for (int q = 0; q < k->n; q++) {
         const struct source *g = k->of + q;
-        check(k, cpl_get(k->c, g->imposed, k->points.n, k->got, k->whose));
-        check(k, cpl_get(k->c, g->seen, k->points.n, k->one, NULL));
+        partner_check(k->c, cpl_get(k->c, g->imposed, k->points.n, k->got, k->whose));
+        partner_check(k->c, cpl_get(k->c, g->seen, k->points.n, k->one, NULL));
         forced_points_mean(&k->points, dim, k->got, k->whose, k->mean, k->has);
         forced_points_mean(&k->points, 1, k->one, k->whose, k->level, k->has);
         for (int64_t i = 0; i < n; i++) {
@@ -689,7 +681,7 @@ static void take(struct fv *s)
     }
     for (int q = 0; q < k->n; q++)
         if (k->of[q].moves) {
-            check(k, cpl_get(k->c, k->of[q].way, 1, k->of[q].moved, NULL));
+            partner_check(k->c, cpl_get(k->c, k->of[q].way, 1, k->of[q].moved, NULL));
             k->has_moved = true;
         }
 }
@@ -702,10 +694,10 @@ static void take_surface(struct fv *s)
     double water[2] = {0.0, 0.0}, of_one[2];
     memset(k->share, 0, (size_t)n * sizeof *k->share);
     for (int q = 0; q < k->n; q++) {
-        check(k, cpl_get(k->c, k->of[q].filled, n, k->share_of_one, NULL));
+        partner_check(k->c, cpl_get(k->c, k->of[q].filled, n, k->share_of_one, NULL));
         for (int64_t i = 0; i < n; i++)
             k->share[i] += k->share_of_one[i];
-        check(k, cpl_get(k->c, k->of[q].water, 1, of_one, NULL));
+        partner_check(k->c, cpl_get(k->c, k->of[q].water, 1, of_one, NULL));
         water[0] += of_one[0];
         water[1] += of_one[1];
     }

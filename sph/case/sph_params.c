@@ -130,23 +130,6 @@ static double default_c0(const struct scene_speed *v)
     return 10.0 * fmax(v->speed, sqrt(fmax(v->pressure, v->viscous)));
 }
 
-static bool has_openings(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || scene_wall_opens(c->walls + k);
-    return any;
-}
-
-/* Walls and bodies that are more than sides of the domain: polylines, meshes. */
-static bool has_polylines(const struct scene *c)
-{
-    bool any = c->nbodies > 0;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].side == SIDE_NONE;
-    return any;
-}
-
 static bool has_points(const struct scene *c)
 {
     bool any = false;
@@ -165,17 +148,12 @@ static bool hangs(const struct scene *c, const struct sph_params *prm)
     bool weight = false;
     for (int a = 0; a < c->domain.dim; a++)
         weight = weight || (c->fluid.gravity[a] != 0.0 && !c->domain.periodic[a]);
-    return weight && sph_params_walls(c, prm) && !has_openings(c) && !has_box();
+    return weight && sph_params_walls(c, prm) && !scene_has_openings(c) && !has_box();
 }
 
 static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
 {
-    bool any = false;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].kind == WALL_NO_SLIP;
-    for (int k = 0; k < c->nbodies; k++)
-        any = any || c->bodies[k].kind == WALL_NO_SLIP;
-    return any && sph_params_walls(c, prm);
+    return scene_has_no_slip(c) && sph_params_walls(c, prm);
 }
 
 static bool is_coupled(const struct run *r) { return r->scene.has_sph && r->scene.has_fv; }
@@ -299,13 +277,14 @@ static void resolve(const struct run *r)
     if (used.viscosity == VISCOSITY_AUTO)
         used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
-        used.scheme = used.surface == SURFACE_YES && !has_openings(&r->scene) ? SCHEME_RIEMANN
-                                                                              : SCHEME_RIEMANN_ALE;
+        used.scheme = used.surface == SURFACE_YES && !scene_has_openings(&r->scene)
+                          ? SCHEME_RIEMANN
+                          : SCHEME_RIEMANN_ALE;
     const struct apr_params *apr = apr_params_of(r);
     if (used.walls == WALLS_AUTO && apr && apr->method != APR_GUARDS)
         used.walls = WALLS_GHOSTS;
     if (used.walls == WALLS_AUTO) /* delta without polylines: as it is known */
-        used.walls = sph_params_is_riemann(used.scheme) || has_polylines(&r->scene) ||
+        used.walls = sph_params_is_riemann(used.scheme) || scene_has_lines(&r->scene) ||
                              bed_with_friction(r) >= 0
                          ? WALLS_NFM
                          : WALLS_GHOSTS;
@@ -321,14 +300,14 @@ static void resolve(const struct run *r)
         used.alpha = r->scene.fluid.nu > 0.0 ? 0.0 : 0.01;
     if (has_box() && used.outer == OUTER_NONE)
         used.outer = is_coupled(r) ? OUTER_PARTNER : OUTER_EXACT;
-    if (!has_box() && used.outer == OUTER_NONE && has_openings(&r->scene))
+    if (!has_box() && used.outer == OUTER_NONE && scene_has_openings(&r->scene))
         used.outer = OUTER_SIDES;
     if (used.noise < 0.0 && apr && apr->method == APR_GRADED)
         used.noise = 0.0;
     if (used.noise < 0.0)
         used.noise = shears_lattice(r, &used) ? 0.3 : 0.0;
     if (used.packing < 0)
-        used.packing = has_polylines(&r->scene) && used.walls != WALLS_GHOSTS
+        used.packing = scene_has_lines(&r->scene) && used.walls != WALLS_GHOSTS
                            ? (r->scene.domain.dim == 3 ? 40 : 200)
                        : used.noise > 0.0 ? 40
                                           : 0;
@@ -667,7 +646,7 @@ static void check_levels(const struct run *r, struct faults *f)
 /* Fixed ghosts are there for comparison, and simple. */
 static void check_fixed_ghosts(const struct run *r, struct faults *f)
 {
-    const bool crossed = has_box() || has_openings(&r->scene) || is_coupled(r);
+    const bool crossed = has_box() || scene_has_openings(&r->scene) || is_coupled(r);
     const char *why = r->scene.domain.dim != 2    ? "are for 2D"
                       : r->size > 1               ? "run on one rank"
                       : crossed                   ? "have no open sides"
@@ -686,7 +665,7 @@ static void check_wall_model(const struct run *r, struct faults *f)
         params_fault(r->params, f, "walls",
                      "walls and bodies of points need 2 dimensions: in space give a mesh, of "
                      "bodies also a box, a radius or, with the points of a section, a length");
-    else if (has_polylines(&r->scene) && given.walls == WALLS_GHOSTS)
+    else if (scene_has_lines(&r->scene) && given.walls == WALLS_GHOSTS)
         params_fault(r->params, f, "sph.walls",
                      "mirrored ghosts need plane sides: take nfm for polylines, bodies and meshes");
     if (r->scene.domain.dim == 2 && given.wall_integrals == INTEGRALS_CLIPPED)

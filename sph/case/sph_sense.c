@@ -17,18 +17,10 @@ static bool is_pressure(const struct scene_wall *w)
     return w && (w->kind == WALL_OUTFLOW || w->kind == WALL_ABSORBING);
 }
 
-static bool has_polylines(const struct scene *c)
-{
-    bool any = c->nbodies > 0;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || c->walls[k].side == SIDE_NONE;
-    return any;
-}
-
 /* Something that a stream along it must pass by: friction or the drag of a body. */
 static bool something_holds(const struct scene *c)
 {
-    bool any = has_polylines(c);
+    bool any = scene_has_lines(c);
     for (int k = 0; k < c->nwalls; k++)
         any = any || (c->walls[k].kind == WALL_NO_SLIP && c->fluid.nu > 0.0);
     return any;

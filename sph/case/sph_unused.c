@@ -11,14 +11,6 @@
 #include "../sph_facts.h"
 #include "../walls/sph_walls.h"
 
-static bool any_opening(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nwalls; k++)
-        any = any || scene_wall_opens(c->walls + k);
-    return any;
-}
-
 /* "none" leaves the open sides of a box, and inlets, without what they need: it is read as not
  * given. Inlets are what they are without sides, and sides without them are nothing. */
 static bool outer_counts(const struct run *r, const struct sph_params *given,
@@ -26,9 +18,9 @@ static bool outer_counts(const struct run *r, const struct sph_params *given,
 {
     switch (given->outer) {
     case OUTER_NONE:
-        return !sph_params_zones(r, used) && !any_opening(&r->scene);
+        return !sph_params_zones(r, used) && !scene_has_openings(&r->scene);
     case OUTER_SIDES:
-        return any_opening(&r->scene);
+        return scene_has_openings(&r->scene);
     default:
         return sph_params_zones(r, used);
     }

@@ -11,7 +11,7 @@
 
 #include "../../common/base/base.h"
 #include "../../common/params/params.h"
-#include "../../coupler/cpl.h"
+#include "../../coupler/cpl_partner.h"
 #include "../bodies/sph_bodies.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
@@ -47,16 +47,6 @@ bool body_coupling_possible(const struct run *r)
     return params_report(&f) == 0;
 }
 
-static void check(const struct body_coupling *k, int code)
-{
-    if (code == CPL_EPARTNER || code == CPL_EINPUT) {
-        signals_handled(); /* cpl_fail says it */
-        cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
-    }
-    if (code)
-        abort_run("coupling: %s", cpl_strerror(k->c));
-}
-
 /* "sph.flap.force"; without the program: "flap.motion". Blanks of a name become underscores. */
 static const char *field_of(const struct run *r, const char *program, int body, const char *what)
 {
@@ -86,18 +76,18 @@ void body_coupling_create(struct sph *s)
     struct body_coupling *k = s->body_coupling = NEW(struct body_coupling, 1);
     k->c = r->partner_ctx;
     snprintf(set, sizeof set, "%.50s.bodies", r->name);
-    check(k, cpl_points(k->c, set, s->dim, 1.0, &k->set));
+    partner_check(k->c, cpl_points(k->c, set, s->dim, 1.0, &k->set));
     for (int b = 0; b < n; b++) {
-        check(k, cpl_field(k->c, k->set, field_of(r, r->name, b, "force"), "N", BODY_AXES,
-                           CPL_PUT | CPL_OPTIONAL, 0, k->force + b));
-        check(k, cpl_field(k->c, k->set, field_of(r, r->name, b, "motion"), "m", PLACE,
-                           CPL_PUT | CPL_OPTIONAL, 0, k->motion + b));
+        partner_check(k->c, cpl_field(k->c, k->set, field_of(r, r->name, b, "force"), "N",
+                                      BODY_AXES, CPL_PUT | CPL_OPTIONAL, 0, k->force + b));
+        partner_check(k->c, cpl_field(k->c, k->set, field_of(r, r->name, b, "motion"), "m", PLACE,
+                                      CPL_PUT | CPL_OPTIONAL, 0, k->motion + b));
         k->moved[b] = -1;
         if (s->walls->bodies[b].course)
-            check(k, cpl_field(k->c, k->set, field_of(r, "", b, "motion"), "m", PLACE, CPL_GET,
-                               CPL_NEAREST, k->moved + b));
+            partner_check(k->c, cpl_field(k->c, k->set, field_of(r, "", b, "motion"), "m", PLACE,
+                                          CPL_GET, CPL_NEAREST, k->moved + b));
     }
-    check(k, cpl_move(k->c, k->set, mine, origin, &id, &one));
+    partner_check(k->c, cpl_move(k->c, k->set, mine, origin, &id, &one));
 }
 
 void body_coupling_free(struct sph *s) { mem_free(s->body_coupling); }
@@ -131,7 +121,8 @@ static void take_motion(struct sph *s, int b, double t0, double t1)
         const double t = end ? t1 : t0;
         if (end == 0 && (s->run->step > 0 || s->run->restart))
             continue; /* it is where it has come to */
-        check(k, cpl_get_at(k->c, k->moved[b], CPL_START, t, mine, at, mine ? &there : NULL));
+        partner_check(k->c,
+                      cpl_get_at(k->c, k->moved[b], CPL_START, t, mine, at, mine ? &there : NULL));
         at[PLACE] = there;
         MPI_Bcast(at, PLACE + 1, MPI_DOUBLE, 0, s->run->comm);
         if (at[PLACE] < 1.0)
@@ -174,7 +165,7 @@ void body_coupling_end(struct sph *s, double t1)
         memcpy(place + 3, m->r, sizeof m->r);
         memcpy(place + 6, m->u, sizeof m->u);
         memcpy(place + 9, m->omega, sizeof m->omega);
-        check(k, cpl_put(k->c, k->force[b], t1, mine, force, NULL));
-        check(k, cpl_put(k->c, k->motion[b], t1, mine, place, NULL));
+        partner_check(k->c, cpl_put(k->c, k->force[b], t1, mine, force, NULL));
+        partner_check(k->c, cpl_put(k->c, k->motion[b], t1, mine, place, NULL));
     }
 }

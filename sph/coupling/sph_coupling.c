@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "../../common/base/base.h"
-#include "../../coupler/cpl.h"
+#include "../../coupler/cpl_partner.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
@@ -33,18 +33,6 @@ struct sph_link {
     bool compared;                    /* the length of the coupling steps with what sph wished */
     struct scene_reference reference; /* what the particles' pressure leaves out */
 };
-
-/* An error of the partner or of the input ends the job with the library's message; any other is a
- * mistake of this program. */
-static void check(const struct sph_link *k, int code)
-{
-    if (code == CPL_EPARTNER || code == CPL_EINPUT) {
-        signals_handled(); /* cpl_fail says it */
-        cpl_fail(k->c, RUN_PARTNER, cpl_strerror(k->c));
-    }
-    if (code)
-        abort_run("coupling: %s", cpl_strerror(k->c));
-}
 
 /* "sph.velocity": of what this program gives. */
 static const char *named(const struct run *r, const char *what)
@@ -133,27 +121,29 @@ void sph_coupling_create(struct sph *s)
     const int how = s->run->scene.coupling.interpolation ? CPL_CUBIC : CPL_LINEAR;
     k->c = s->run->partner_ctx;
     k->dim = s->dim;
-    check(k, cpl_points(k->c, named(s->run, "particles"), s->dim, 0.0, &k->particles));
-    check(k, cpl_field(k->c, k->particles, named(s->run, "velocity"), "m/s", s->dim, CPL_PUT, 0,
-                       &k->velocity));
-    check(k, cpl_field(k->c, k->particles, named(s->run, "pressure"), "Pa", 1,
-                       CPL_PUT | CPL_OPTIONAL, 0, &k->pressure));
-    check(k, cpl_field(k->c, k->particles, "fv.velocity", "m/s", s->dim, CPL_GET, how,
-                       &k->patch_velocity));
-    check(k,
-          cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how, &k->patch_pressure));
+    partner_check(k->c, cpl_points(k->c, named(s->run, "particles"), s->dim, 0.0, &k->particles));
+    partner_check(k->c, cpl_field(k->c, k->particles, named(s->run, "velocity"), "m/s", s->dim,
+                                  CPL_PUT, 0, &k->velocity));
+    partner_check(k->c, cpl_field(k->c, k->particles, named(s->run, "pressure"), "Pa", 1,
+                                  CPL_PUT | CPL_OPTIONAL, 0, &k->pressure));
+    partner_check(k->c, cpl_field(k->c, k->particles, "fv.velocity", "m/s", s->dim, CPL_GET, how,
+                                  &k->patch_velocity));
+    partner_check(k->c, cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how,
+                                  &k->patch_pressure));
     if (s->run->crossed) {
-        check(k, cpl_field(k->c, k->particles, named(s->run, "one"), "-", 1, CPL_PUT, 0, &k->one));
-        check(k,
-              cpl_field(k->c, k->particles, "fv.phi", "m", 1, CPL_GET, CPL_LINEAR, &k->patch_phi));
-        check(k, cpl_points(k->c, named(s->run, "budget"), s->dim, 0.0, &k->budget));
-        check(k, cpl_field(k->c, k->budget, named(s->run, "water"), "m^dim", 2, CPL_PUT, 0,
-                           &k->water));
+        partner_check(
+            k->c, cpl_field(k->c, k->particles, named(s->run, "one"), "-", 1, CPL_PUT, 0, &k->one));
+        partner_check(k->c, cpl_field(k->c, k->particles, "fv.phi", "m", 1, CPL_GET, CPL_LINEAR,
+                                      &k->patch_phi));
+        partner_check(k->c, cpl_points(k->c, named(s->run, "budget"), s->dim, 0.0, &k->budget));
+        partner_check(k->c, cpl_field(k->c, k->budget, named(s->run, "water"), "m^dim", 2, CPL_PUT,
+                                      0, &k->water));
         s->zones->surface = eval_surface;
     }
     if (box_motion_wanted(&s->prm)) {
-        check(k, cpl_points(k->c, named(s->run, "place"), s->dim, 0.0, &k->place));
-        check(k, cpl_field(k->c, k->place, named(s->run, "way"), "m", 9, CPL_PUT, 0, &k->way));
+        partner_check(k->c, cpl_points(k->c, named(s->run, "place"), s->dim, 0.0, &k->place));
+        partner_check(k->c,
+                      cpl_field(k->c, k->place, named(s->run, "way"), "m", 9, CPL_PUT, 0, &k->way));
     }
     choose_halves(s);
     s->zones->eval = eval_patch;
@@ -188,7 +178,7 @@ static void take_surface(struct sph *s, double T)
         lo[a] = s->lo[a] - looks_beyond(s, a, T);
         hi[a] = s->hi[a] + looks_beyond(s, a, T);
     }
-    check(k, cpl_patch_get(k->c, k->patch_phi, lo, hi));
+    partner_check(k->c, cpl_patch_get(k->c, k->patch_phi, lo, hi));
     s->lists.ready =
         false; /* the lattice behind the faces ends at the surface, which is another now */
     if (!s->zones->gap->started)
@@ -211,8 +201,8 @@ void sph_coupling_window_begin(void *state, double t0, double t1)
         lo[a] -= looks_beyond(s, a, t1 - t0);
         hi[a] += looks_beyond(s, a, t1 - t0);
     }
-    check(k, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
-    check(k, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
+    partner_check(k->c, cpl_patch_get(k->c, k->patch_velocity, lo, hi));
+    partner_check(k->c, cpl_patch_get(k->c, k->patch_pressure, lo, hi));
     if (s->zones->surface)
         take_surface(s, t1 - t0);
     zones_gauge(s);
@@ -253,8 +243,8 @@ static void give_one(struct sph *s, int set, int field, double t, const double *
     const int mine = s->run->rank == 0 ? 1 : 0;
     const int64_t id = 0;
     room(k, 1);
-    check(k, cpl_move(k->c, set, mine, start, &id, k->ones));
-    check(k, cpl_put(k->c, field, t, mine, value, NULL));
+    partner_check(k->c, cpl_move(k->c, set, mine, start, &id, k->ones));
+    partner_check(k->c, cpl_put(k->c, field, t, mine, value, NULL));
 }
 
 /* How far the box has moved, and what of it will be counted as SPH's water in the next window. */
@@ -274,7 +264,7 @@ static void give_surface(struct sph *s, int n, double t)
     const struct sph_link *k = s->zones->ctx;
     double water[2];
     wet_faces_water(s, water);
-    check(k, cpl_put(k->c, k->one, t, n, k->ones, NULL));
+    partner_check(k->c, cpl_put(k->c, k->one, t, n, k->ones, NULL));
     give_one(s, k->budget, k->water, t, water);
 }
 
@@ -301,9 +291,9 @@ void sph_coupling_window_end(void *state, double t1)
         k->w[n] = y[at_volume(dim)];
         k->id[n++] = s->p.id[i];
     }
-    check(k, cpl_move(k->c, k->particles, n, k->x, k->id, k->w));
-    check(k, cpl_put(k->c, k->velocity, t1, n, k->u, NULL));
-    check(k, cpl_put(k->c, k->pressure, t1, n, k->p, NULL));
+    partner_check(k->c, cpl_move(k->c, k->particles, n, k->x, k->id, k->w));
+    partner_check(k->c, cpl_put(k->c, k->velocity, t1, n, k->u, NULL));
+    partner_check(k->c, cpl_put(k->c, k->pressure, t1, n, k->p, NULL));
     if (s->zones->surface)
         give_surface(s, n, t1);
     if (box_motion_wanted(&s->prm))
