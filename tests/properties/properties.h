@@ -118,5 +118,7 @@ void scene_scale(struct scene *s, double length, double speed, double density);
 /* Meshes are beside the case, which has a name. */
 void scene_write(const struct scene *s, const char *name, FILE *f);
 void scene_write_meshes(const struct scene *s, const char *dir, const char *name);
+/* Turns an outline round. */
+void make_reverse(struct outline *o);
 
 #endif

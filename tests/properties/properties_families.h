@@ -19,6 +19,10 @@ void make_box(struct scene *s, struct random *r, const int *n, const double *h);
 double make_spacing(struct random *r);
 void make_fluid(struct scene *s, struct random *r); /* rho, and nu from speed and length */
 void make_sides(struct scene *s, struct random *r, const char *kind); /* all that do not repeat */
+/* Flow along x between the sides of a box that repeats itself along it, `length' apart. */
+void make_channel(struct scene *s, struct random *r, double length);
+/* A standing wave of length L on water that is `depth' deep. */
+void make_wave(struct scene *s, struct random *r, double depth, double L);
 /* Gravity of magnitude g, in half of the scenes along -axis, else askew. */
 void make_gravity(struct scene *s, struct random *r, double g, int axis);
 void make_obstacle(struct outline *o, struct random *r, const double *centre, double radius);

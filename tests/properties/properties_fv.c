@@ -128,22 +128,7 @@ static void channel(struct scene *s, struct random *r)
 {
     s->dim = 2;
     box_of(s, r, even(r, 4, 16), whole(r, 4, 40), 1);
-    s->periodic[0] = true;
-    s->length = s->L = s->hi[1] - s->lo[1];
-    s->speed = s->U = decades(r, 0.02, 30.0);
-    s->say_U = true;
-    s->rho = decades(r, 0.01, 5000.0);
-    s->nu = s->speed * s->length / decades(r, 0.1, 1e4);
-    make_sides(s, r, "no_slip");
-    s->closed = true;
-    if (chance(r, 0.5)) {
-        s->field = "poiseuille";
-        s->g[0] = 8.0 * s->nu * s->U / (s->L * s->L);
-    } else {
-        s->field = "couette";
-        s->sides[3].velocity[0] = s->U;
-    }
-    s->shifts = true;
+    make_channel(s, r, s->hi[1] - s->lo[1]);
     settle(s, r, integrator(s, r, true));
 }
 
@@ -237,21 +222,8 @@ static void wave(struct scene *s, struct random *r)
     s->dim = 2;
     const int nx = even(r, 8, 48), ny = whole(r, 5, 24), air = whole(r, 3, 8);
     box_of(s, r, nx, ny + air, 1);
-    s->hi[0] -= s->lo[0];
-    s->lo[0] = 0.0;
-    s->periodic[0] = true;
-    s->length = (s->hi[1] - s->lo[1]) * ny / (ny + air);
-    s->speed = sqrt(9.81 * s->length);
-    make_fluid(s, r);
-    s->g[1] = -9.81;
-    s->field = "standing_wave";
-    s->amplitude = s->length * uniform(r, 0.01, 0.15);
-    s->L = s->hi[0];
-    s->U = 6.283 * s->amplitude * sqrt(9.81 / s->L);
-    s->level = s->lo[1] + s->length;
-    s->sides[2].kind = one_of(r, "slip", "no_slip");
+    make_wave(s, r, (s->hi[1] - s->lo[1]) * ny / (ny + air), s->hi[0] - s->lo[0]);
     s->sides[3].kind = "slip";
-    s->closed = true;
     settle(s, r, 10.0);
 }
 

@@ -36,6 +36,54 @@ void make_sides(struct scene *s, struct random *r, const char *kind)
             s->sides[k].kind = kind ? kind : one_of(r, "slip", "no_slip");
 }
 
+void make_channel(struct scene *s, struct random *r, double length)
+{
+    s->periodic[0] = true;
+    s->length = s->L = length;
+    s->speed = s->U = decades(r, 0.02, 30.0);
+    s->say_U = true;
+    s->rho = decades(r, 0.01, 5000.0);
+    s->nu = s->speed * s->length / decades(r, 0.1, 1e4);
+    make_sides(s, r, "no_slip");
+    s->closed = true;
+    if (chance(r, 0.5)) {
+        s->field = "poiseuille";
+        s->g[0] = 8.0 * s->nu * s->U / (s->L * s->L);
+    } else {
+        s->field = "couette";
+        s->sides[3].velocity[0] = s->U;
+    }
+    s->shifts = true;
+}
+
+void make_wave(struct scene *s, struct random *r, double depth, double L)
+{
+    s->hi[0] -= s->lo[0];
+    s->lo[0] = 0.0;
+    s->periodic[0] = true;
+    s->length = depth;
+    s->speed = sqrt(9.81 * s->length);
+    make_fluid(s, r);
+    s->g[1] = -9.81;
+    s->field = "standing_wave";
+    s->amplitude = s->length * uniform(r, 0.01, 0.15);
+    s->L = L;
+    s->U = 6.283 * s->amplitude * sqrt(9.81 / s->L);
+    s->level = s->lo[1] + s->length;
+    s->sides[2].kind = one_of(r, "slip", "no_slip");
+    s->closed = true;
+}
+
+void make_reverse(struct outline *o)
+{
+    for (int k = 0; k < o->n / 2; k++) {
+        double x[3];
+        memcpy(x, o->x[k], sizeof x);
+        memcpy(o->x[k], o->x[o->n - 1 - k], sizeof x);
+        memcpy(o->x[o->n - 1 - k], x, sizeof x);
+    }
+}
+
 void make_gravity(struct scene *s, struct random *r, double g, int axis)
 {
     double d[3] = {0.0, 0.0, 0.0}, sum = 0.0;
@@ -62,12 +110,7 @@ void make_obstacle(struct outline *o, struct random *r, const double *centre, do
         o->x[k][1] = centre[1] + radius * far * sin(angle);
     }
     for (int k = 0; k < o->n / 2 && chance(r, 0.3) && k == 0; k++)
-        for (int i = 0; i < o->n / 2; i++) { /* the other way round */
-            double x[3];
-            memcpy(x, o->x[i], sizeof x);
-            memcpy(o->x[i], o->x[o->n - 1 - i], sizeof x);
-            memcpy(o->x[o->n - 1 - i], x, sizeof x);
-        }
+        make_reverse(o);
 }
 
 void make_end(struct scene *s, struct random *r, double dt, double seconds)

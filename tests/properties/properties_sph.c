@@ -112,23 +112,7 @@ static void channel(struct scene *s, struct random *r)
     s->dim = 2;
     const int nx = whole(r, 10, 24), ny = whole(r, 2, 24);
     make_particles(s, r, nx, ny, 1);
-    s->periodic[0] = true;
-    s->length = ny * s->dx;
-    s->speed = s->U = decades(r, 0.02, 30.0);
-    s->say_U = true;
-    s->rho = decades(r, 0.01, 5000.0);
-    s->nu = s->speed * s->length / decades(r, 0.1, 1e4);
-    make_sides(s, r, "no_slip");
-    s->L = s->length;
-    s->closed = true;
-    if (chance(r, 0.5)) {
-        s->field = "poiseuille";
-        s->g[0] = 8.0 * s->nu * s->U / (s->L * s->L);
-    } else {
-        s->field = "couette";
-        s->sides[3].velocity[0] = s->U;
-    }
-    s->shifts = true;
+    make_channel(s, r, ny * s->dx);
     settle_particles(s, r, nx * ny);
 }
 
@@ -412,20 +396,7 @@ static void wave(struct scene *s, struct random *r)
     s->dim = 2;
     const int nx = whole(r, 20, 48), ny = whole(r, 5, 16), air = whole(r, 3, 8);
     make_particles(s, r, nx, ny + air, 1);
-    s->hi[0] -= s->lo[0];
-    s->lo[0] = 0.0;
-    s->periodic[0] = true;
-    s->length = ny * s->dx;
-    s->speed = sqrt(9.81 * s->length);
-    make_fluid(s, r);
-    s->g[1] = -9.81;
-    s->field = "standing_wave";
-    s->amplitude = s->length * uniform(r, 0.01, 0.15);
-    s->U = 6.283 * s->amplitude * sqrt(9.81 / (nx * s->dx));
-    s->L = nx * s->dx;
-    s->level = s->lo[1] + s->length;
-    s->sides[2].kind = one_of(r, "slip", "no_slip");
-    s->closed = true;
+    make_wave(s, r, ny * s->dx, nx * s->dx);
     s->shifts_by_L = false;
     settle_particles(s, r, nx * ny);
 }

@@ -47,12 +47,8 @@ static void outline(const struct motion *m, struct outline *o)
 {
     for (int k = 0; k < o->n; k++)
         place(m, o->x[k]);
-    for (int k = 0; sign_of(m) < 0.0 && k < o->n / 2; k++) {
-        double x[3];
-        memcpy(x, o->x[k], sizeof x);
-        memcpy(o->x[k], o->x[o->n - 1 - k], sizeof x);
-        memcpy(o->x[o->n - 1 - k], x, sizeof x);
-    }
+    if (sign_of(m) < 0.0)
+        make_reverse(o);
 }
 
 /* A mirror turns triangles round. */
