@@ -542,8 +542,6 @@ void scene_check(struct scene *s, const struct params *p, struct faults *f)
         params_check_plane(p, groups, SCENE_GROUPS, f);
     if (f->n == before) /* what follows needs vectors of the plane */
         scene_check_sense(s, p, f);
-    if (f->n == 0)
-        scene_waves_resolve(s);
 }
 
 void scene_check_facts(const struct scene *s, const struct params *p, unsigned long long facts,

@@ -39,7 +39,7 @@ enum scene_side {
     SIDE_Z_MAX
 };
 /* Kinds of sides and walls. Wave and beach are slip walls with a zone before them
- * (scene_waves_mark, scene_waves_resolve). Falls is no word of a case: sph gives it to an outflow
+ * (scene_waves_mark). Falls is no word of a case: sph gives it to an outflow
  * that openings_resolve found to have nothing outside (falls), where the region simply ends and
  * water that leaves is meant to fall out. */
 enum wall_kind {
@@ -129,7 +129,7 @@ struct scene {
         double pressure;    /* Pa: at an outflow */
         double beach,
             beach_period; /* m, s: length of its zone and period of the waves it absorbs; 0: none */
-        int zone;         /* enum wall_zone, by scene_waves_resolve */
+        int zone;         /* enum wall_zone, by scene_waves_mark */
         bool carried; /* fv: convective outflow, which advects the velocity instead of imposing p */
         double level; /* m: of the water in an opening, if has_level */
         double discharge; /* m^dim/s: in through an inflow, out through an outflow; 0: not given */
@@ -194,7 +194,10 @@ struct scene {
         int evolve;                 /* enum wave_evolve */
         char file[PARAM_TEXT_SIZE]; /* of kind file, beside the case */
         char path[512];             /* to it, by scene_wave_file_read */
-        double made[2]; /* resolved by scene_waves_resolve: highest crest, m, fastest water, m/s */
+        struct waves_made {
+            double crest, speed;   /* m, m/s: the highest, of the fastest water */
+            double length, height; /* m: of a wave, of a sea's peak; from trough to crest */
+        } made;                    /* resolved by scene_waves_check */
     } waves;
     struct scene_coupling {
         int steps;         /* SPH steps in a coupling step; 0: automatic */

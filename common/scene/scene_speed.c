@@ -240,8 +240,8 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
     if (scene_has_surface(s) || !still)
         *fall = still && s->nshapes > 0 ? 0.0 : *depth;
     if (s->has_waves && still) { /* crests and troughs of a standing wave, before a wall */
-        *depth += 2.0 * s->waves.made[0];
-        *fall = 4.0 * s->waves.made[0];
+        *depth += 2.0 * s->waves.made.crest;
+        *fall = 4.0 * s->waves.made.crest;
     }
 }
 
@@ -450,7 +450,7 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
     take(&v, inflow_speed(s), "the inflow");
     take(&v, wall_speed(s), "the moving walls");
     take(&v, fmax(body_speed(s), file), "the moving bodies");
-    take(&v, s->waves.made[1], "the waves");
+    take(&v, s->waves.made.speed, "the waves");
     take(&v, driven_speed(s), "the body force along periodic axes");
     take(&v, outlet_speed(s, &pressure), "the pressures of the outlets");
     take(&v, s->fluid.central * sqrt(central), "the central force");

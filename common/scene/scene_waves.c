@@ -156,12 +156,9 @@ static double zone_length(const struct scene *s, const struct waves *w)
     return (w->of.kind != WAVE_REGULAR || deep ? 1.5 : 1.0) * w->length;
 }
 
-void scene_waves_resolve(struct scene *s)
+/* Lengths and periods of zones that follow from the waves, and waves.made. */
+static void resolve(struct scene *s, const struct waves *made)
 {
-    if (!s->has_waves)
-        return;
-    const struct wave_spec of = scene_waves_spec(s);
-    struct waves *made = waves_create(&of);
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;
         if (w->zone == ZONE_NONE)
@@ -169,9 +166,7 @@ void scene_waves_resolve(struct scene *s)
         w->beach = w->beach > 0.0 ? w->beach : zone_length(s, made);
         w->beach_period = w->beach_period > 0.0 ? w->beach_period : made->period;
     }
-    s->waves.made[0] = made->crest;
-    s->waves.made[1] = made->speed;
-    waves_free(&made);
+    s->waves.made = (struct waves_made){made->crest, made->speed, made->length, made->of.height};
 }
 
 /* --- faults --- */
@@ -344,7 +339,7 @@ static void check_room(const struct scene *s, const struct params *p, const stru
                      "xyz"[a], left[a]);
 }
 
-void scene_waves_check(const struct scene *s, const struct params *p, struct faults *f)
+void scene_waves_check(struct scene *s, const struct params *p, struct faults *f)
 {
     const int before = f->n;
     char text[256];
@@ -378,6 +373,7 @@ void scene_waves_check(const struct scene *s, const struct params *p, struct fau
         check_period(s, p, made, f);
         warn_of_sides(s);
     }
+    resolve(s, made);
     waves_free(&made);
 }
 
@@ -495,11 +491,8 @@ void scene_waves_resolution(const struct scene *s, const char *points, const dou
     const int up = scene_still_axis(s);
     if (!s->has_waves || up < 0)
         return;
-    const struct wave_spec of = scene_waves_spec(s);
-    struct waves *made = waves_create(&of);
-    const double length = made->length, height = made->of.height;
+    const double length = s->waves.made.length, height = s->waves.made.height;
     double d[3], along = INFINITY;
-    waves_free(&made);
     scene_waves_direction(s, d, NULL);
     for (int a = 0; a < s->domain.dim; a++)
         if (a != up)

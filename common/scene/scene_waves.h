@@ -16,11 +16,9 @@
 /* Turns sides of kinds wave and beach into slip walls with a zone; before scene_check. */
 void scene_waves_mark(struct scene *s);
 /* Adds a fault for zones along gravity, longer than the domain or without a period, and for waves
- * that would break. */
-void scene_waves_check(const struct scene *s, const struct params *p, struct faults *f);
-/* Sets lengths and periods of zones that follow from the waves, and waves.made; after
- * scene_check. */
-void scene_waves_resolve(struct scene *s);
+ * that would break. Without one it sets waves.made and the lengths and periods of zones that follow
+ * from the waves. */
+void scene_waves_check(struct scene *s, const struct params *p, struct faults *f);
 /* Whether some zone makes waves. */
 bool scene_makes_waves(const struct scene *s);
 /* Logs which waves are made, and what each zone reflects. */
