@@ -40,32 +40,19 @@ static int probes_of(const struct scene *s, const struct scene_gauges *g, int pr
 }
 
 /* s: the group's own, else that of the waves that are made, a sea's at its peak; 0: no waves and
- * none given. Regular waves may be given by their length, so the wave itself is solved for. */
+ * none given. */
 static double period_of(const struct scene *s, const struct scene_gauges *g)
 {
-    if (g->period > 0.0 || !s->has_waves)
-        return g->period;
-    const struct wave_spec of = scene_waves_spec(s);
-    if (of.kind != WAVE_REGULAR)
-        return waves_period(&of);
-    struct waves *w = waves_create(&of);
-    const double period = w->period;
-    waves_free(&w);
-    return period;
+    return g->period > 0.0 ? g->period : s->waves.made.period;
 }
 
 /* Wave number of the group's period: of the waves that are made, else of linear ones. */
 static double number_of(const struct scene *s, double period)
 {
-    const double g = vec3_length(s->fluid.gravity);
-    double k = waves_number(2.0 * M_PI / period, g, scene_waves_depth(s));
-    if (s->has_waves && s->waves.kind == WAVE_REGULAR) {
-        const struct wave_spec of = scene_waves_spec(s);
-        struct waves *w = waves_create(&of);
-        k = fabs(w->period / period - 1.0) < 1e-6 ? 2.0 * M_PI / w->length : k;
-        waves_free(&w);
-    }
-    return k;
+    const struct waves_made *made = &s->waves.made;
+    if (s->waves.kind == WAVE_REGULAR && fabs(made->period / period - 1.0) < 1e-6)
+        return 2.0 * M_PI / made->length;
+    return waves_number(2.0 * M_PI / period, vec3_length(s->fluid.gravity), scene_waves_depth(s));
 }
 
 /* m: places of the probes along the waves. */

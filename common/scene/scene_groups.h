@@ -196,7 +196,8 @@ struct scene {
         char path[512];             /* to it, by scene_wave_file_read */
         struct waves_made {
             double crest, speed;   /* m, m/s: the highest, of the fastest water */
-            double length, height; /* m: of a wave, of a sea's peak; from trough to crest */
+            double length, period; /* m, s: of a wave, of a sea's peak */
+            double height;         /* m: from trough to crest, of a sea significant */
         } made;                    /* resolved by scene_waves_check */
     } waves;
     struct scene_coupling {

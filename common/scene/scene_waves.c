@@ -166,7 +166,8 @@ static void resolve(struct scene *s, const struct waves *made)
         w->beach = w->beach > 0.0 ? w->beach : zone_length(s, made);
         w->beach_period = w->beach_period > 0.0 ? w->beach_period : made->period;
     }
-    s->waves.made = (struct waves_made){made->crest, made->speed, made->length, made->of.height};
+    s->waves.made =
+        (struct waves_made){made->crest, made->speed, made->length, made->period, made->of.height};
 }
 
 /* --- faults --- */
