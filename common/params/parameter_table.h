@@ -173,8 +173,8 @@ bool params_on_command_line(const struct params *p, const char *key);
 bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double v[3]);
 /* The same for a pair of vectors ("sph.box"). */
 bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, double v[2][3]);
-/* Whether the case has the key, whatever its value. */
-bool params_peek_any(const struct params *p, MPI_Comm comm, const char *key);
+/* Whether the case gives the key this text; text NULL: whatever its value. */
+bool params_peek_any(const struct params *p, MPI_Comm comm, const char *key, const char *text);
 /* Adds the fault "is not used: WHY" if `key' is given although the run does not use it (used
  * false). A key that changes nothing is a mistake of the case and is never passed over in silence;
  * one that repeats the default is accepted, for it says what is so. Call on all ranks alike. */

@@ -695,9 +695,11 @@ bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, do
     return n > 0;
 }
 
-bool params_peek_any(const struct params *p, MPI_Comm comm, const char *key)
+bool params_peek_any(const struct params *p, MPI_Comm comm, const char *key, const char *text)
 {
-    bool there = value_of(p, key) != NULL;
+    const config_setting_t *s = value_of(p, key);
+    const char *is = s && text ? config_setting_get_string(s) : NULL;
+    bool there = text ? is && strcmp(is, text) == 0 : s != NULL;
     MPI_Bcast(&there, 1, MPI_C_BOOL, 0, comm);
     return there;
 }

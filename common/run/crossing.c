@@ -96,8 +96,8 @@ static bool any_moves(const struct run *r)
     for (int k = 0; k < n; k++) {
         const char *velocity = key_text(":%s.box_velocity", names[k]);
         const char *follows = key_text(":%s.box_follows", names[k]);
-        moves = params_peek_any(r->params, r->comm, velocity) || moves;
-        moves = params_peek_any(r->params, r->comm, follows) || moves;
+        moves = params_peek_any(r->params, r->comm, velocity, NULL) || moves;
+        moves = params_peek_any(r->params, r->comm, follows, NULL) || moves;
     }
     return moves;
 }

@@ -223,6 +223,11 @@ static void check_shape(const struct run *r, struct faults *f, int k)
     }
 }
 
+bool levels_are_read(const struct run *r)
+{
+    return surface_wanted(r) || (r->coupled && scene_has_surface(&r->scene));
+}
+
 const char *surface_newton_lacks(bool falls)
 {
     return falls ? "nothing stands there at the start, so that water would fall out, which newton "
@@ -522,7 +527,7 @@ static void check_probe(const struct run *r, struct faults *f, int k)
             params_fault(r->params, f, key, "probe \"%s\" lies outside the domain along %c: %g m",
                          p->name, axes[a], p->at[a]);
     }
-    if (p->kind == PROBE_LEVEL && !surface_wanted(r) && !r->coupled)
+    if (p->kind == PROBE_LEVEL && !levels_are_read(r))
         params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     if (in_hole && p->kind != PROBE_DISCHARGE)
         params_fault(r->params, f, key, "probe \"%s\" lies in fv.hole, where nothing is computed",

@@ -195,7 +195,7 @@ void mesh_check(const struct run *r, struct faults *f)
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, f, k);
     for (int k = 0; k < r->scene.nprobes; k++)
-        if (r->scene.probes[k].kind == PROBE_LEVEL && !surface_wanted(r))
+        if (r->scene.probes[k].kind == PROBE_LEVEL && !levels_are_read(r))
             params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
     for (int k = 0; k < mesh_given_count; k++)
         check_block(r, f, k);

@@ -159,6 +159,7 @@ void water_budget_close(struct fv *s, struct water_budget *w, double T)
     const double all = own_water(s, w) + w->partners - s->surface->entered, area = wet_area(s);
     if (isnan(w->start))
         w->start = all;
+    s->surface->whole = w->start;
     const double tau = fmax(memory * crossing_time(&s->run->scene), 10.0 * T);
     w->missing = w->start - all;
     w->lasting += T * w->missing / (4.0 * tau * tau);

@@ -180,7 +180,7 @@ double surface_volume_scale(const struct fv *s)
     double least = 0.01;
     for (int a = 0; a < d->dim; a++)
         least *= d->max[a] - d->min[a];
-    return fmax(s->surface->volume0 + s->surface->passed, least);
+    return fmax(fmax(s->surface->volume0 + s->surface->passed, s->surface->whole), least);
 }
 
 void surface_note_returned(struct fv *s, double volume)

@@ -85,6 +85,7 @@ struct surface {
     double volume0, returned;
     double lost, gained;   /* m^dim: parts of returned: restored losses, removed surplus */
     double passed;         /* m^dim: through openings and a partner's interface, in and out */
+    double whole;          /* m^dim: water of all programs of a coupled job at the start */
     double entered;        /* m^dim: through openings, in less out */
     double carried_in;     /* m^dim: the same of the first half of a step, by the shares */
     double through[3];     /* m^dim/s: at the start of a step, see flows() */

@@ -119,6 +119,7 @@ struct watches *watches_create(const struct run *r, const struct fv_params *p, b
     w->has_surface = surface;
     w->least = 1e-9;
     w->least_square = 1e-4;
+    w->sound = r->coupled ? 0.1 * w->speed : 0.0;
     w->energy_every = 10;
     w->waves_every = 50;
     return w;
@@ -186,23 +187,23 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
 }
 
 /* Over the flow's root mean square; of pressure over its own about the mean, or a twentieth of the
- * mean of u^2 where pressure hardly varies. Of both a tenth of what they were at the look before
- * counts: a flow that oscillates is at rest now and then, and has no pressure when it is fastest.
- */
+ * mean of u^2 where pressure hardly varies. A flow that oscillates is at rest now and then, and has
+ * no pressure when it is fastest, and looks may meet it there several times: of both squares half
+ * of what counted at the look before counts still. */
 void watches_waves(struct watches *w, const struct flow_waves *v, double volume, double t,
                    int64_t step, struct diagnosis *d)
 {
     if (t > w->waves_t) /* not where the end looks once more */
         w->waves_before = w->waves;
-    w->waves = *v;
+    w->waves.velocity_all = fmax(v->velocity_all, 0.5 * w->waves_before.velocity_all);
+    w->waves.pressure_all = fmax(v->pressure_all, 0.5 * w->waves_before.pressure_all);
     w->waves_t = t;
-    const double all = fmax(fmax(v->velocity_all, w->least_square * volume * w->speed * w->speed),
-                            0.01 * w->waves_before.velocity_all),
-                 dynamic = 0.05 * all / fmax(volume, 1e-300),
-                 pressure = fmax(v->pressure_all, 0.01 * w->waves_before.pressure_all);
+    const double all = fmax(w->waves.velocity_all, w->least_square * volume * w->speed * w->speed),
+                 mean = sqrt(all / fmax(volume, 1e-300)),
+                 least = fmax(0.05 * mean, w->sound) * mean * sqrt(volume);
     watch_judge(&w->velocity, sqrt(v->velocity / fmax(all, 1e-300)), t, step, d);
     watch_judge(&w->pressure,
-                sqrt(v->pressure / fmax(fmax(pressure, volume * dynamic * dynamic), 1e-300)), t,
+                sqrt(v->pressure / fmax(fmax(w->waves.pressure_all, least * least), 1e-300)), t,
                 step, d);
 }
 

@@ -36,7 +36,9 @@ struct watches {
     double balance; /* m^(dim+2)/s^2: kinetic energy less the work, of the last look */
     double least;   /* with a surface: of the energy that the scene's velocity makes, what counts */
     double least_square; /* of the scene's velocity squared, what counts at least */
-    struct flow_waves waves, waves_before; /* of the last look at them, and of that before */
+    double sound; /* m/s: of a partner whose fluid is compressible and at rest in water at rest, a
+                     hundredth of its speed of sound; times rho u the least pressure that counts */
+    struct flow_waves waves, waves_before; /* what counted at the last look, and at that before */
     double waves_t;                        /* s: of the last */
     int looks;
     double sum_before; /* m/s: of the largest velocities, a step ago */

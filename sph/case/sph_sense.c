@@ -376,7 +376,7 @@ static bool moves_by_name(const struct scene *c, const char *name)
 }
 
 /* Columns of levels go along an axis; beaches are read over y. */
-static void check_gauges(const struct run *r, struct faults *f)
+static void check_gauges(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
     double g[3];
@@ -396,6 +396,8 @@ static void check_gauges(const struct run *r, struct faults *f)
                          "an axis (its part along a periodic one does not count). A pressure gauge "
                          "stands anywhere",
                          c->probes[k].name);
+        else if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && used->surface != SURFACE_YES)
+            params_fault(r->params, f, key, "%s: there is no free surface", c->probes[k].name);
         else if (kind == PROBE_SHORE && !(g[1] < 0.0))
             params_fault(r->params, f, key, "%s: a shore is read where gravity points along -y",
                          c->probes[k].name);
@@ -456,7 +458,7 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
         params_fault(r->params, f, "sph.extrema", "the first is 0: give all three");
     check_box(r, given, used, f);
     check_hidden(r, used, f);
-    check_gauges(r, f);
+    check_gauges(r, used, f);
     if (c->has_fv)
         return; /* the flow around is the partner's */
     check_openings(r, used, f);

@@ -156,34 +156,6 @@ static void check_fineness(const struct run *r, const struct sph_params *prm, do
                      h, prm->dx, least);
 }
 
-/* FV must be told something: a cell at least whose corners all lie where SPH gives the flow, and a
- * particle in each. zones_given_box is what sph gives; uniform cells are known from fv's keys
- * alone. */
-static void check_cells(const struct run *r, const struct sph_params *prm, struct faults *f)
-{
-    const struct scene_domain *d = &r->scene.domain;
-    double cells[3], graded[3], given[2][3], widest = 0.0;
-    zones_given_box(r, prm, given[0], given[1]);
-    if (!params_peek(r->params, r->comm, "fv.cells", cells))
-        return; /* blocks: another fault */
-    params_peek(r->params, r->comm, "fv.graded", graded);
-    for (int a = 0; a < d->dim; a++) {
-        const bool rows = a == 1 && graded[1] > 0.0;
-        const double lo = rows ? graded[0] : d->min[a];
-        const double h = (d->max[a] - lo) / (rows ? graded[1] : cells[a]);
-        widest = fmax(widest, h);
-        if (!(h > 0.0) || holds_cell(lo, h, given[0][a], given[1][a]))
-            continue;
-        params_fault(r->params, f, "coupling.overlap",
-                     "no cell of fv (%g m along %c) lies wholly in %g to %g m, what sph gives: fv "
-                     "would get nothing from sph; refine fv.cells, enlarge sph.box, or lower "
-                     "coupling.overlap, transition and buffer",
-                     h, axes[a], given[0][a], given[1][a]);
-        return;
-    }
-    check_fineness(r, prm, widest, f);
-}
-
 /* The box of another group of particles with its zones; false: it has none of its own. Keys of the
  * other group are read with a leading colon, which means its own name. */
 static bool box_of_group(const struct run *r, const struct sph_params *prm, const char *group,
@@ -237,22 +209,60 @@ static void check_several(const struct run *r, const struct sph_params *prm, str
     }
 }
 
-/* Whether transition, buffer and overlap leave anything of sph.box. */
-static bool gives(const struct run *r, const struct sph_params *prm, const struct box_water *w,
-                  struct faults *f)
+/* The key by which the case gives the box. */
+static const char *box_key(const struct run *r)
 {
+    return params_given(r->params, "sph.free") ? "sph.free" : "sph.box";
+}
+
+/* FV must be told something: along axis a what sph gives, zones_given_box, must hold a cell of
+ * edges lo + i h; of blocks (h = 0) it must be there. The fault names the nearest box that does,
+ * wider by a whole number of dx at each open side. */
+static bool gives(const struct run *r, const struct sph_params *prm, const struct box_water *w,
+                  int a, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const double dx = prm->dx;
+    double lo, free[2][3], more = 0.0;
+    bool open[6];
+    const double h = zones_cell(r, a, &lo);
+    sph_params_open(r, prm, open);
+    while (!holds_cell(lo, fmax(h, 1e-6 * dx), w->given[0][a] - (open[2 * a] ? more : 0.0),
+                       w->given[1][a] + (open[2 * a + 1] ? more : 0.0)))
+        more += dx;
+    if (more == 0.0)
+        return true;
+    zones_free_box(r, prm, free[0], free[1]);
+    const bool by_free = strcmp(box_key(r), "sph.free") == 0;
+    const double below = by_free ? free[0][a] : prm->box[0][a],
+                 above = by_free ? free[1][a] : prm->box[1][a];
+    const double from = below - (open[2 * a] ? more : 0.0),
+                 to = above + (open[2 * a + 1] ? more : 0.0);
+    char mend[128] = "no wider one fits into the domain: refine sph.dx";
+    if (d->periodic[a] || (from >= d->min[a] && to <= d->max[a]))
+        snprintf(mend, sizeof mend, "%g to %g m would do; else refine sph.dx", from, to);
+    params_fault(
+        r->params, f, box_key(r),
+        "%g to %g m along %c is too short: behind the zones at its open sides (transition, "
+        "buffer, overlap: each 1.25 R = %g m by default) no cell of fv (%g m) gets "
+        "anything from sph; %s or fv.cells, or give thinner zones",
+        below, above, axes[a], 1.25 * prm->R_dx * dx, h, mend);
+    return false;
+}
+
+/* The same along all axes; then whether cells are wide enough. */
+static bool check_cells(const struct run *r, const struct sph_params *prm,
+                        const struct box_water *w, struct faults *f)
+{
+    bool sound = true;
+    double lo, widest = 0.0;
     for (int a = 0; a < r->scene.domain.dim; a++) {
-        const double wide = w->given[1][a] - w->given[0][a];
-        if (wide > 1e-9 * prm->dx)
-            continue;
-        params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
-                     "transition, buffer and overlap (each 1.25 R = %g m by default, at each open "
-                     "side) leave nothing along %c of what sph gives to fv: %.4g m and a cell of "
-                     "fv are needed; enlarge it, refine sph.dx, or give these widths",
-                     1.25 * prm->R_dx * prm->dx, axes[a], fmax(0.0, -wide - 1e-9 * prm->dx));
-        return false;
+        sound = gives(r, prm, w, a, f) && sound;
+        widest = fmax(widest, zones_cell(r, a, &lo));
     }
-    return true;
+    if (sound && widest > 0.0)
+        check_fineness(r, prm, widest, f);
+    return sound;
 }
 
 /* Whether the box spans the domain in all directions but a, and ends before both ends of a. */
@@ -294,6 +304,9 @@ static const char *no_balance(const struct run *r, int a)
     if (below && above)
         return "with outlets beyond both of its ends nothing would say how much flows through it: "
                "give one of them an inflow, on fv.cells, or ";
+    if (params_peek_any(r->params, r->comm, "fv.integrator", "newton"))
+        return "fv.integrator newton solves for one pressure, where each part has its own: take "
+               "rk3 or bdf2, or ";
     if (params_has_group(r->params, "blocks"))
         return "blocks beyond it have no outlet among the walls, which would set their pressure: "
                "take fv.cells, which need none, or ";
@@ -307,7 +320,7 @@ static void check_parted(const struct run *r, const struct sph_params *prm, stru
     for (int a = 0; a < r->scene.domain.dim; a++) {
         const char *why = coupling_cuts(r, prm, a) ? no_balance(r, a) : NULL;
         if (why)
-            params_fault(r->params, f, params_given(r->params, "sph.free") ? "sph.free" : "sph.box",
+            params_fault(r->params, f, box_key(r),
                          "cuts fv's flow in two along %c, and %sleave fv a way around the box: end "
                          "it before one of the sides that it reaches now",
                          axes[a], why);
@@ -328,7 +341,7 @@ void coupling_check(const struct run *r, const struct sph_params *prm, struct fa
     coupling_hidden(r, prm, w.hidden);
     for (int side = 0; side < 2 * r->scene.domain.dim; side++)
         check_side(r, prm, &w, side, f);
-    if (!gives(r, prm, &w, f))
+    if (!check_cells(r, prm, &w, f))
         return;
     check_parted(r, prm, f);
     if (f->n == 0)
@@ -336,7 +349,5 @@ void coupling_check(const struct run *r, const struct sph_params *prm, struct fa
     coupling_check_bodies(r, prm, f);
     check_several(r, prm, f);
     coupling_check_walls(r, prm, f);
-    if (f->n == 0)
-        check_cells(r, prm, f);
     windows_check(r, prm, f);
 }

@@ -15,22 +15,15 @@
 #include "../rigid/sph_rigid.h"
 #include "sph_link.h"
 
-/* Two cells from each open side: fv's stencils reach that deep into the box. Graded rows along y
- * count from where they begin. */
+/* Two cells from each open side: fv's stencils reach that deep into the box. */
 void coupling_hidden(const struct run *r, const struct sph_params *prm, double box[2][3])
 {
-    const struct scene_domain *d = &r->scene.domain;
-    double cells[3], graded[3];
     bool open[6];
+    double from;
     zones_given_box(r, prm, box[0], box[1]);
     sph_params_open(r, prm, open);
-    params_peek(r->params, r->comm, "fv.cells", cells);
-    params_peek(r->params, r->comm, "fv.graded", graded);
-    for (int a = 0; a < d->dim; a++) {
-        const bool rows = a == 1 && graded[1] > 0.0;
-        const double h = rows           ? (d->max[a] - graded[0]) / graded[1]
-                         : cells[a] > 0 ? (d->max[a] - d->min[a]) / cells[a]
-                                        : 0.0;
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        const double h = zones_cell(r, a, &from);
         box[0][a] += open[2 * a] ? 2.0 * h : 0.0;
         box[1][a] -= open[2 * a + 1] ? 2.0 * h : 0.0;
     }

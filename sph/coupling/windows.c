@@ -16,8 +16,9 @@
 #include "../particles/sph_particles.h"
 
 /* Bounds of T for accuracy: U T/L of the flow; omega T of waves, whose errors add up over
- * periods. */
-static const double flow_share = 0.03, wave_share = 0.1;
+ * periods; T times the rate at which viscosity levels the flow: 0.16, 0.046, 0.014, 0.0035 of
+ * velocity error with 1.3, 0.79, 0.44, 0.23 (Taylor-Green, Re 1). */
+static const double flow_share = 0.03, wave_share = 0.1, viscous_share = 0.2;
 /* Sound that no open side lets go is fed by what is late in the pressure outside: with omega T of
  * 1.1 it grew tenfold in 0.1 s, and with longer memories as fast. */
 static const double sound_share = 0.5;
@@ -77,10 +78,12 @@ static void scales(const struct run *r, const struct sph_params *prm, struct win
         w->L = fmin(w->L, prm->box[1][a] - prm->box[0][a]);
     if (periodic_field || is_given(r, "initial.L"))
         w->L = scene_wave_length(c);
+    const double k = (periodic_field ? 2.0 : 1.0) * M_PI / w->L; /* half a wave fits the box */
+    w->decay = c->fluid.nu * (periodic_field ? c->domain.dim : 1) * k * k;
     if (down >= 0 && scene_has_surface(c)) {
         const double g = fabs(c->fluid.gravity[down]), H = crossing_depth(c, down);
-        const double k = 2.0 * M_PI / scene_wave_length(c) * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
-        w->omega = scene_has_wave(c) ? sqrt(g * k * tanh(k * H)) : sqrt(g / H);
+        const double q = 2.0 * M_PI / scene_wave_length(c) * (c->initial.L_z > 0.0 ? M_SQRT2 : 1.0);
+        w->omega = scene_has_wave(c) ? sqrt(g * q * tanh(q * H)) : sqrt(g / H);
         w->weight = g * fmin(H, w->L);
         if (!scene_has_wave(c) && !r->crossed) /* else fv has the long waves, too */
             w->U = fmax(w->U, sqrt(g * H));
@@ -206,14 +209,11 @@ static void shorten(struct windows *w, double T, const char *limit)
 /* Smallest width of fv's uniform cells, m; INFINITY: blocks. */
 static double least_cell(const struct run *r)
 {
-    const struct scene_domain *d = &r->scene.domain;
-    double cells[3], graded[3], h = INFINITY;
-    if (!r->params || !params_peek(r->params, r->comm, "fv.cells", cells))
-        return h;
-    for (int a = 0; a < d->dim; a++)
-        h = cells[a] > 0.0 ? fmin(h, (d->max[a] - d->min[a]) / cells[a]) : h;
-    if (params_peek(r->params, r->comm, "fv.graded", graded) && graded[1] > 0.0)
-        h = fmin(h, (d->max[1] - graded[0]) / graded[1]);
+    double from, h = INFINITY;
+    for (int a = 0; a < r->scene.domain.dim && r->params; a++) {
+        const double width = zones_cell(r, a, &from);
+        h = width > 0.0 ? fmin(h, width) : h;
+    }
     return h;
 }
 
@@ -229,9 +229,12 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     find_gain(r, prm, &w);
     zones_widths(r, prm, &transition, &buffer);
     w.T = most_way / prm->cfl * dt;
-    w.T_most = fmin(flow_share * w.L / w.U, w.omega > 0.0 ? wave_share / w.omega : INFINITY);
+    const double still = w.decay > 0.0 ? viscous_share / w.decay : INFINITY,
+                 wave = w.omega > 0.0 ? wave_share / w.omega : INFINITY;
+    w.T_most = fmin(fmin(flow_share * w.L / w.U, still), wave);
     shorten(&w, flow_share * w.L / w.U, "the flow");
-    shorten(&w, w.omega > 0.0 ? wave_share / w.omega : INFINITY, "the waves");
+    shorten(&w, still, "viscosity");
+    shorten(&w, wave, "the waves");
     shorten(&w, sound_share * sound_time(r, prm), "sound under the partner's water");
     const double box = box_motion_speed(r, prm);
     shorten(&w, transition / (w.U + box), "the path through the transition");

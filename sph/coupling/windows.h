@@ -16,6 +16,7 @@ struct windows {
     double U, L;       /* m/s, m: scales of the flow */
     double weight;     /* m^2/s^2: g times depth or L under a surface, else 0 */
     double omega;      /* rad/s: of the waves; 0: there are none */
+    double decay;      /* 1/s: rate at which viscosity levels the flow; 0: inviscid */
     double T_most;     /* s: largest T that is accurate enough for the flow and the waves */
     /* m: added mass of the partner's region seen from the side, per area and density. */
     double mass;

@@ -72,6 +72,18 @@ void zones_given_box(const struct run *r, const struct sph_params *prm, double l
     }
 }
 
+double zones_cell(const struct run *r, int a, double *lo)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double cells[3], graded[3];
+    params_peek(r->params, r->comm, "fv.cells", cells);
+    params_peek(r->params, r->comm, "fv.graded", graded);
+    const bool rows = a == 1 && graded[1] > 0.0;
+    const double n = rows ? graded[1] : cells[a];
+    *lo = rows ? graded[0] : d->min[a];
+    return n > 0.0 ? (d->max[a] - *lo) / n : 0.0;
+}
+
 /* Of uniform cells only whole ones count, rounded into the box; eps keeps a cell whose edge lies on
  * the box's. */
 void zones_counted_box(const struct run *r, const struct sph_params *prm, const double way[3],

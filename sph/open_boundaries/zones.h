@@ -79,6 +79,9 @@ const char *zones_extent(int dim, double box[2][3]);
 /* The box that a partner leaves to SPH, i.e. the free zone less the overlap; zones_free_box: the
  * free zone; m. */
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
+/* Width of fv's cells along axis a, m, 0: it has blocks; *lo: where the first of those begins, m:
+ * of graded layers the equal ones. Collective over r->comm. */
+double zones_cell(const struct run *r, int a, double *lo);
 void zones_free_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3]);
 /* The part of that box, moved by `way', that is made of whole cells of the partner: there it
  * imposes them, and there its water ends. */

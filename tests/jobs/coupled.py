@@ -52,6 +52,10 @@ for folder, velocity in ('still', '(0.0,0.0)'), ('carried', '(0.8,0.6)'):
 error_below('carried', 0.004)
 error_below('carried', error('still'))
 
+# Re 1: the flow is gone to a fiftieth within the run
+job('slow', 'taylor_green', 'sph.dx=0.02 fv.cells=(16,16) fluid.nu=1 time.end=0.05 output.every=0 coupling.overlap=0.08')
+error_below('slow', 0.02)
+
 # a box that moves through them and across the periodic side: error; restart; other ranks
 moves = ('sph.dx=0.0166667 fv.cells=(24,24) time.end=0.24 output.every=0.12 output.checkpoint=0.13 '
          'sph.free=((0.45,0.3),(0.85,0.7)) sph.box_velocity=(0.6,0.4) ')

@@ -3,7 +3,7 @@ any number of ranks, restart, what is refused. SPDX-License-Identifier: BSD-3-Cl
 import glob
 
 import lib
-from lib import bad, below, close, column, last, near, number, restarted, root, says, start, told, varied
+from lib import bad, below, close, column, last, near, number, refused_by, restarted, root, says, start, told, varied
 
 lib.scratch()
 
@@ -69,6 +69,21 @@ output:  { snapshots = false; };
 ''', ends=(0,))
 keeps_water('narrow')
 below('narrow: gap of the levels in dx', number('narrow', 'level_gap'), 0.1)
+
+# a full tank with weight, at rest but for the particles' sound, which is no wave of two cells (0.27 of its own size by then)
+full = '''format = 1;
+time:    { end = 0.8; };
+fluid:   { rho = 1000.0; nu = 1.0e-6; gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (2, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+sph:     { dx = 0.02; box = ((0.6, 0.1), (1.4, 0.9)); };
+fv:      { cells = (40, 20); };
+output:  { snapshots = false; };
+'''
+job('full', full, ends=(0,))
+below('full: odd-even waves of pressure', number('full', 'odd_even_pressure'), 0.1)
+for program in 'sph', 'fv':
+    refused_by(program, full, '^output', 'probes: ( { name = "p"; kind = "level"; at = (1, 0); } );\noutput', 'there is no free surface')
 
 # a gauge is read by the program in whose part it lies, and by that alone; levels within dx/10 (particles that began on
 # the rows of their lattice had theirs at 1.0)

@@ -54,6 +54,4 @@ refused_by('sph', blocks, *outlet)
 two_boxes = 'sph_a: { dx = 0.0125; box = ((0.5, 0), (1.2, 0.4)); };\nsph_b: { dx = 0.0125; box = ((1.8, 0), (2.5, 0.4)); };'
 job('boxes', re.sub('sph: .*', two_boxes, channel), ends=(2,), boxes=('sph_a', 'sph_b'))
 told('boxes', 'what lies between several boxes')
-job('newton', channel, 'fv.integrator=newton', ends=(2,))
-told('newton', 'newton solves for one pressure')
 lib.end('%.3g, %.3g Pa; %.4g, %.4g m/s; %d faults' % (of['a '] - of['b '], of['in '] - of['out '], of['v u'], of['w u'], lib.failed))
