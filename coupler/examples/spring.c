@@ -1,10 +1,10 @@
 /* spring.c - a program that moves a body of sph: a mass on a spring along x, pushed by the water.
  *
- *   spring DIR BODY MASS STIFFNESS STRETCH ADDED, beside sph and coupler (coupler/README.md)
+ *   spring DIR BODY MASS STIFFNESS STRETCH ADDED [3], beside sph and coupler (coupler/README.md)
  *
  * MASS kg, STIFFNESS N/m (2D: per metre), STRETCH m: where the spring has no force, from the start;
- * ADDED kg: the water's mass that moves with it, roughly. While the force F was measured the body
- * had its old acceleration a, so that F holds the reaction to that:
+ * ADDED kg: the water's mass that moves with it, roughly; 3: in 3D. While the force F was measured
+ * the body had its old acceleration a, so that F holds the reaction to that:
  *
  *   (MASS + ADDED) a' = F + ADDED a - STIFFNESS (x - STRETCH)
  *
@@ -50,10 +50,11 @@ int main(int argc, char **argv)
     for (int i = 3; i < argc && i < 7; i++)
         of[i - 3] = atof(argv[i]);
     const double mass = of[0], k = of[1], stretch = of[2], added = of[3];
-    if (argc != 7 || !(mass + added > 0.0) ||
+    const int dim = argc == 8 ? atoi(argv[7]) : 2;
+    if (argc < 7 || argc > 8 || !(mass + added > 0.0) ||
         !(k > 0.0)) { /* before MPI_Init: the launcher ends the others */
         fprintf(stderr, "usage, beside sph and coupler: spring DIR BODY MASS STIFFNESS STRETCH "
-                        "ADDED\n");
+                        "ADDED [3]\n");
         return 2;
     }
     MPI_Init(&argc, &argv);
@@ -62,7 +63,7 @@ int main(int argc, char **argv)
         return MPI_Finalize(), 2;
     }
     must(cpl_meet(c, 0, -1, 0, argv[1]));
-    must(cpl_points(c, "spring", 2, 1.0, &point)); /* one point, at the origin, that has it all */
+    must(cpl_points(c, "spring", dim, 1.0, &point)); /* one point, at the origin, that has it all */
     snprintf(name[0], CPL_NAME, "%s.motion", argv[2]);
     snprintf(name[1], CPL_NAME, "sph.%s.force", argv[2]);
     snprintf(name[2], CPL_NAME, "sph.%s.motion", argv[2]);

@@ -23,11 +23,16 @@ def spring(folder, case, of, keys='', ranks='1', ends=(0,)):
     lib.ended(folder, run(*command(folder, case, of, keys, ranks), log=folder + '.txt'), ends)
 
 
-def period(log, middle):
-    """Twice the mean time between crossings of the middle, of lines "t, x, v, force"."""
+def crossings(log, middle):
+    """Times at which the body passes the middle, of lines "t, x, v, force"."""
     rows = [tuple(map(float, m.groups())) for m in re.finditer(r'^([\d.e-]+), ([\d.e-]+), [^,]+, [^,]+$', open(log).read(), re.M)]
-    crossed = [s + (t - s) * (x - middle) / (x - y) for (s, x), (t, y) in zip(rows, rows[1:]) if (x - middle) * (y - middle) < 0]
-    return 2 * (crossed[-1] - crossed[0]) / (len(crossed) - 1) if len(crossed) > 1 else float('nan')
+    return [s + (t - s) * (x - middle) / (x - y) for (s, x), (t, y) in zip(rows, rows[1:]) if (x - middle) * (y - middle) < 0]
+
+
+def period(log, middle):
+    """Twice the mean time between crossings of the middle."""
+    at = crossings(log, middle)
+    return 2 * (at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else float('nan')
 
 
 # whoever reads what a job of a moment says does not wait for what watches it
@@ -46,6 +51,20 @@ for of in '200 14745', '50 8823':
 spring('ranks', tank, 'cylinder 200 14745 0.02 173', 'time.end=0.3', '2')
 t, x = (column('swing200/sph-series.csv', title) for title in ('t', 'cylinder x'))
 close('two ranks: motion', last('ranks/sph-series.csv', 'cylinder x'), next(x for t, x in zip(t, x) if t > 0.3 - 1e-9), 1e-6)
+# 3D: a ball of 0.1 m in a cube of 0.6 m, which holds as much as a ball of b = 0.372 m: 4 kg and (b^3 + 2 a^3)/(b^3 - a^3)/2 of
+# the water that it displaces on 240.6 N/m, a quarter of whose period after the start it is in the middle; the first step has no force yet
+ball = lib.scene('''format = 1;
+time:    { end = 0.3; };
+fluid:   { rho = 1000.0; nu = 1.0e-6; };
+domain:  { dim = 3; min = (-0.3, -0.3, -0.3); max = (0.3, 0.3, 0.3); };
+initial: { field = "rest"; U = 0.2; };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; }, { side = "z_min"; }, { side = "z_max"; } );
+bodies:  ( { name = "ball"; radius = 0.1; centre = (0, 0, 0); motion = ( { kind = "partner"; } ); } );
+sph:     { dx = 0.03; R_dx = 2.5; c0 = 4.0; };
+output:  { snapshots = false; };
+''', 'ball')
+spring('ball', ball, 'ball 4 240.6 0.02 2.4 3')
+close('ball: a quarter of its period', (crossings('ball.txt', 0.02) or [0])[0], 0.25 * 1.0101, 0.03)
 # beside fv; the free body of sph has the same mass, and a line that pulls to the same place with the same stiffness
 beside = '''format = 1;
 time:    { end = 0.5; };
