@@ -5,6 +5,7 @@
  * that make sense.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../../common/scene/scene.h"
