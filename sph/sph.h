@@ -139,6 +139,8 @@ struct sph {
     struct refinement *refinement; /* of all levels: the coarsest has it */
     /* Whether it is this level that flows at x; NULL: there is one level. refinement.h */
     bool (*flows_at)(const struct sph *s, const double *x);
+    /* The same without a jump, for sums: 0 to 1, a spacing wide at the switch. refinement.h */
+    double (*share_at)(const struct sph *s, const double *x);
     struct guards *guards;
     struct body_coupling
         *body_coupling; /* of a coupled job with bodies; NULL: none; coarsest level */

@@ -47,8 +47,8 @@ void neighbours_free(struct neighbours **l)
     FREE(g->first, g->ghost, g->order, g->cell);
     for (int a = 0; a < 3; a++)
         mem_free(g->x[a]);
-    FREE(g->id, g, (*l)->start, (*l)->count, (*l)->tail, (*l)->order, (*l)->whole, (*l)->close,
-         (*l)->taken, (*l)->j, *l);
+    FREE(g->id, g, (*l)->start, (*l)->count, (*l)->tail, (*l)->busy, (*l)->order, (*l)->whole,
+         (*l)->close, (*l)->taken, (*l)->j, *l);
     *l = NULL;
 }
 
@@ -326,6 +326,7 @@ INLINE void list_cell(struct sph *s, int cell, const int dim)
         const int before = append(g, 0, self, x, reach2, j, &spare, dim);
         l->tail[i] = before;
         l->count[i] = before + append(g, self + 1, g->near, x, reach2, j + before, &least, dim);
+        l->busy[i] = l->count[i];
         l->whole[i] = l->count[i] + 1 >= enough;
         if (vec_less(least, vec_all(close2)))
             add_close(s, i, close2);
@@ -412,11 +413,14 @@ void neighbours_build(struct sph *s)
         ROOM(l->count, capacity, n + 1);
         capacity = l->rows_capacity;
         ROOM(l->whole, capacity, n + 1);
+        capacity = l->rows_capacity;
+        ROOM(l->busy, capacity, n + 1);
         ROOM(l->tail, l->rows_capacity, n + 1);
     }
     l->n = n;
     l->start[0] = 0;
     l->nclose = 0;
+    l->spared = false;
     ROOM(g->order, g->order_capacity, s->p.nghost);
     sort_rows(g, prim_line(&s->p, n), PRIM, s->p.nghost, 0, g->ghost, g->order);
     if (s->dim == 2)
@@ -428,6 +432,24 @@ void neighbours_build(struct sph *s)
         order_rows(s, l);
     l->treated = n;
     neighbours_rows(l, ROWS_ALL);
+}
+
+/* The order of those that stay is kept, and so are all sums that are read. */
+void neighbours_spare(struct sph *s, const bool *idle)
+{
+    struct neighbours *l = s->list;
+    for (int i = 0; i < l->n; i++) {
+        int *j = l->j + l->start[i], busy = l->tail[i];
+        for (int k = l->tail[i]; k < l->count[i] && idle[i]; k++)
+            if (j[k] < l->n && !idle[j[k]]) {
+                const int other = j[k];
+                j[k] = j[busy];
+                j[busy++] = other;
+            }
+        if (idle[i])
+            l->busy[i] = busy;
+    }
+    l->spared = true;
 }
 
 /* Range of cells along an axis that may hold a place within reach of x: what lies outside is in the

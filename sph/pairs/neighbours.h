@@ -1,7 +1,7 @@
 /* neighbours.h - cell grid, particles sorted by cell, and the list of pairs. The list of particle
  * i, its row, holds all j /= i (locals and ghosts) that can come within R in the step: locals in
  * ascending order, then ghosts, so that the part with j > i is its tail. It is made once a step and
- * serves all its stages.
+ * serves all its stages. (neighbours_spare alone breaks the order, in rows of idle guards.)
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_NEIGHBOURS_H
 #define SPH_NEIGHBOURS_H
@@ -20,6 +20,10 @@ struct neighbours {
      * reach. */
     int *count;
     int *tail; /* [n] first entry of row i with j > i */
+    /* [n] end of the entries of row i that matter to somebody's rates; `count' until
+     * neighbours_spare */
+    int *busy;
+    bool spared; /* neighbours_spare has been called */
     int *j;
     unsigned char *whole; /* [n] so many neighbours that nothing of the support can be missing */
     /* [n] rows in the order in which passes treat them: those whose lists hold locals only, the
@@ -56,6 +60,10 @@ static inline int neighbours_row(const struct neighbours *l, int k)
 {
     return l->order ? l->order[k] : k;
 }
+/* Leaves out of the passes for rates the pairs of those whose rates nobody reads, idle[n], with
+ * each other and with ghosts: they go behind the others of their rows. Until the next
+ * neighbours_build. */
+void neighbours_spare(struct sph *s, const bool *idle);
 /* Which rows the next passes treat: all (as after neighbours_build), or the inner ones while ghosts
  * are under way and then the others. */
 enum rows { ROWS_ALL, ROWS_INNER, ROWS_OUTER };

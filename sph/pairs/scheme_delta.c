@@ -226,7 +226,7 @@ INLINE void add_row(const struct sph *s, const struct delta_constants *c, double
     const struct delta_own own = load_own(c, prim_line(&s->p, i), slope_line(&s->p, i), v);
     const int *j = l->j + l->start[i] + l->tail[i];
     struct delta_sums to = {0};
-    for (int left = (l->count[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
+    for (int left = (l->busy[i] - l->tail[i] + LANES - 1) / LANES; left > 0; left -= BATCH) {
         struct delta_batch t;
         t.n = left < BATCH ? left : BATCH;
         geometry(c, &own, s->p.prim, s->p.slope, j, &t, v);

@@ -23,6 +23,7 @@
 
 static const double thin = 1e-3;               /* sum of w W: nobody is there */
 static const double narrow = 0.8, least = 2.4; /* of R; finer dx: supports of guards */
+static const double beyond = 0.5; /* of the range of its sources: how far a guard may leave it */
 
 /* The radius within which guards take from what flows, m; `fine': the finer of their two sources.
  * All of R takes energy out of vortices at each edge, 0.65 R puts some in; near a free surface what
@@ -320,10 +321,48 @@ static double matched_density(const struct sph *s, double rho, double from, doub
     return rho + (P * to - p) / pow(eos_c(rho, s->rho0, s->c0, s->gamma), 2.0);
 }
 
+/* The least and the largest rho and u of some sources. */
+struct guard_range {
+    double least[4], most[4];
+};
+
+/* The range of the n sources j of a level. Without sources it is empty, least above most. */
+static struct guard_range range_of(const struct sph *from, const int *j, int n)
+{
+    const int dim = from->dim;
+    struct guard_range is;
+    for (int c = 0; c <= dim; c++) {
+        is.least[c] = INFINITY;
+        is.most[c] = -INFINITY;
+    }
+    for (int k = 0; k < n; k++) {
+        const double *q = prim_line(&from->p, j[k]);
+        for (int c = 0; c <= dim; c++) {
+            const double v = c == 0 ? q[at_rho(dim)] : q[dim + c - 1];
+            is.least[c] = v < is.least[c] ? v : is.least[c];
+            is.most[c] = v > is.most[c] ? v : is.most[c];
+        }
+    }
+    return is;
+}
+
+/* Brings f back to at most `beyond' of the range outside of it. Slopes of a thin jet lead far
+ * beyond what flows there, and what flows then follows its guards: a splash that met an edge had
+ * guards of three times its speed and -1000 m of head, and ended the run. Half a range leaves
+ * linear fields as they are for a guard half a spacing before the first of two rows. */
+static void bound(double f[4], const struct guard_range *is, int dim)
+{
+    for (int c = 0; c <= dim; c++) {
+        const double room = beyond * (is->most[c] - is->least[c]);
+        f[c] = fmax(is->least[c] - room, fmin(f[c], is->most[c] + room));
+    }
+}
+
 /* Near a free surface: each level's mean by itself, for what their pressures are at rest differs.
  */
-INLINE double take_near(struct sph *s, const struct guard_sums sum[2], const struct sph *fine,
-                        double f[4], const int dim)
+INLINE double take_near(struct sph *s, const struct guard_sums sum[2],
+                        const struct guard_range range[2], const struct sph *fine, double f[4],
+                        const int dim)
 {
     const double *G = s->gravity, g = vec3_length(G);
     double W = 0.0;
@@ -332,6 +371,8 @@ INLINE double take_near(struct sph *s, const struct guard_sums sum[2], const str
     for (int m = 0; m < 2; m++) {
         double of[4];
         const double part = mean_of(sum + m, of, dim), R = m ? fine->R : 2.0 * fine->R;
+        if (part > 0.0)
+            bound(of, range + m, dim);
         if (part > 0.0 && g > 0.0)
             of[0] = matched_density(s, of[0], s->rho0 * g * R, s->rho0 * g * s->R);
         for (int c = 0; c <= dim; c++)
@@ -357,13 +398,13 @@ static void join_sums(struct guard_sums *to, const struct guard_sums *more, int 
 }
 
 /* Sets state and record of guard i from the sums, or leaves it as it is where nobody is there. Mass
- * stays, volume = m/rho. */
-INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct sph *fine, bool near,
-                 const int dim)
+ * stays, volume = m/rho. range: of both levels' sources near a free surface, else NULL. */
+INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct guard_range *range,
+                 const struct sph *fine, const int dim)
 {
     double *y = state_row(&s->p, s->p.y, i), *q = prim_line(&s->p, i), f[4], W;
-    if (near) {
-        W = take_near(s, sum, fine, f, dim);
+    if (range) {
+        W = take_near(s, sum, range, fine, f, dim);
     } else {
         join_sums(sum, sum + 1, dim);
         W = mean_of(sum, f, dim);
@@ -390,11 +431,16 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim, 
     for (int k = 0; k < n; k++) {
         const struct sph *fine = all[g->source[k]];
         const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / reach_of(fine);
+        const int *j[2] = {g->j + g->first[k][0], g->j + g->first[k][1]}, *count = g->count[k];
+        const bool near = slopes && g->near[k];
         struct guard_sums sum[2];
+        struct guard_range range[2];
         memset(sum, 0, sizeof sum);
-        add_sources(fine->coarser, x, R_1, g->j + g->first[k][0], g->count[k][0], sum, dim, slopes);
-        add_sources(fine, x, R_1, g->j + g->first[k][1], g->count[k][1], sum + 1, dim, slopes);
-        take(s, g->who[k], sum, fine, slopes && g->near[k], dim);
+        add_sources(fine->coarser, x, R_1, j[0], count[0], sum, dim, slopes);
+        add_sources(fine, x, R_1, j[1], count[1], sum + 1, dim, slopes);
+        for (int m = 0; near && m < 2; m++)
+            range[m] = range_of(m ? fine : fine->coarser, j[m], count[m]);
+        take(s, g->who[k], sum, near ? range : NULL, fine, dim);
     }
 }
 
@@ -511,6 +557,24 @@ void guards_hold_edge(struct sph *s)
     }
 }
 
+/* Whether the rates of guard i are its own. */
+static bool has_rates(const struct sph *s, int i)
+{
+    return s->guards->own_rates && !(s->p.role[i] & (ROLE_DEEP | ROLE_EDGE));
+}
+
+void guards_spare(struct sph *s)
+{
+    const struct wall_model *w = s->walls ? s->walls->model : NULL;
+    bool *idle = NEW(bool, s->p.n), *pushing = NEW(bool, s->p.n);
+    if (w && w->pushing)
+        w->pushing(s, pushing);
+    for (int i = 0; i < s->p.n; i++)
+        idle[i] = particles_is_guard(&s->p, i) && !has_rates(s, i) && !pushing[i];
+    neighbours_spare(s, idle);
+    FREE(idle, pushing);
+}
+
 /* Takes the part of the rates that changes mass out of all of them alike, so that u and rho go on
  * as the rates have it. */
 static void keep_mass(const struct sph *s, int i, double *rate)
@@ -530,7 +594,7 @@ void guards_rates(struct sph *s)
     for (int k = 0; k < g->n; k++) {
         double *rate = state_row(&s->p, s->p.rate, g->who[k]);
         const double *u0 = slope_line(&s->p, g->who[k]) + dim + dim * dim;
-        if (g->own_rates && !(s->p.role[g->who[k]] & (ROLE_DEEP | ROLE_EDGE))) {
+        if (has_rates(s, g->who[k])) {
             keep_mass(s, g->who[k], rate);
             continue;
         }

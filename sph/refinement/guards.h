@@ -66,6 +66,9 @@ void guards_forget(struct sph *s);
 /* For one level, after the first pass: guards at the edge are moved with the flow alone, without
  * shift. */
 void guards_hold_edge(struct sph *s);
+/* For one level, when the slopes of a list's first stage are whole: leaves pairs that only guards
+ * have, whose rates guards_rates overwrites and no wall reads, out of the passes for rates. */
+void guards_spare(struct sph *s);
 /* For one level, after the rates: guards move; with own_rates, u and rho of those with a full
  * support continue by their rates. */
 void guards_rates(struct sph *s);

@@ -77,12 +77,17 @@ static int role_of(const struct regions *g, const struct sph *s, const struct de
     return role | source << ROLE_SOURCE;
 }
 
+/* The regions of a scene, from any of its levels. */
+static const struct regions *regions_of(const struct sph *s)
+{
+    while (s->coarser)
+        s = s->coarser;
+    return s->refinement->regions;
+}
+
 bool refinement_flows_at(const struct sph *s, const double *x)
 {
-    const struct sph *coarsest = s;
-    while (coarsest->coarser)
-        coarsest = coarsest->coarser;
-    const struct regions *g = coarsest->refinement->regions;
+    const struct regions *g = regions_of(s);
     return !(s->coarser && regions_distance(g, s->level, x) < 2.0 * s->R) &&
            !(s->finer && regions_distance(g, s->level + 1, x) >= s->R);
 }
@@ -103,15 +108,18 @@ static double flowing(const struct sph *s) { return sum_of(s, at_mass(s->dim)); 
 
 /* Share of a particle's mass that counts: 1 where its level flows, 0 where another does. Ramps one
  * spacing of the coarser level wide make the sum continuous as a layer of particles crosses the
- * switch. */
-static double share_of(const struct sph *s, const struct depths *is, int i)
+ * switch. own, next: distances to the edges of its own region and of the next finer one, m. */
+static double share_of(const struct sph *s, double own, double next)
 {
-    double share = 1.0;
-    if (is->own)
-        share *= fmax(0.0, fmin(0.5 + (is->own[i] - 2.0 * s->R) / (2.0 * s->dx), 1.0));
-    if (is->next)
-        share *= fmax(0.0, fmin(0.5 - (is->next[i] - s->R) / s->dx, 1.0));
-    return share;
+    return fmax(0.0, fmin(0.5 + (own - 2.0 * s->R) / (2.0 * s->dx), 1.0)) *
+           fmax(0.0, fmin(0.5 - (next - s->R) / s->dx, 1.0));
+}
+
+double refinement_share_at(const struct sph *s, const double *x)
+{
+    const struct regions *g = regions_of(s);
+    return share_of(s, s->coarser ? regions_distance(g, s->level, x) : INFINITY,
+                    s->finer ? regions_distance(g, s->level + 1, x) : -INFINITY);
 }
 
 /* Mass of a level's particles by these shares, kg; this rank. */
@@ -119,7 +127,8 @@ static double mass_of_level(const struct sph *s, const struct depths *is)
 {
     double sum = 0.0;
     for (int i = 0; i < s->p.n; i++)
-        sum += share_of(s, is, i) * state_row(&s->p, s->p.y, i)[at_mass(s->dim)];
+        sum += share_of(s, is->own ? is->own[i] : INFINITY, is->next ? is->next[i] : -INFINITY) *
+               state_row(&s->p, s->p.y, i)[at_mass(s->dim)];
     return sum;
 }
 

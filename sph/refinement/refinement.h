@@ -53,6 +53,9 @@ void refinement_adapt_finer(struct sph *s, struct sph *outside);
 int refinement_child(const struct sph *s, struct sph *to, int i, const double *d);
 /* For sph.flows_at: whether it is this level that flows at x. */
 bool refinement_flows_at(const struct sph *s, const double *x);
+/* For sph.share_at: how much of a particle of this level at x sums over the fluid count, 0 to 1;
+ * those of both levels at a switch add up to 1. */
+double refinement_share_at(const struct sph *s, const double *x);
 
 /* look.c, before the adaption: computes what regions follow and, when they are due, the criteria,
  * from the packed records and slopes of the last stage. Collective. */

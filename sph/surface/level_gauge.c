@@ -213,14 +213,16 @@ static double share_across(const struct sph *s, const struct column *c, int a, d
  * in the window. */
 enum { COLUMN_ALL, COLUMN_WINDOW, COLUMN_ABOVE, COLUMN_SURFACE, COLUMN };
 
-/* Adds the volumes of what flows of one level, weighted by the hat function. Local to the rank.
- * Positions across are taken to the nearest periodic image. */
+/* Adds the volumes of what flows of one level, weighted by the hat function. Where levels meet each
+ * counts by its share: by their roles rows of the coarser one were in or out as a whole, and the
+ * level jumped by half a spacing with each row that crossed an edge. Local to the rank. Positions
+ * across are taken to the nearest periodic image. */
 static void add_level(const struct sph *s, const struct column *c, const struct level_window *w,
                       double sums[COLUMN])
 {
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), z = height_of(c, q);
-        double weight = particles_is_guard(&s->p, i) ? 0.0 : q[at_volume(s->dim)];
+        double weight = q[at_volume(s->dim)];
         double across[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < s->dim && weight > 0.0; a++) {
             if (a == c->up)
@@ -230,6 +232,7 @@ static void add_level(const struct sph *s, const struct column *c, const struct 
                 across[a] = remainder(across[a], s->hi[a] - s->lo[a]);
             weight *= share_across(s, c, a, across[a]);
         }
+        weight *= weight > 0.0 && s->share_at ? s->share_at(s, q) : 1.0;
         if (!(weight > 0.0) ||
             (c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
             continue;

@@ -182,6 +182,8 @@ static void slopes_done(struct sph *s)
     finish_slopes(s);
     if (s->guards)
         guards_hold_edge(s);
+    if (s->guards && !s->list->spared)
+        guards_spare(s);
     s->list->treated = s->list->nshallow;
 }
 

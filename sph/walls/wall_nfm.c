@@ -610,6 +610,17 @@ INLINE void credit(const struct sph *s, struct nfm *m, int k, const struct seen 
         wall_gap_exchange(s, l, k, (const double(*)[3])m->q, i->w);
 }
 
+static void pushing(struct sph *s, bool *who)
+{
+    struct nfm *m = s->walls->state;
+    const struct wall_list *l = &m->list;
+    if (!m->judged)
+        judge(s, m);
+    for (int k = 0; k < l->n; k++)
+        for (int j = l->first[k]; j < l->first[k + 1]; j++)
+            who[l->who[k]] |= m->pushes[j];
+}
+
 /* Whether particle k is a guard whose rates are overwritten and that pushes no wall. */
 static bool is_idle(const struct sph *s, const struct nfm *m, int k)
 {
@@ -751,6 +762,7 @@ const struct wall_model wall_nfm = {.name = "normal_flux_walls",
                                     .slopes = slopes,
                                     .bound_shifts = bound_shifts,
                                     .rates = rates,
+                                    .pushing = pushing,
                                     .moments = moments,
                                     .gammas = gammas,
                                     .rooms = rooms,

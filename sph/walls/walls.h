@@ -76,6 +76,9 @@ struct wall_model {
     void (*bound_shifts)(struct sph *s); /* the same, after transport_finish */
     void (*ghost_slopes)(struct sph *s); /* after the halo of slopes */
     void (*rates)(struct sph *s);        /* after the second pass */
+    /* With levels, once a list, after slopes: sets who[n] of those whose rates `rates' reads to
+     * tell what pushes the walls; NULL: it reads none. */
+    void (*pushing)(struct sph *s, bool *who);
     /* Adds wall terms to M[n][dim^2] and sum w gradW, g[n][dim], of the locals and divides both by
      * gamma [4.86-4.87]. */
     void (*moments)(struct sph *s, double *M, double *g);

@@ -4,7 +4,7 @@ same as one; of a column that falls half goes through the middle; bodies take ga
 import math
 
 import lib
-from lib import bad, column, last, near, refused, run, run_case, says, start, summary, varied, write
+from lib import bad, check, column, last, near, refused, run, run_case, says, start, summary, varied, write
 
 lib.scratch()
 
@@ -220,5 +220,18 @@ shapes: ( { box = ((0.4, 0.2), (0.5, 0.25)); velocity = (1, 0); } ); probes: ( %
 ''' % probes('discharge', 'crest 0.6, 0.2 to 0.6, 0.5', 'fall 0.7, 0.1 to 1.2, 0.1')), program='fv')
 for gauge in 'crest', 'fall':
     volume('falls', gauge, 0.005, 0.1)
+
+# The level under a body is its underside, also while an edge of refinement goes down through the rows of the column: each
+# of the two levels counts by its share there (by whole rows it was out by 0.4 dx, and a body was taken for drowned).
+run_case('edge', scene(0.6, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1.2, 1.2); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "below"; level = 0.8; } );
+bodies: ( { name = "box"; box = ((0.45, 0.7), (0.75, 1)); velocity = (0, -0.1); } );
+probes: ( %s ); sph: { dx = 0.04; R_dx = 3.0; };
+apr: { regions = ( { shape = "body"; body = "box"; offset = 0.25; } ); };
+''' % probes('level', 'under 0.6, 0.1'), series=5))
+lines = list(zip(column('edge', 't ['), column('edge', 'under')))
+check(len(lines) > 50, 'edge: %d lines of the series' % len(lines))
+for now, level in lines:
+    near('edge: level under the box at %g s' % now, level, 0.7 - 0.1 * now, 0.1 * 0.04, 'edge.txt')
 lib.end('a body takes a gauge along: %.6g Pa/m (-9810), one that stands %.4g; before a wall off by %.3g; %d faults'
         % (share('with'), share('stands'), off, lib.failed))
