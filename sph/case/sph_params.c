@@ -449,20 +449,24 @@ static void check_spacing(const struct run *r, struct faults *f)
     check_rows(r, f);
 }
 
+/* Where the zones of two open sides meet, each sets what the other reads: a channel of 16 dx
+ * between two outlets had 1.6 times its discharge, one of 10 dx diverges. */
 static void check_zones(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
     double lo[3], hi[3];
     zones_free_box(r, prm, lo, hi);
-    for (int a = 0; a < r->scene.domain.dim; a++)
-        if (hi[a] - lo[a] <= 0.0) {
-            params_fault(
-                r->params, f, "sph.box",
-                "coupling.transition + coupling.buffer on open sides, %g m, leave nothing of "
-                "%g m; make the box larger, or sph.dx finer",
-                prm->box[1][a] - prm->box[0][a] - (hi[a] - lo[a]), prm->box[1][a] - prm->box[0][a]);
-            return;
-        }
+    for (int a = 0; a < r->scene.domain.dim; a++) {
+        const double length = prm->box[1][a] - prm->box[0][a], free = hi[a] - lo[a];
+        if (free > (has_box() ? 0.0 : -1e-6 * given.dx))
+            continue;
+        params_fault(r->params, f, has_box() ? "sph.box" : "sph.dx",
+                     "coupling.transition + coupling.buffer on open sides, %g m, leave nothing of "
+                     "%g m along %c; make the %s larger, or sph.dx finer than %.3g m",
+                     length - free, length, "xyz"[a], has_box() ? "box" : "domain",
+                     given.dx * length / (length - free));
+        return;
+    }
 }
 
 /* At the end of a side a vertex collects the flow of a whole face instead of half [6.11]: five feed
@@ -710,10 +714,9 @@ void sph_params_check(const struct run *r, struct faults *f)
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
     check_spacing(r, f);
-    if (!in_3d && sph_params_walls(&r->scene, sph_params_of(r)))
-        if (is_given(given.box) && is_given(given.free))
-            params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
-    if (f->n == 0 && has_box())
+    if (is_given(given.box) && is_given(given.free))
+        params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");
+    if (f->n == 0 && sph_params_zones(r, sph_params_of(r)))
         check_zones(r, f);
     if (f->n == 0)
         check_motion(r, f);

@@ -69,8 +69,8 @@ struct sph_watch {
     double work;                /* J: done on the flow from outside since the start, all ranks */
     double power, power_t;      /* W, s: at the last sample */
     /* At the last samples: number of all particles returned so far; magnitude of the moving walls'
-     * work, J. */
-    double put_back[WATCH_STEPS / SPH_WATCH_EVERY], walls[WATCH_STEPS / SPH_WATCH_EVERY];
+     * work and a fifth of the energy removed, J. */
+    double put_back[WATCH_STEPS / SPH_WATCH_EVERY], passed[WATCH_STEPS / SPH_WATCH_EVERY];
     double removed; /* J: energy of particles removed since the last sample; this rank */
     /* The sample of this step, this rank's part until it is judged. */
     bool due; /* the step takes a sample */

@@ -454,6 +454,7 @@ faulty('channel', 's/{ side = "x_max"; kind = "outflow"; }/{ side = "x_max"; }/'
 faulty('channel', r's/^sph:/shapes: ( { box = ((0, 0), (2, 0.5)); } );\nsph:/', r'walls.\[0\].kind: inlets and outlets under a free surface need gravity', 'sph')
 faulty('channel', 's/nu = 0.01/nu = 0.01; gravity = (0, -9.81)/', r'walls.\[1\].pressure: .*9.81 Pa more', 'sph')
 faulty('channel', 's/"inflow"; velocity = (1, 0)/"outflow"/; s/nu = 0.01/gravity = (1, 0)/', 'fluid.gravity: .*open ends x_min and x_max.*differ by 2 Pa', 'sph')
+faulty('channel', 's/max = (2, 1)/max = (0.4, 1)/', 'sph.dx: .*leave nothing of .* domain larger, or sph.dx finer', 'sph')
 faulty('channel', 's/{ side = "y_max"; }/{ side = "y_min"; }/', r'walls.\[3\]: .*has a wall already', 'sph')
 faulty('channel', 's/, { side = "y_max"; }//', 'domain: .*up to its side y_max', 'sph')
 faulty('sph', 's/nu = 0.005/gravity = (1, 0)/', 'fluid.gravity: 1 m.s^2 along the periodic x', 'sph')
