@@ -234,26 +234,6 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
         u0[a] = u[a] + shift[a];
 }
 
-/* No particle comes nearer to a wall than by a quarter of its distance in a step: where water meets
- * a plate its rows converge on it, and whatever errs in u.n takes them through. The wall still has
- * the whole of u.n, which its pressure stops. Not in ALE, where u - u0 carries mass through it. */
-static void stop_before_walls(const struct sph *s, const struct wall_list *l, int k, double *u0)
-{
-    const double *x = prim_line(&s->p, l->who[k]);
-    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        double foot[3], uw[3], over = -0.25 * t->height / s->dt;
-        if (!t->foot || t->height >= 0.25 * s->dx || t->height < 0.0)
-            continue;
-        for (int a = 0; a < s->dim; a++)
-            foot[a] = x[a] + t->height * t->n[a];
-        wall_list_velocity(s, t, foot, uw);
-        for (int a = 0; a < s->dim; a++)
-            over += (u0[a] - uw[a]) * t->n[a];
-        for (int a = 0; a < s->dim && over > 0.0; a++)
-            u0[a] -= over * t->n[a];
-    }
-}
-
 /* The last word on shifts where there is a surface: that which keeps gravity workless came later
  * than what add_crowding does without one. */
 static void bound_shifts(struct sph *s)
@@ -268,8 +248,6 @@ static void bound_shifts(struct sph *s)
         shift_before_walls(s, &m->list, k, shift);
         for (int a = 0; a < dim; a++)
             u0[a] = u[a] + shift[a];
-        if (s->prm.scheme != SCHEME_RIEMANN_ALE)
-            stop_before_walls(s, &m->list, k, u0);
     }
 }
 
@@ -650,6 +628,27 @@ static bool is_idle(const struct sph *s, const struct nfm *m, int k)
            !(share_that_pushes(s, m, k) > 0.0);
 }
 
+/* No particle comes nearer to a wall than by a quarter of its distance in a step: where water meets
+ * a plate its rows converge on it, and whatever errs in u.n takes them through. Its place alone is
+ * held: the fluxes, and so the wall, still have the whole of u.n, which the wall's pressure stops.
+ */
+static void stop_before_walls(const struct sph *s, const struct wall_list *l, int k, double *move)
+{
+    const double *x = prim_line(&s->p, l->who[k]);
+    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
+        double foot[3], uw[3], over = -0.25 * t->height / s->dt;
+        if (!t->foot || t->height >= 0.25 * s->dx || t->height < 0.0)
+            continue;
+        for (int a = 0; a < s->dim; a++)
+            foot[a] = x[a] + t->height * t->n[a];
+        wall_list_velocity(s, t, foot, uw);
+        for (int a = 0; a < s->dim; a++)
+            over += (move[a] - uw[a]) * t->n[a];
+        for (int a = 0; a < s->dim && over > 0.0; a++)
+            move[a] -= over * t->n[a];
+    }
+}
+
 /* Sums of pairs and walls over gamma. */
 INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
 {
@@ -681,6 +680,7 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     const int V = at_volume(dim), M = at_mass(dim);
     rate[V] = (rate[V] - own[V] + i.w * all.w) * gamma_1 + own[V];
     rate[M] = (rate[M] + i.w * all.m) * gamma_1;
+    stop_before_walls(s, l, k, rate);
 }
 
 static void rates(struct sph *s)
