@@ -101,6 +101,7 @@ struct sph_totals {
 /* The sums at t = 0, against which drifts are measured. */
 struct sph_start {
     double mass, energy, momentum[3]; /* kg, J, kg m/s: of all ranks */
+    bool shut;                        /* all water is one, which walls and bodies shut in */
     double volume; /* m^dim: of the fluid in a closed room, conserved by volume.h; 0: not closed */
 };
 

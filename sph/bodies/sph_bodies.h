@@ -8,5 +8,6 @@
 #include "body_check.h"
 #include "body_courses.h"
 #include "paddles.h"
+#include "shut_water.h"
 
 #endif

@@ -14,53 +14,14 @@
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
+#include "basin_runs.h"
+#include "basins_shut.h"
 #include "rooms.h"
 #include "sph_params.h"
 #include "surface_rows.h"
 
 /* Parts of fewer cells that walls cut off are no water that could flow. */
 enum { LEAST_CELLS = 8 };
-
-struct basin_run {
-    int first, last; /* cells along the axis of the runs */
-    int part;        /* representative: a run of the same water */
-    bool covered, dropped;
-    double level;
-};
-
-struct basin_link {
-    int run[2];
-    double width; /* cells through which they touch */
-};
-
-struct basins {
-    const struct sph *s;
-    const struct lattice *l;
-    struct exact exact;
-    int up, sign, across[2]; /* axis of the runs, where up is on it, the others */
-    bool oblique, rows;      /* rows end at the surface; surface_rows.h */
-    double g;
-    int columns, nruns, *start; /* runs of column c: start[c] .. start[c + 1] - 1 */
-    struct basin_run *runs;
-    int nlinks;
-    struct basin_link *links;
-    int pockets, waters, wet, dry;
-    int64_t lost;
-    double where[3];
-};
-
-static int column_of(const struct basins *b, const int *ic)
-{
-    return ic[b->across[0]] + b->l->n[b->across[0]] * ic[b->across[1]];
-}
-
-static void cell_in(const struct basins *b, int column, int along, int *ic)
-{
-    const int n = b->l->n[b->across[0]];
-    ic[b->across[0]] = column % n;
-    ic[b->across[1]] = column / n;
-    ic[b->up] = along;
-}
 
 /* --- runs and waters --- */
 
@@ -90,7 +51,7 @@ static void find_runs(struct basins *b)
         b->start[c] = b->nruns;
         for (int k = 0; k < l->n[b->up]; k++) {
             int ic[3];
-            cell_in(b, c, k, ic);
+            basin_cell(b, c, k, ic);
             const int64_t cell = lattice_cell(l, ic);
             const bool has = lattice_has(l, cell);
             if (has && (!in || parted)) {
@@ -110,19 +71,10 @@ static void find_runs(struct basins *b)
     b->start[b->columns] = b->nruns;
 }
 
-static int part_of(struct basins *b, int r)
-{
-    while (b->runs[r].part != r) {
-        b->runs[r].part = b->runs[b->runs[r].part].part;
-        r = b->runs[r].part;
-    }
-    return r;
-}
-
 static void join(struct basins *b, int r, int q)
 {
-    r = part_of(b, r);
-    q = part_of(b, q);
+    r = basin_part(b, r);
+    q = basin_part(b, q);
     b->runs[r > q ? r : q].part = r > q ? q : r;
 }
 
@@ -133,8 +85,8 @@ static int open_width(const struct basins *b, int column, int beside, int from, 
     for (int k = from; k <= to; k++) {
         int ic[3], jc[3];
         double x[3], y[3];
-        cell_in(b, column, k, ic);
-        cell_in(b, beside, k, jc);
+        basin_cell(b, column, k, ic);
+        basin_cell(b, beside, k, jc);
         if (b->l->cut[0]) {
             const int axis = b->across[ic[b->across[0]] == jc[b->across[0]]];
             n += !lattice_is_cut(b->l, lattice_cell(b->l, ic), axis);
@@ -199,49 +151,17 @@ static void each_meeting(struct basins *b, meet *at)
         for (int k = 0; k < 2; k++) {
             const int a = b->across[k];
             int ic[3];
-            cell_in(b, c, 0, ic);
+            basin_cell(b, c, 0, ic);
             if (++ic[a] == l->n[a]) {
                 if (!b->s->periodic[a] || l->n[a] < 2)
                     continue;
                 ic[a] = 0;
             }
-            each_of_columns(b, c, column_of(b, ic), at);
+            each_of_columns(b, c, basin_column(b, ic), at);
         }
 }
 
 /* --- roofs and floors --- */
-
-/* Whether walls or bodies fill the place x, or part it from `from'. */
-static bool blocked(const struct basins *b, const double *from, const double *x)
-{
-    if (b->l->cut[0])
-        return rooms_blocked(b->s, from, x);
-    return !scene_is_room(&b->s->run->scene, x) ||
-           (b->s->walls && walls_distance(b->s->walls, x, INFINITY) <= 1e-3 * b->s->dx);
-}
-
-enum beyond { BEYOND_AIR, BEYOND_WALL, BEYOND_OPEN };
-
-/* What is next to cell ic on an axis, which has no water. */
-static enum beyond look(const struct basins *b, const int *ic, int axis, int way)
-{
-    const struct sph *s = b->s;
-    int jc[3] = {ic[0], ic[1], ic[2]};
-    double x[3], from[3];
-    jc[axis] += way;
-    lattice_centre(b->l, ic, s->dim, from);
-    lattice_centre(b->l, jc, s->dim, x);
-    if (x[axis] < s->lo[axis] || x[axis] > s->hi[axis]) {
-        const int side = 2 * axis + (way > 0);
-        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
-        const bool wall =
-            w && w->kind < WALL_INFLOW && sph_params_reaches(&s->run->scene.domain, &s->prm, side);
-        if (s->open[side])
-            return BEYOND_OPEN;
-        return wall || blocked(b, from, x) ? BEYOND_WALL : BEYOND_AIR; /* a line, a mesh on it */
-    }
-    return blocked(b, from, x) ? BEYOND_WALL : BEYOND_AIR;
-}
 
 /* The top of a run with air above. Where gravity is along the lattice its upper face, as rows end
  * there: the column weighs what it holds. Else steps of the lattice would be waves of its size:
@@ -266,19 +186,14 @@ static double top_of(const struct basins *b, const int *ic)
     return scene_height(c, x);
 }
 
-static int top_cell(const struct basins *b, const struct basin_run *r)
-{
-    return b->sign > 0 ? r->last : r->first;
-}
-
 static void find_tops(struct basins *b)
 {
     for (int c = 0; c < b->columns; c++)
         for (int r = b->start[c]; r < b->start[c + 1]; r++) {
             struct basin_run *run = b->runs + r;
             int ic[3];
-            cell_in(b, c, top_cell(b, run), ic);
-            run->covered = look(b, ic, b->up, b->sign) == BEYOND_WALL;
+            basin_cell(b, c, basin_top(b, run), ic);
+            run->covered = basin_look(b, ic, b->up, b->sign) == BEYOND_WALL;
             run->level = run->covered ? NAN : top_of(b, ic);
         }
 }
@@ -289,18 +204,18 @@ static bool rests(const struct basins *b, int column, const struct basin_run *r)
     double g[3];
     int ic[3];
     scene_still_gravity(&b->s->run->scene, g);
-    cell_in(b, column, b->sign > 0 ? r->first : r->last, ic);
-    if (look(b, ic, b->up, -b->sign) != BEYOND_AIR)
+    basin_cell(b, column, b->sign > 0 ? r->first : r->last, ic);
+    if (basin_look(b, ic, b->up, -b->sign) != BEYOND_AIR)
         return true;
     for (int a = 0; b->oblique && a < b->s->dim; a++)
         for (int k = r->first; a != b->up && fabs(g[a]) > 1e-9 * b->g && k <= r->last; k++) {
             const int way = g[a] > 0.0 ? 1 : -1;
-            cell_in(b, column, k, ic);
+            basin_cell(b, column, k, ic);
             int jc[3] = {ic[0], ic[1], ic[2]};
             jc[a] += way;
             const bool water =
                 jc[a] >= 0 && jc[a] < b->l->n[a] && lattice_has(b->l, lattice_cell(b->l, jc));
-            if (!water && look(b, ic, a, way) != BEYOND_AIR)
+            if (!water && basin_look(b, ic, a, way) != BEYOND_AIR)
                 return true;
         }
     return false;
@@ -319,7 +234,7 @@ static void level_of_closed(struct basins *b, const int *group)
         for (int r = b->start[c]; r < b->start[c + 1]; r++) {
             int ic[3];
             double x[3];
-            cell_in(b, c, top_cell(b, b->runs + r), ic);
+            basin_cell(b, c, basin_top(b, b->runs + r), ic);
             lattice_centre(b->l, ic, b->s->dim, x);
             top[group[r]] =
                 fmax(top[group[r]], scene_height(&b->s->run->scene, x) + 0.5 * b->l->dx);
@@ -424,11 +339,11 @@ static void find_falling(struct basins *b)
     bool *rest = NEW(bool, b->nruns);
     for (int c = 0; c < b->columns; c++)
         for (int r = b->start[c]; r < b->start[c + 1]; r++) {
-            const int part = part_of(b, r);
+            const int part = basin_part(b, r);
             rest[part] = rest[part] || rests(b, c, b->runs + r);
         }
     for (int r = 0; r < b->nruns; r++)
-        if (!rest[part_of(b, r)])
+        if (!rest[basin_part(b, r)])
             b->runs[r].level = NAN;
     mem_free(rest);
 }
@@ -461,7 +376,7 @@ static int64_t *count_cells(struct basins *b)
 {
     int64_t *cells = NEW(int64_t, b->nruns);
     for (int r = 0; r < b->nruns; r++)
-        cells[part_of(b, r)] += b->runs[r].last - b->runs[r].first + 1;
+        cells[basin_part(b, r)] += b->runs[r].last - b->runs[r].first + 1;
     return cells;
 }
 
@@ -470,15 +385,15 @@ static void drop_pockets(struct basins *b)
     int64_t *cells = count_cells(b), most = 0;
     bool *cut = NEW(bool, b->nruns);
     for (int r = 0; r < b->nruns; r++) {
-        const bool dry = b->runs[part_of(b, r)].dropped;
-        most = !dry && cells[part_of(b, r)] > most ? cells[part_of(b, r)] : most;
+        const bool dry = b->runs[basin_part(b, r)].dropped;
+        most = !dry && cells[basin_part(b, r)] > most ? cells[basin_part(b, r)] : most;
     }
     for (int c = 0; c < b->columns; c++)
         for (int r = b->start[c]; r < b->start[c + 1]; r++)
             for (int k = b->runs[r].first; k <= b->runs[r].last; k++) {
-                const int part = part_of(b, r);
+                const int part = basin_part(b, r);
                 int ic[3];
-                cell_in(b, c, k, ic);
+                basin_cell(b, c, k, ic);
                 if (cells[part] < LEAST_CELLS && cells[part] < most && !cut[part] &&
                     is_cut(b, ic)) {
                     cut[part] = true;
@@ -486,7 +401,7 @@ static void drop_pockets(struct basins *b)
                 }
             }
     for (int r = 0; r < b->nruns; r++) {
-        const int part = part_of(b, r);
+        const int part = basin_part(b, r);
         if (b->runs[r].dropped) /* dry already */
             continue;
         b->runs[r].dropped = cut[part];
@@ -495,19 +410,6 @@ static void drop_pockets(struct basins *b)
         b->lost += r == part && cut[part] ? cells[part] : 0;
     }
     FREE(cells, cut);
-}
-
-static const struct basin_run *run_at(const struct basins *b, int64_t cell)
-{
-    int ic[3];
-    lattice_indices(b->l, cell, ic);
-    const int c = column_of(b, ic), k = ic[b->up];
-    int lo = b->start[c], hi = b->start[c + 1];
-    while (hi - lo > 1) {
-        const int mid = (lo + hi) / 2;
-        *(b->runs[mid].first <= k ? &lo : &hi) = mid;
-    }
-    return b->runs + lo;
 }
 
 /* --- rooms that meshes part --- */
@@ -524,13 +426,13 @@ static void find_middles(struct basins *b, const int64_t *cells, struct sample *
     for (int c = 0; c < b->columns; c++)
         for (int r = b->start[c]; r < b->start[c + 1]; r++)
             for (int k = b->runs[r].first; k <= b->runs[r].last; k++) {
-                const int part = part_of(b, r);
+                const int part = basin_part(b, r);
                 struct sample *to = of + part;
                 int ic[3];
                 double x[3];
                 if (to->seen++ % (1 + cells[part] / SAMPLES) != 0)
                     continue;
-                cell_in(b, c, k, ic);
+                basin_cell(b, c, k, ic);
                 lattice_centre(b->l, ic, 3, x);
                 const double d = rooms_distance(b->s, x, INFINITY);
                 if (d > to->distance) {
@@ -554,7 +456,7 @@ static int part_at(struct basins *b, const double *seed)
             continue;
         lattice_place(b->l, cell, 3, x);
         if (!rooms_crossed(b->s, seed, x))
-            return part_of(b, (int)(run_at(b, cell) - b->runs));
+            return basin_part(b, (int)(basin_run_at(b, cell) - b->runs));
     }
     return -1;
 }
@@ -597,9 +499,10 @@ static void refuse_sheets(struct basins *b)
             memcpy(y, x, sizeof y);
             y[a] += b->l->dx;
             lattice_next(b->l, ic, a, b->s->periodic, jc);
-            const struct basin_run *r = run_at(b, cell), *q = run_at(b, lattice_cell(b->l, jc));
+            const struct basin_run *r = basin_run_at(b, cell),
+                                   *q = basin_run_at(b, lattice_cell(b->l, jc));
             if (!r->dropped && !q->dropped &&
-                part_of(b, (int)(r - b->runs)) == part_of(b, (int)(q - b->runs)))
+                basin_part(b, (int)(r - b->runs)) == basin_part(b, (int)(q - b->runs)))
                 rooms_refuse_sheet(b->s, x, y);
         }
 }
@@ -611,7 +514,7 @@ static void drop_dry(struct basins *b)
     unsigned char *wet = NEW(unsigned char, b->nruns);
     find_wet(b, cells, wet);
     for (int r = 0; r < b->nruns; r++) {
-        const int part = part_of(b, r);
+        const int part = basin_part(b, r);
         b->runs[r].dropped = !wet[part];
         b->wet += r == part && wet[part] && cells[part] >= LEAST_CELLS;
         b->dry += r == part && !wet[part] && cells[part] >= LEAST_CELLS;
@@ -637,6 +540,7 @@ struct basins *basins_create(const struct sph *s, const struct lattice *l)
         find_levels(b);
         find_falling(b);
     }
+    basins_find_shut(b);
     return b;
 }
 
@@ -652,12 +556,12 @@ void basins_clear(const struct basins *b, struct lattice *l)
         for (int r = b->start[c]; r < b->start[c + 1]; r++)
             for (int k = b->runs[r].first; b->runs[r].dropped && k <= b->runs[r].last; k++) {
                 int ic[3];
-                cell_in(b, c, k, ic);
+                basin_cell(b, c, k, ic);
                 lattice_clear(l->bits, lattice_cell(l, ic));
             }
 }
 
-double basins_level(const struct basins *b, int64_t cell) { return run_at(b, cell)->level; }
+double basins_level(const struct basins *b, int64_t cell) { return basin_run_at(b, cell)->level; }
 
 void basins_rooms(const struct basins *b, int *wet, int *dry)
 {
@@ -675,7 +579,7 @@ double basins_suction(const struct basins *b, double *where)
             double x[3];
             if (!run->covered || run->dropped || isnan(run->level))
                 continue;
-            cell_in(b, c, top_cell(b, run), ic);
+            basin_cell(b, c, basin_top(b, run), ic);
             lattice_centre(b->l, ic, b->s->dim, x);
             const double over = scene_height(&b->s->run->scene, x) + 0.5 * b->l->dx - run->level;
             if (over > most) {
@@ -684,27 +588,6 @@ double basins_suction(const struct basins *b, double *where)
             }
         }
     return most;
-}
-
-int64_t basins_shut_in(struct basins *b, double *where)
-{
-    bool *open = NEW(bool, b->nruns), any = false;
-    int64_t cells = 0;
-    for (int r = 0; r < b->nruns; r++)
-        if (!b->runs[r].covered && !b->runs[r].dropped)
-            any = open[part_of(b, r)] = true;
-    for (int c = 0; c < b->columns; c++)
-        for (int r = b->start[c]; r < b->start[c + 1] && any; r++) {
-            const struct basin_run *run = b->runs + r;
-            int ic[3];
-            if (open[part_of(b, r)] || run->dropped || isnan(run->level))
-                continue;
-            cells += run->last - run->first + 1;
-            cell_in(b, c, top_cell(b, run), ic);
-            lattice_centre(b->l, ic, b->s->dim, where);
-        }
-    mem_free(open);
-    return cells;
 }
 
 int basins_pockets(const struct basins *b, int64_t *cells, double *where)

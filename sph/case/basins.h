@@ -20,9 +20,6 @@ int basins_pockets(const struct basins *b, int64_t *cells, double *where);
 /* How far the water under roofs stands above its level at most, m: there it hangs by suction;
  * where: the place. 0: nowhere. */
 double basins_suction(const struct basins *b, double *where);
-/* Cells of waters that walls and bodies shut in while another is open to the air, with the place of
- * one, m; 0: none. */
-int64_t basins_shut_in(struct basins *b, double *where);
 /* Height against gravity where p = 0 for the water of this cell, m; NAN: it falls freely. */
 double basins_level(const struct basins *b, int64_t cell);
 

@@ -8,6 +8,7 @@
 
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
+#include "../bodies/sph_bodies.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"
@@ -15,6 +16,7 @@
 #include "../walls/sph_walls.h"
 #include "amount.h"
 #include "basins.h"
+#include "basins_shut.h"
 #include "first_lattice.h"
 #include "pack.h"
 #include "rims.h"
@@ -289,21 +291,38 @@ static void warn_of_suction(const struct sph *s, const struct basins *b)
             x[0], x[1], x[2], over, -s->rho0 * weight_of(s, still) * over);
 }
 
+static void warn_of_drift(const struct sph *s, int64_t n, const double *x)
+{
+    log_warn("%lld particle(s) of water are shut in by walls and bodies, at (%g, %g, %g) m: with "
+             "levels of refinement or open sides their pressure may drift by %.2g Pa, and so may "
+             "the forces around. Let the water outside reach them through a gap of some sph.dx, or "
+             "leave that room dry",
+             (long long)n, x[0], x[1], x[2], 0.004 * s->rho0 * s->c0 * s->c0);
+}
+
 /* Nothing but its own volume holds the pressure of water that is shut in, and volumes follow the
  * packing within 0.4 %. */
-static void warn_of_shut_in(const struct sph *s, struct basins *b)
+static void find_shut_in(struct sph *s, struct basins *b)
 {
-    double x[3] = {0.0, 0.0, 0.0};
-    const int64_t n = basins_shut_in(b, x);
-    if (s->surface && n > 0)
-        log_warn(
-            "%lld particle(s) of water are shut in by walls and bodies, at (%g, %g, %g) m: their "
-            "pressure starts from %s and may then drift by %.2g Pa, and so may the forces "
-            "around. Let the water outside reach them through a gap of some sph.dx, or leave "
-            "that room dry",
-            (long long)n, x[0], x[1], x[2],
-            s->run->scene.initial.level < LEVEL_TOP ? "initial.level" : "0 under their roof",
-            0.004 * s->rho0 * s->c0 * s->c0);
+    double x[3];
+    int64_t n;
+    unsigned beside;
+    s->start.shut = s->surface && !s->zones && basins_all_shut(b);
+    if (!s->surface || s->start.shut)
+        return;
+    for (int k = 0; (n = basins_shut_in(b, k, &beside, x)) > 0; k++) {
+        struct shut_water *to = s->finer || s->mixed ? NULL : shut_water_add(s, n, beside);
+        if (to)
+            basins_cells_shut_in(b, k, to->id);
+        else
+            warn_of_drift(s, n, x);
+        if (to)
+            log_say("%lld particle(s) of water are shut in by walls and bodies, at (%g, %g, %g) "
+                    "m: they keep the mean pressure of the start, of water %s",
+                    (long long)n, x[0], x[1], x[2],
+                    beside & (BESIDE_REST - 1) ? "that seeps in from outside"
+                                               : "that stands up to their roof");
+    }
 }
 
 /* A tank whose lines run the wrong way, or a body around the fluid, leave hardly any. */
@@ -355,7 +374,7 @@ struct fill *fill_lattice(struct sph *s)
         say_rooms(b);
     say_pockets(b);
     warn_of_suction(s, b);
-    warn_of_shut_in(s, b);
+    find_shut_in(s, b);
     basins_clear(b, l);
     if (parted)
         rims_check(s, l);

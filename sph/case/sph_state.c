@@ -61,6 +61,7 @@ static void remember_start(struct sph *s)
     sph_sums(s, sums);
     s->start.mass = sums[SUM_MASS];
     volume_remember(s, sums[SUM_VOLUME]);
+    shut_waters_remember(s);
     s->start.energy = sums[SUM_ENERGY];
     memcpy(s->start.momentum, sums + SUM_MOMENTUM, sizeof s->start.momentum);
 }

@@ -404,6 +404,7 @@ void sph_checkpoint(void *state, struct h5 *f)
         wave_zones_save(s->wave_zones, f, s->run->rank == 0);
     if (s->walls)
         forces_save(s, f);
+    shut_waters_save(s, f);
     if (s->walls && s->walls->any_free)
         bodies_save(s, f);
     paddles_save(s, f);
@@ -535,6 +536,8 @@ static const char *missing(struct sph *s, struct h5 *f)
         wave_zones_load(s->wave_zones, f);
     if (s->walls && !forces_load(s, f))
         return "forces on walls";
+    if (!shut_waters_load(s, f))
+        return "waters that walls shut in";
     if (s->walls && !bodies_load(s, f))
         return "free bodies";
     if (!paddles_load(s, f) || !body_courses_load(s, f))

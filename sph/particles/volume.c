@@ -9,11 +9,13 @@
 #include "../../common/scene/scene.h"
 #include "../sph.h"
 
-/* Whether the room is closed: neither a free surface nor an opening. Walls slide along themselves
- * and bodies are rigid, so that they leave its volume as it is. */
+/* Whether the room is closed: no opening, and neither a free surface nor, where shapes fill it, air
+ * beside the first water. Walls slide along themselves and bodies are rigid, so that they leave its
+ * volume as it is. */
 static bool is_closed(const struct sph *s)
 {
-    return !s->surface && !s->zones && !scene_has_surface(&s->run->scene);
+    const bool full = !s->surface && !scene_has_surface(&s->run->scene);
+    return (full || s->start.shut) && !s->zones;
 }
 
 void volume_remember(struct sph *s, double volume)

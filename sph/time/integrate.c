@@ -261,6 +261,7 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
         forces_step(s, dt);
     bodies_finish(s, d);
     volume_keep(s);
+    shut_waters_keep(s);
     if (s->finer) {
         refinement_adapt(s);
         start(s, "levels");

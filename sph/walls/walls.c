@@ -604,6 +604,8 @@ void walls_free(struct walls **w)
     wall_meshes_free(*w);
     for (int k = 0; k < BODIES_MAX; k++)
         mem_free((*w)->rest[k]);
+    for (int k = 0; k < (*w)->nshut; k++)
+        mem_free((*w)->shut[k]);
     FREE((*w)->beside, (*w)->wedge, (*w)->segments, (*w)->start, *w);
     *w = NULL;
 }

@@ -112,6 +112,8 @@ struct wall_forces {
 
 struct seal_point;
 struct seal_rest;
+struct shut_water;
+enum { SHUT_WATERS_MAX = 16 };
 struct wall_joints;
 /* All walls of a run; made by walls_create. */
 struct walls {
@@ -150,6 +152,8 @@ struct walls {
     int nwedges;
     struct seal_point *wedge; /* body_wedge.c: where bodies that stay stand too close for water */
     struct seal_rest *rest[BODIES_MAX]; /* body_seal.c: the same of free bodies, as last measured */
+    int nshut;
+    struct shut_water *shut[SHUT_WATERS_MAX]; /* bodies/shut_water.h; owned */
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */

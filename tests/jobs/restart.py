@@ -84,6 +84,9 @@ fv:      { cells = (40, 20); volume = "fraction"; };''')
 cases, outflow = root + '/cases/%s/case.cfg', root + '/cases/stress/outflow_fv.cfg'
 # series.csv has 12 digits: 1e-9 leaves rounding three orders of magnitude to grow by
 family('dam', 'dam.cfg', 'sph 2', '1 3', 0.1)
+write('slab.cfg', DAM.replace('(0.6, 0.3)', '(1.2, 0.5)') + '''sph: { dx = 0.02; c0 = 30.0; };
+bodies: ( { name = "b"; box = ((0.3, 0), (0.4, 0.1)); }, { box = ((0.6, 0), (0.7, 0.1)); }, { box = ((0.3, 0.1), (0.7, 0.2)); } );''')
+family('slab', 'slab.cfg', 'sph 2', '1 3', 0.1)
 family('channel', 'channel.cfg', 'sph 2', '1 2', 0.4)
 family('sloshing', cases % 'sloshing_fv', 'fv 2', '1 3', 0.2)
 family('column', 'column.cfg', 'fv 2', '1 2 3', 0.4)
@@ -141,7 +144,7 @@ judge('other cells', go(outflow, 'fv 1', 'outflow-half', '-p', 'fv.cells=(32,16)
 # (struct program), so that files of before are refused, and writes this list anew: what `names' has then
 if shutil.which('h5dump'):
     names = set()
-    for program, runs in ('sph', ('dam', 'regions', 'channel')), ('fv', ('sloshing', 'column', 'outflow', 'blocks')):
+    for program, runs in ('sph', ('dam', 'slab', 'regions', 'channel')), ('fv', ('sloshing', 'column', 'outflow', 'blocks')):
         for file in [file for name in runs for file in glob.glob('%s-half/%s-checkpoint-*.h5' % (name, program))]:
             contents, meaning = (subprocess.run(['h5dump', *how, file], stdout=subprocess.PIPE, text=True).stdout
                                  for how in (['-n', '1'], ['-a', '/meaning']))

@@ -97,6 +97,10 @@ def judge(s, out):
         off = [(f - w * unit ** s.dim) / (scale * unit ** s.dim) for f, w in zip(force, s.vector(wanted))]
         if max(map(abs, off)) > 0.03:
             bad.append("force of %s (%s) %% of its largest part off" % (name, ", ".join("%+.1f" % (100 * x) for x in off)))
+    for name, weight in laws.get("rests", []):
+        off = late(rows, name + " contact") / (weight * unit ** s.dim) - 1
+        if abs(off) > 0.03:
+            bad.append("contact of %s %+.1f %%" % (name, 100 * off))
     for name, volume, pa in laws.get("stays", []):
         moved = [late(rows, "%s %s" % (name, "xyz"[a]), 0.01) for a in range(s.dim)]
         start = [float(rows[0][next(c for c in rows[0] if c.startswith("%s %s" % (name, "xyz"[a])))]) for a in range(s.dim)]
@@ -114,7 +118,7 @@ def judge(s, out):
         p, want, scale = late(rows, "p%d" % k), 1000 * G * depth * unit, 1000 * G * s.depth * unit
         if p is None or not abs(p - want) <= 0.02 * scale:
             bad.append("pressure %s Pa for %.5g" % (p and "%.5g (%+.1f %% of the largest)" % (p, 100 * (p - want) / scale), want))
-    if "gauges" in laws:
+    if "gauges" in laws and any(p[0] == "level" for p in s.probes):
         h, want = late(rows, "level"), s.height(s.level)
         if h is None or not abs(h - want) <= 0.1 * s.dx * unit + 0.2 * s.dx * unit * (s.program != "sph"):
             bad.append("level %s dx off" % (h and "%.2f" % ((h - want) / (s.dx * unit))))

@@ -195,6 +195,40 @@ def body_lid(rng):  # a top under or at the surface
     return s
 
 
+def body_roof(rng):
+    """A tank that shapes fill up to its roof, no air in it, with a block near the roof, the floor or a side."""
+    s = tank2(rng)
+    block_at(s, rng, rng.choice([["floor"], ["side"], []]))
+    if rng.random() < 0.5:
+        low, high = s.bodies[0]["points"][0][1], s.bodies[0]["points"][1][1]
+        up = s.depth - gap_of(rng) * s.dx - high
+        s.bodies[0]["points"] = [(x, y + up) for x, y in s.bodies[0]["points"]]
+        name, volume, pa = s.laws["solids"][0]
+        s.laws["solids"] = [(name, volume, [p - 1000 * G * up * (high - low) for p in pa])]
+    s.hi[1] = s.depth
+    s.sides[1, 1] = {}
+    s.probes.pop()  # there is no level
+    return s
+
+
+def shut_slab(rng):
+    """A slab on two blocks, free or fixed, and the water below it, where what seeps in has the pressure outside."""
+    s = tank2(rng, wide=(36, 42), deep=(20, 26))
+    foot, wide, low, thick = (rng.randint(*n) * s.dx for n in ((4, 6), (8, 12), (6, 9), (4, 6)))
+    x, free = 7 * s.dx, rng.random() < 0.5
+    over = rng.choice([0, 3]) * s.dx if free else 0.0  # one that stays and reaches beyond its blocks: 6 % off
+    s.block("c", [x, 0.0], [x + foot, low])
+    s.block("d", [x + foot + wide, 0.0], [x + 2 * foot + wide, low])
+    s.block("b", [x - over, low], [x + 2 * foot + wide + over, low + thick], "free = true; density = 2500.0;" if free else "")
+    (_, volume, _) = s.laws.pop("solids")[2]
+    s.laws["pushed"] = [] if free else [("b", [0.0, 1000 * G * (volume - 2 * foot * (s.depth - low))], 1000 * G * volume)]
+    s.laws["rests"] = [("b", 1500 * G * volume)] if free else []
+    s.probes.append(("p0", "pressure", [x + foot + 0.5 * wide, 0.5 * low]))
+    s.laws["gauges"] = [s.depth - 0.5 * low]
+    s.probes.append(("level", "level", [s.hi[0] - 4 * s.dx, 0.5 * s.dx]))
+    return s
+
+
 def body_level_edge(rng):
     s = tank2(rng, wide=(34, 44), deep=(18, 26))
     block_at(s, rng, rng.choice([[], ["floor"]]))
@@ -549,6 +583,8 @@ PAIRS = [
     ("body-sunk", "body that stands in a side", 0, body_sunk),
     ("body-surface", "body x free surface", 1, body_surface),
     ("body-lid", "top of a body x free surface", 1, body_lid),
+    ("body-roof", "body x roof of a tank that shapes fill", 1, body_roof),
+    ("shut-slab", "water that a slab on two blocks shuts in", 1, shut_slab),
     ("body-edge", "body x level edge", 1, body_level_edge),
     ("side-edge", "side or line x level edge", 1, side_level_edge),
     ("period-edge", "period x level edge", 1, period_level_edge),
