@@ -239,6 +239,7 @@ void bodies_finish(struct sph *s, struct diagnosis *d)
     const bool any_free = s->walls && s->walls->any_free;
     if (any_free) {
         take_hits(s);
+        body_contacts_finish(s->walls);
         memset(s->walls->forces.hit, 0, sizeof s->walls->forces.hit);
     }
     for (int k = 0; s->walls && k < s->walls->nbodies; k++) {

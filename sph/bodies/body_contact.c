@@ -6,7 +6,9 @@
  * v_0 at the first touch, a pair has
  *   F_n = k h (1 + d v/v_0),   k = M (pi/(CONTACT_STEPS dt))^2
  * (after Hunt & Crossley, J. Appl. Mech. 42, 1975), d from the coefficient of restitution, M the
- * pair's reduced mass. Friction after Coulomb, smoothed below a small slip velocity.
+ * pair's reduced mass. Friction after Coulomb, smoothed below a small slip velocity; what a pair
+ * rubs there is gathered step by step (hold), so that what friction can hold comes to rest, as by
+ * the tangential spring of Cundall & Strack (Geotechnique 29, 1979), and does not creep.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <string.h>
 
@@ -17,18 +19,33 @@
 /* How many of the largest steps a contact lasts: a body that comes at c0/10 goes 0.3 dx deep. */
 enum { CONTACT_STEPS = 6 };
 
+/* What the touches of a pair have in common: spring, N/m; damping, s/m; Coulomb's coefficient;
+ * slip velocity of smooth friction, m/s; what friction has gathered, N, on the first body. */
+struct law {
+    double k, d, friction, v0, hold[3];
+};
+
 /* Force on the corner's side: out of what it touches, and against its slip. most: damping that a
- * step follows, kg/s. */
-static void force_of(const struct touch *t, double share, double k, double d, double friction,
-                     double v0, double most, double F[3])
+ * step follows, kg/s. Adds what friction gathers in this step to more, N: what damps v' = -c v/M
+ * critically, a half of c^2/M times the slip. */
+static void force_of(const struct touch *t, double share, const struct law *law, double most,
+                     double F[3], double more[3])
 {
-    const double un = vec3_dot(t->u, t->out), spring = k * t->depth;
-    const double fn = share * spring * fmax(0.0, 1.0 - fmin(d, 1.5 * most / spring) * un);
-    double slip[3] = {t->u[0], t->u[1], t->u[2]};
+    const double un = vec3_dot(t->u, t->out), spring = law->k * t->depth,
+                 way = t->mine ? 1.0 : -1.0;
+    const double fn = share * spring * fmax(0.0, 1.0 - fmin(law->d, 1.5 * most / spring) * un);
+    double slip[3] = {t->u[0], t->u[1], t->u[2]}, rub[3] = {0.0, 0.0, 0.0};
     vec3_add(slip, -un, t->out);
-    const double drag = fmin(friction * fn / fmax(vec3_length(slip), v0), 0.2 * share * most);
+    const double drag =
+        fmin(law->friction * fn / fmax(vec3_length(slip), law->v0), 0.2 * share * most);
+    vec3_add(rub, way * share, law->hold);
+    vec3_add(rub, -vec3_dot(rub, t->out), t->out);
+    vec3_add(rub, -drag, slip);
+    vec3_add(more, -way * drag * drag / (2.0 * share * most), slip);
+    const double size = vec3_length(rub),
+                 factor = fmin(1.0, law->friction * fn / fmax(size, 1e-300));
     for (int a = 0; a < 3; a++)
-        F[a] = fn * t->out[a] - drag * slip[a];
+        F[a] = fn * t->out[a] + factor * rub[a];
 }
 
 /* d of the force k depth (1 + d rate/v), v the rate at the first touch, that gives a restitution e:
@@ -51,6 +68,11 @@ static double first_rate(struct walls *w, const struct pair *p)
     for (int i = 0; i < p->n && *rate <= 0.0; i++)
         *rate = fmax(*rate, -vec3_dot(p->touch[i].u, p->touch[i].out));
     return *rate;
+}
+
+static struct pair_friction *friction_of(struct walls *w, const struct pair *p)
+{
+    return &w->friction[p->a][p->b < 0 ? BODIES_MAX : p->b];
 }
 
 static double mass_of(const struct walls *w, int body)
@@ -87,12 +109,17 @@ static void push(struct sph *s, const struct pair *p, double (*loads)[6])
     const struct scene_contact *c = &w->bodies[p->a].contact;
     const double M = 1.0 / (1.0 / mass_of(w, p->a) + 1.0 / mass_of(w, p->b));
     const double rate = rate_of(w), k = M * rate * rate;
-    const double first = first_rate(w, p),
-                 d = first > 0.0 ? damping_of(c->restitution) / first : 0.0;
-    const double v0 =
-        fmax(0.01 * sqrt(vec3_length(s->run->scene.fluid.gravity) * w->bodies[p->a].reach),
-             1e-5 * s->c0);
-    double all = 0.0;
+    const double first = first_rate(w, p);
+    struct pair_friction *rubs = friction_of(w, p);
+    struct law law = {
+        .k = k,
+        .d = first > 0.0 ? damping_of(c->restitution) / first : 0.0,
+        .friction = c->friction,
+        .v0 = fmax(0.01 * sqrt(vec3_length(s->run->scene.fluid.gravity) * w->bodies[p->a].reach),
+                   1e-5 * s->c0)};
+    double all = 0.0, pressed = 0.0;
+    memcpy(law.hold, rubs->hold, sizeof law.hold);
+    memset(rubs->more, 0, sizeof rubs->more);
     if (!isfinite(M))
         return;
     for (int i = 0; i < p->n; i++)
@@ -101,7 +128,8 @@ static void push(struct sph *s, const struct pair *p, double (*loads)[6])
         const struct touch *t = p->touch + i;
         const int of = t->mine ? p->a : p->b, against = t->mine ? p->b : p->a;
         double F[3];
-        force_of(t, t->depth / all, k, d, c->friction, v0, mass_at(w, p, t) / w->dt_contact, F);
+        force_of(t, t->depth / all, &law, mass_at(w, p, t) / w->dt_contact, F, rubs->more);
+        pressed += vec3_dot(F, t->out);
         if (of >= 0)
             body_load(w->bodies + of, t->x, F, 1.0, loads[of]);
         if (against >= 0)
@@ -112,6 +140,7 @@ static void push(struct sph *s, const struct pair *p, double (*loads)[6])
                 vec3_add(w->bodies[who].free->contact, e ? -1.0 : 1.0, F);
         }
     }
+    rubs->most = c->friction * pressed;
 }
 
 /* Next pair of a free body (b: -1 the walls at rest) that can touch, two free ones once; false: no
@@ -239,8 +268,21 @@ void body_contacts_add(struct sph *s, double (*loads)[6])
         keep_start(s, &p);
         if (p.n > 0)
             push(s, &p, loads);
-        else
+        else {
             w->approach[p.a][p.b < 0 ? BODIES_MAX : p.b] = 0.0;
+            *friction_of(w, &p) = (struct pair_friction){.most = 0.0};
+        }
     }
     mem_free(p.touch);
+}
+
+void body_contacts_finish(struct walls *w)
+{
+    for (struct pair p = {.b = -2}; next_pair(w, &p);) {
+        struct pair_friction *f = friction_of(w, &p);
+        vec3_add(f->hold, 1.0, f->more);
+        const double size = vec3_length(f->hold), factor = size > f->most ? f->most / size : 1.0;
+        for (int a = 0; a < 3; a++)
+            f->hold[a] *= factor;
+    }
 }

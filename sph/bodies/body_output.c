@@ -123,7 +123,10 @@ void bodies_summarise(const struct sph *s)
 /* --- restart --- */
 
 /* The last rates belong to it: averaged forces carry pressures with them. */
-enum { KEPT = 2 * BODY_STATE + 6 + LINES_MAX + 3 + 7 };
+enum {
+    KEPT = 2 * BODY_STATE + 6 + LINES_MAX + 3 + 7,
+    FRICTION = (BODIES_MAX + 1) * (int)(sizeof(struct pair_friction) / sizeof(double))
+};
 
 static void flatten(const struct body_free *f, double *v)
 {
@@ -161,6 +164,8 @@ void bodies_save(const struct sph *s, struct h5 *f)
                   &s->walls->approach[0][0], false);
     h5_write_real(f, "contact gaps", "m", s->run->rank == 0 ? BODIES_MAX : 0, BODIES_MAX + 1,
                   &s->walls->start_gap[0][0], false);
+    h5_write_real(f, "contact friction", "N", s->run->rank == 0 ? BODIES_MAX : 0, FRICTION,
+                  (const double *)s->walls->friction, false);
 }
 
 bool bodies_load(struct sph *s, struct h5 *f)
@@ -184,6 +189,10 @@ bool bodies_load(struct sph *s, struct h5 *f)
     rows = h5_read_all_real(f, "contact gaps", BODIES_MAX + 1, &n);
     if (rows && n == BODIES_MAX)
         memcpy(s->walls->start_gap, rows, sizeof s->walls->start_gap);
+    mem_free(rows);
+    rows = h5_read_all_real(f, "contact friction", FRICTION, &n);
+    if (rows && n == BODIES_MAX)
+        memcpy(s->walls->friction, rows, sizeof s->walls->friction);
     mem_free(rows);
     walls_move(s, s->t);
     return fits;

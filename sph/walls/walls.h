@@ -141,8 +141,11 @@ struct walls {
     const unsigned char *near_surface;
     double speed;      /* m/s: 1.1 times the largest speed of a body in the next step */
     double dt_contact; /* s: step that the contact force is dimensioned for */
-    double approach[BODIES_MAX][BODIES_MAX + 1];  /* m/s: at the first touch of a pair, last: walls
-                                                     at rest; 0: apart */
+    double approach[BODIES_MAX][BODIES_MAX + 1]; /* m/s: at the first touch of a pair, last: walls
+                                                    at rest; 0: apart */
+    struct pair_friction {
+        double hold[3], more[3], most;      /* N: on the first; what a step adds; Coulomb's bound */
+    } friction[BODIES_MAX][BODIES_MAX + 1]; /* of a pair in contact; body_contact.c */
     double start_gap[BODIES_MAX][BODIES_MAX + 1]; /* m: contact of a pair that has not parted since
                                                      the start begins here; INFINITY: it has */
     /* Of two owners, last walls at rest: what their faces owe each other is body_seal.c's, not

@@ -193,6 +193,10 @@ run_case('slope', sliding())
 t, u = column('slope', 't ['), column('slope', 'block u ')
 first, then = (next(k for k, s in enumerate(t) if s > after) for after in (0.2, 0.5))
 within('a block slides (m/s^2)', (u[then] - u[first]) / math.cos(math.radians(30)) / (t[then] - t[first]), 3.2059, 0.01)
+# With friction that holds it (0.7 for tan 30 = 0.577), it does not creep: within dx/10 from when it has settled on.
+run_case('holds', sliding(body=FREE.replace('0.2', '0.7') % (0.01, 0.5) + ON_SLOPE).replace('end = 0.6', 'end = 1.2'))
+x = column('holds', 'block x ')
+check(abs(x[-1] - x[len(x) // 2]) < 0.005, 'a block that friction holds has crept by %g m' % (x[-1] - x[len(x) // 2]))
 behind = r'bodies.\[0\]: body 1 \(block\) stands behind wall 4, an open line'
 low = points(0.4, -0.9, 0.6, -0.7)  # its corners are nearer to the floor than to the line
 run_case('back', sliding('(4.46410162, -0.5), (1, 1.5)'), '--check', code=2, words=behind)
