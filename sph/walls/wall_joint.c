@@ -288,12 +288,13 @@ const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, 
     return NULL;
 }
 
-/* Whether a place of a face is nearer to where the fluids meet again than to the joint. */
-static bool is_far(const struct wall_joint *j, const struct segment *g, double at)
+/* Whether a place of a face is nearer to where the fluids meet again than to the joint, or beyond
+ * what the joint follows: over the top of a flap there is one fluid. */
+static bool is_far(const struct wall_joint *j, const struct segment *g, double at, double most)
 {
     const double x[2] = {g->a[0] + at * g->t[0], g->a[1] + at * g->t[1]};
     const double r = hypot(x[0] - j->x[0], x[1] - j->x[1]);
-    bool far = false;
+    bool far = r > most;
     for (int k = 0; k < j->nmeets; k++)
         far = far || hypot(x[0] - j->meet[k][0], x[1] - j->meet[k][1]) < r;
     return far;
@@ -305,7 +306,7 @@ bool wall_joint_parts(const struct wall_joint *j, const double *x, double reach)
     for (int k = 0; k < j->nfaces; k++) {
         double at;
         if (j->face[k].fluid == seen || distance_to(&j->face[k].is, x, &at) >= reach ||
-            is_far(j, &j->face[k].is, at))
+            is_far(j, &j->face[k].is, at, 2.0 * reach))
             continue;
         if (seen >= 0)
             return true;

@@ -130,6 +130,23 @@ def wedge_floor(rng):
     return s
 
 
+def flap_floor(rng):
+    """A flap that stands on a point on the floor or a side, its end in the water: it has its lift, or nothing turns it."""
+    s = tank2(rng, "sides", wide=(34, 40), deep=(22, 26))
+    w, h, tip = rng.uniform(4.5, 7) * s.dx, rng.uniform(8, 14) * s.dx, rng.uniform(2, 4) * s.dx
+    points = [(0.0, 0.0), (-0.5 * w, tip), (-0.5 * w, h), (0.5 * w, h), (0.5 * w, tip)]
+    where = (0.5 * s.hi[0], 0.0)
+    if rng.random() < 0.5:
+        points, where = [(y, -x) for x, y in points], (0.0, 0.5 * s.depth)
+    stand(s, "b", points, where[0], where[1])
+    if rng.random() < 0.5:
+        s.laws.pop("solids")
+        s.bodies[0]["more"] = "free = true; density = 1000.0; hinge = { at = %s; };" % s.written(s.point(where))
+        s.laws["turns"] = [("b", h)]
+    s.gauges([s.hi[0] - 5 * s.dx])
+    return s
+
+
 def wedge_body(rng):
     """A corner of a body stands on the face of another that stands free in the water."""
     s = tank2(rng, "sides", wide=(32, 40), deep=(24, 28))
@@ -579,6 +596,7 @@ PAIRS = [
     ("body-body", "body x body", 2, body_body),
     ("polygon-floor", "body with edges at any angle x floor", 2, polygon_floor),
     ("wedge-floor", "corner of a body on the floor, a side or both, with wedges of water beside it", 0, wedge_floor),
+    ("flap-floor", "flap that stands on a point, fixed or hinged there", 1, flap_floor),
     ("wedge-body", "corner of a body on another", 0, wedge_body),
     ("body-sunk", "body that stands in a side", 0, body_sunk),
     ("body-surface", "body x free surface", 1, body_surface),
