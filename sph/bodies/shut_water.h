@@ -16,6 +16,11 @@ struct shut_water {
     int64_t n, id[]; /* of the particles that stood there at the start, ascending */
 };
 
+/* Whether water seeps into one with these around: between a body and what else shuts it in. */
+static inline bool shut_water_seeps(unsigned beside)
+{
+    return (beside & (BESIDE_REST - 1)) != 0 && (beside & (beside - 1)) != 0;
+}
 /* Which of them are within 1.5 dx of x. */
 unsigned shut_water_beside(const struct sph *s, const double *x);
 /* A water of n particles, whose ids are to be filled in; NULL: as many as are kept are there

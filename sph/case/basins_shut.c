@@ -96,8 +96,7 @@ static void find_seeping(struct basins *b)
 {
     for (int r = 0; r < b->nruns; r++) {
         const struct basin_run *water = b->runs + r;
-        const unsigned bodies = water->beside & (BESIDE_REST - 1);
-        if (!water->shut || bodies == 0 || (water->beside & (water->beside - 1)) == 0)
+        if (!water->shut || !shut_water_seeps(water->beside))
             continue;
         const double level = level_outside(b, water->middle);
         for (int q = 0; q < b->nruns; q++)

@@ -320,8 +320,8 @@ static void find_shut_in(struct sph *s, struct basins *b)
             log_say("%lld particle(s) of water are shut in by walls and bodies, at (%g, %g, %g) "
                     "m: they keep the mean pressure of the start, of water %s",
                     (long long)n, x[0], x[1], x[2],
-                    beside & (BESIDE_REST - 1) ? "that seeps in from outside"
-                                               : "that stands up to their roof");
+                    shut_water_seeps(beside) ? "that seeps in from outside"
+                                             : "that stands up to their roof");
     }
 }
 

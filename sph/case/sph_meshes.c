@@ -100,6 +100,17 @@ static bool is_seen_through(const struct scene *c, const struct exact *e,
     return f->any && is_wet(c, e, x) && is_wet(c, e, y);
 }
 
+/* What else may be the cause, and its remedy. */
+static const char *other_cause(const struct scene_mesh *m)
+{
+    return m->crossings > 0 ? "; its triangles pierce each other, as where solids overlap: unite "
+                              "them before export"
+           : m->mesh.nparts > 1 ? "; if it is the shell of a hollow that stays dry, leave out its "
+                                  "inner surface"
+           : !m->mesh.closed    ? "; if one side is dry, say so by the shapes"
+                                : "";
+}
+
 /* The kernel is as good as nothing beyond 0.7 R. */
 static void check_thin(const struct run *r, const struct scene_mesh *m,
                        const struct sph_params *used, struct faults *f)
@@ -116,7 +127,7 @@ static void check_thin(const struct run *r, const struct scene_mesh *m,
                      "side: particles see each other through less than 0.7 sph.R_dx sph.dx = %.3g "
                      "m. Give it thin = true, or make it thicker%s",
                      file_of(&r->scene, m), is.width, t + 1, is.from[0], is.from[1], is.from[2],
-                     reach, !m->mesh.closed ? "; if one side is dry, say so by the shapes" : "");
+                     reach, other_cause(m));
         return;
     }
 }

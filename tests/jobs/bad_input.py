@@ -498,6 +498,11 @@ stl('not_finite.stl', '0.3 0.3 0.2', 'nan 0.7 0.6')
 stl('sheet_metal.stl', '0.3 0.3 0.2', '0.7 0.7 0.204')
 stl('plate.stl', '0.5 0.3 0.2', '0.5 0.7 0.6', 'xp ym yp zm zp')
 stl('crumb.stl', '0.3 0.3 0.2', '0.32 0.32 0.22')
+for name, second in ('overlap', ('0.4 0.35 0.45', '0.8 0.7 0.7')), ('shell', ('0.35 0.35 0.35', '0.55 0.55 0.45', '', -1)):
+    stl('part.stl', '0.3 0.3 0.3', '0.6 0.6 0.5')
+    first = open('part.stl').read()
+    stl('part.stl', *second)
+    write(name + '.stl', first + open('part.stl').read())
 for k, (low, high) in enumerate((('0.2 0.3 0.2', '0.4 0.7 0.6'), ('0.41 0.31 0.21', '0.8 0.7 0.6'), ('0.7 0.6 0.5', '0.9 0.9 0.9'))):
     stl('part.stl', low, high)
     with open('three.stl', 'w' if k == 0 else 'a') as three:
@@ -544,6 +549,8 @@ else:
     faulty('mesh', 's/solid.stl/mm.stl/', 'mm.stl lies outside the domain: .*scale = 0.001', 'sph')
     faulty('mesh', 's/solid.stl/crumb.stl/', 'crumb.stl is 0.02 m in size, less than sph.dx', 'sph')
     faulty('mesh', 's/solid.stl/sheet_metal.stl/', 'sheet_metal.stl is 0.004 m thick at triangle .*thin = true', 'sph')
+    faulty('mesh', 's/solid.stl/overlap.stl/', 'overlap.stl is .* thick at triangle .*pierce each other, .*unite them', 'sph')
+    faulty('mesh', 's/solid.stl/shell.stl/', 'shell.stl is 0.05 m thick at triangle .*leave out its inner surface', 'sph')
     faulty('mesh', r's/^shapes/bodies: ( { mesh = "open.stl"; } );\n&/; s/,$/);/; /solid.stl/d', r'bodies.\[0\].mesh: open.stl: a body must be closed, and 4 edges .*part 1 at triangle', 'sph')
     faulty('mesh', 's/form = "below"; level = 0.8/form = "mesh"; mesh = "open.stl"/', r'shapes.\[0\].mesh: open.stl: a shape must be closed', 'sph')
     faulty('mesh', 's/form = "below"; level = 0.8/form = "mesh"/', 'shape 1: its mesh must be given', 'sph')
