@@ -43,13 +43,6 @@ static double wanted(const struct side *d, int q, int64_t at, enum bc_value what
     return 0.0;
 }
 
-/* With a surface the projection takes the whole pressure off, whose slope at a wall that moves is
- * less the wall's acceleration: ahead of it the velocity across is that of the stage before. */
-static bool accelerates(const struct fv *s, const struct side *d)
-{
-    return s->surface && d->moves && (d->kind == MESH_WALL || d->kind == MESH_SLIP);
-}
-
 /* What a place of such a wall gains across it while the projection acts, times the area: in rk3 in
  * a stage, with backward differences in dt/c0. Its cell inside: c. S is the face's vector, so that
  * the result is a flux, m^dim/s. */
@@ -60,7 +53,7 @@ static double gain(const struct fv *s, const struct side *d, int64_t at, int64_t
     double sum = 0.0;
     for (int q = 0; q < s->m->dim; q++)
         sum += (d->w[q][at] - d->w_old[q][at]) * s->m->S[d->a][q][c + d->face];
-    return share * sum;
+    return share * sum + (d->turn ? d->turn[at] : 0.0);
 }
 
 /* |S|^2 of the face beside cell c. */
@@ -79,7 +72,7 @@ void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
     const struct mesh *m = s->m;
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (!accelerates(s, d))
+        if (!side_accelerates(s, d))
             continue;
         SIDE_PLACES (d, 1, i, j, at, c) {
             /* a cell's way across the wall, by its volume */
@@ -95,7 +88,7 @@ void mesh_bc_slope_fluxes(const struct fv *s, double tau, int a, double *F)
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (d->a != a || !accelerates(s, d))
+        if (d->a != a || !side_accelerates(s, d))
             continue;
         SIDE_PLACES (d, 0, i, j, at, c) {
             F[c + d->face] = -gain(s, d, at, c) / tau;
@@ -121,11 +114,11 @@ void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3]
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
         SIDE_PLACES (d, 1, i, j, at, c) {
-            const double late = (what == BC_AHEAD || what == BC_CHANGE) && accelerates(s, d)
+            const double late = (what == BC_AHEAD || what == BC_CHANGE) && side_accelerates(s, d)
                                     ? gain(s, d, at, c)
                                     : 0.0;
             if (d->kind == MESH_SLIP)
-                slip(m, d, c, d->moves ? flux_wanted(m, d, at, c, what) - late : 0.0, u);
+                slip(m, d, c, (d->moves ? flux_wanted(m, d, at, c, what) : 0.0) - late, u);
             else
                 for (int q = 0; q < m->dim; q++) {
                     if (d->kind == MESH_OUTFLOW)

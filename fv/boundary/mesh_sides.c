@@ -51,6 +51,45 @@ static void turn_slopes(const struct fv *s, const struct side *d)
     }
 }
 
+/* Unit normal of the face beside cell c; 0 beyond corners, where there is none. */
+static void normal_at(const struct mesh *m, const struct side *d, int64_t c, double n[3])
+{
+    for (int q = 0; q < 3; q++)
+        n[q] = q < m->dim ? m->S[d->a][q][c + d->face] : 0.0;
+    const double size = vec3_length(n);
+    for (int q = 0; q < 3 && size > 0.0; q++)
+        n[q] /= size;
+}
+
+/* Change of the normal along tangent k, by an index: the lesser one of those on either side, for
+ * water does not follow a kink, nor does a wall go on beyond its end. */
+static void bend_at(const struct mesh *m, const struct side *d, int k, int64_t c, double bend[3])
+{
+    const int64_t step = d->p->stride[d->t[k]];
+    double low[3], here[3], high[3];
+    normal_at(m, d, c - step, low);
+    normal_at(m, d, c, here);
+    normal_at(m, d, c + step, high);
+    for (int q = 0; q < 3; q++) {
+        low[q] = here[q] - low[q];
+        high[q] -= here[q];
+    }
+    memcpy(bend, vec3_length(low) < vec3_length(high) ? low : high, sizeof low);
+}
+
+static bool bends(const struct fv *s, const struct side *d)
+{
+    double bend[3], most = 0.0;
+    SIDE_PLACES (d, 0, i, j, at, c) {
+        for (int k = 0; k < 2 && d->t[k] < s->m->dim; k++) {
+            bend_at(s->m, d, k, c, bend);
+            most = fmax(most, vec3_length(bend));
+        }
+        (void)at;
+    }
+    return most > 1e-6;
+}
+
 /* Places of an opening. h is the cell's height across the face, V/S by the metric. */
 static struct outflow *list_places(struct fv *s, const struct side *d, struct outflow **list,
                                    int *count)
@@ -111,6 +150,7 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
             *all[q] = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
     }
     turn_slopes(s, d);
+    d->bends = bends(s, d);
     if (d->kind == MESH_CARRIED)
         add_outflow(s, d);
     if (d->kind == MESH_OUTFLOW && s->levels)
@@ -214,7 +254,7 @@ void mesh_bc_free(struct mesh_bc **b)
             struct side *d = (*b)->side + k;
             FREE(d->w[c], d->w_old[c], d->slip[c], d->grad_xi[0][c], d->grad_xi[1][c]);
             if (c == 0)
-                FREE(d->tilt, d->once);
+                FREE(d->tilt, d->once, d->turn);
         }
     if (*b) {
         FREE((*b)->side, (*b)->beyond);
@@ -351,12 +391,50 @@ static void take_slip(const struct fv *s)
                 s->faces[e][bc->beyond[k].ghost];
 }
 
+/* m/s^2: of the velocity across a slip wall in the water beside it, whose velocity along it,
+ * relative to the wall, is v, for the way that it takes: normal n and velocity w of the wall change
+ * by dn and dw along it, so (w + v).n = w.n wants 2 dw.n - v.dn. */
+static double turning(const struct fv *s, const struct side *d, int64_t at, int64_t c)
+{
+    double n[3], v[3] = {0.0, 0.0, 0.0}, sum = 0.0;
+    normal_at(s->m, d, c, n);
+    for (int q = 0; q < s->m->dim; q++)
+        v[q] = 1.5 * s->u[q][c] - 0.5 * s->u[q][c + d->in] - d->w[q][at];
+    for (int k = 0; k < 2 && d->t[k] < s->m->dim; k++) {
+        const int64_t step = k ? d->width : 1;
+        double bend[3], speed = 0.0, change = 0.0; /* speed: indices a second */
+        bend_at(s->m, d, k, c, bend);
+        for (int q = 0; q < s->m->dim; q++) {
+            speed += v[q] * d->grad_xi[k][q][at];
+            change += (d->w[q][at + step] - d->w[q][at - step]) * n[q] - v[q] * bend[q];
+        }
+        sum += speed * change;
+    }
+    return sum;
+}
+
+/* Where a side ends nothing is known of its normals beyond it. */
+static void set_turn(const struct fv *s, struct side *d, double tau)
+{
+    if (!d->turn)
+        d->turn = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+    SIDE_PLACES (d, 1, i, j, at, c) {
+        const bool inside = i >= -1 && i <= d->n[0] && j >= -1 && j <= d->n[1];
+        double S[3] = {0.0, 0.0, 0.0};
+        for (int q = 0; q < s->m->dim; q++)
+            S[q] = s->m->S[d->a][q][c + d->face];
+        d->turn[at] = inside ? tau * vec3_length(S) * turning(s, d, at, c) : 0.0;
+    }
+}
+
 /* Where a wall ends at one without slip or at an overlap, the stencils reach one place beyond; the
  * slip further on is 0. Collective where any rank has a place beyond. */
 void mesh_bc_set_slip(const struct fv *s, double tau, const double *psi)
 {
     for (int k = 0; k < s->sides->n; k++) {
-        const struct side *d = s->sides->side + k;
+        struct side *d = s->sides->side + k;
+        if (d->kind == MESH_SLIP && side_accelerates(s, d))
+            set_turn(s, d, tau);
         if (!slips(d->kind))
             continue;
         SIDE_PLACES (d, 1, i, j, at, c) {

@@ -20,6 +20,7 @@ struct side {
     int64_t face;         /* offset from that cell to the face's index in U */
     int64_t width;
     bool moves;              /* with its block */
+    bool bends;              /* its normals are not all alike */
     bool body;               /* forces on it count */
     double pressure;         /* m^2/s^2: p/rho of an outflow */
     double *w[3], *w_old[3]; /* m/s: now and before the last change of time */
@@ -27,6 +28,8 @@ struct side {
     double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
     double *once;            /* -: share of each face that counts once; NULL: all */
     double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
+    double *turn;            /* m^dim/s: what the flux across it gains in a stage as water follows a
+                              * wall that bends or turns; NULL: nothing */
 };
 
 /* A place beyond a part's side, where the wall goes on: on a neighbour, who knows the slip. */
@@ -51,6 +54,16 @@ struct mesh_bc {
 /* shared_faces.c: where blocks overlap, the shares of their walls' faces that count once, if those
  * of this time are not known. */
 void mesh_bc_share_faces(const struct fv *s);
+
+/* With a surface the projection takes the whole pressure off, whose slope at a wall is less the
+ * acceleration across it of the water there, that of the wall and, beside a slip wall that bends or
+ * turns, that of the way along it: ahead of the projection the velocity across is that of the stage
+ * before. Water at a no-slip wall goes with it. */
+static inline bool side_accelerates(const struct fv *s, const struct side *d)
+{
+    return s->surface &&
+           ((d->kind == MESH_WALL && d->moves) || (d->kind == MESH_SLIP && (d->moves || d->bends)));
+}
 
 /* Index in the side's values of the place (i, j) along its tangents; side_cell: index in a field of
  * the cell inside. */

@@ -95,7 +95,7 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
 {
     mesh_subtract_psi(s, tau, psi, s->U);
     levels_ghosts(s, psi);
-    if (s->surface && s->moving)
+    if (s->surface)
         mesh_bc_slope_ghosts(s, tau, psi);
     mesh_gradient(s, psi, s->rhs);
     if (s->forcing)

@@ -321,7 +321,7 @@ void surface_mesh_psi_gradient(const struct fv *s, double tau, const double *psi
             face_fluxes(s, s->grid.part + q, a, psi, F[a]);
         for (int64_t k = 0; k < w->nface[a]; k++)
             F[a][w->face[a][k].face] = flux_of(s, a, w->face[a] + k, psi, change);
-        if (s->moving && !change)
+        if (!change)
             mesh_bc_slope_fluxes(s, tau, a, F[a]);
     }
     if (s->surface->forced)

@@ -6,6 +6,8 @@
 
 #include "mesh_case.h"
 
+#include "../../../fv/boundary/fv_boundary.h"
+#include "../../../fv/operators/flow_ops.h"
 #include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
@@ -286,4 +288,62 @@ TEST(chambers_keep_their_levels)
     struct fv *s = fv_create(&c.run, NULL);
     assert_close(surface_volume(s), 0.6 + 0.01 + 0.18, 2e-3);
     mesh_case_end(&c, &s);
+}
+
+/* m^2/s^2: largest difference of p/rho from that of water which turns at 1/s inside r = 1, its
+ * surface at 0.85, (r^2 - 0.85^2)/2, in cells whose neighbours are all water; *inwards: largest
+ * radial velocity in them, m/s. */
+static double pressure_off(const struct fv *s, double *inwards)
+{
+    double most[2] = {0.0, 0.0};
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            const double x = s->surface->mesh->x[0][i], y = s->surface->mesh->x[1][i],
+                         r2 = x * x + y * y;
+            if (s->surface->layer[i] || s->surface->phi[i] > -0.07)
+                continue;
+            most[0] = fmax(most[0], fabs(s->p[i] - 0.5 * (r2 - 0.85 * 0.85)));
+            most[1] = fmax(most[1], fabs(x * s->u[0][i] + y * s->u[1][i]) / sqrt(r2));
+        }
+    MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    *inwards = most[1];
+    return most[0];
+}
+
+/* A layer of three cells that turns within a round slip wall, almost without gravity: the wall
+ * bears its whole weight, and it goes neither in nor out. */
+TEST(water_follows_a_round_wall)
+{
+    static const char ring[] = "{ name = \"ring\"; mapping = \"annulus\"; radius = (0.2, 1.0); "
+                               "cells = (16, 64); i_min = \"slip\"; i_max = \"slip\"; j_min = "
+                               "\"joined\"; j_max = \"joined\"; }";
+    static const char *const integrators[2] = {"fv.integrator=\"rk3\"", "fv.cfl=0.4"};
+    for (int q = 0; q < 2; q++) {
+        struct mesh_case c;
+        mesh_case_read(
+            &c, MPI_COMM_WORLD, ring,
+            (const char *const[]){"fluid.gravity=(0,-1e-6)", REST, integrators[q], NULL});
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_DISC, .radius = 1.08, .velocity = {0.0, 1.0}};
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_DISC, .radius = 0.85, .hole = true};
+        fv_params_check(&c.run, &c.faults);
+        assert_int_equal(params_report(&c.faults), 0);
+        struct fv *s = fv_create(&c.run, NULL);
+        for (int64_t i = 0; i < s->size; i++) {
+            s->u[0][i] = -s->surface->mesh->x[1][i];
+            s->u[1][i] = s->surface->mesh->x[0][i];
+        }
+        s->ops->face_velocities(s, s->u, s->U);
+        sides_fluxes(s, BC_GIVEN, s->U);
+        measure(s);
+        double inwards;
+        assert_true(mesh_case_run(s, 12, 100.0));
+        const double off = pressure_off(s, &inwards) / (0.5 * (0.975 * 0.975 - 0.85 * 0.85));
+        print_message("%s, t = %.3g: pressure %.3g, radial velocity %.3g m/s\n", integrators[q],
+                      s->t, off, inwards);
+        assert_close(off, 0.0, 0.05);
+        assert_close(inwards, 0.0, 2e-3);
+        mesh_case_end(&c, &s);
+    }
 }
