@@ -288,6 +288,7 @@ void moving_end_rows(struct fv *s)
 void moving_to_start(struct fv *s)
 {
     mesh_motion_place(s->m, s->t);
+    mesh_bc_fluxes(s, s->U);
     if (!s->m->has_fringe)
         return;
     overset_find(s->m, s->m->search);

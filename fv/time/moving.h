@@ -26,7 +26,8 @@ void moving_begin_surface(struct fv *s, double dt);
 /* With bdf2 and newton, whose surface goes ahead to where the step ends and blocks with it: makes
  * the matrix interpolate psi in the fringe by the donors of that time. */
 void moving_end_rows(struct fv *s);
-/* After that, for bdf2's convection: puts blocks and donors back to the step's start. */
+/* Before convection: puts blocks, donors and the fluxes of walls back to the step's start, from
+ * where the surface is in rk3 (half time) and bdf2. */
 void moving_to_start(struct fv *s);
 /* newton: cuts the blocks where a step of dt, s, ends and gives new cells their values in u, p and
  * stages.u_old, which are those of its start. */

@@ -358,7 +358,7 @@ void surface_first_half(struct fv *s, double dt)
     set_openings(s);
     surface_smooth(s, dt);
     surface_extend(s, STENCILS);
-    if (s->moving && s->prm.integrator == INTEGRATOR_BDF2)
+    if (s->moving && s->prm.integrator != INTEGRATOR_NEWTON)
         moving_to_start(s);
 }
 

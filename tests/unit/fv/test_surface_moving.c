@@ -218,3 +218,26 @@ TEST(restart_is_exact)
     start_column(&two, MPI_COMM_WORLD);
     assert_int_equal(mesh_case_restart(&one, s, &two, 6), 0);
 }
+
+/* A tank that falls freely: its water goes with it. */
+TEST(water_falls_with_its_tank)
+{
+    static const char falls[] = "{ name = \"tank\"; cells = (12, 24); max = (0.5, 1.0); " SLIP
+                                "motion = ( { kind = \"polynomial\"; axis = \"y\"; coefficients = "
+                                "(0, 0, -4.905); until = 0.3; } ); }";
+    for (int q = 0; q < 3; q++) {
+        struct mesh_case c;
+        struct fv *s = start(&c, MPI_COMM_WORLD, falls,
+                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.5, NULL);
+        double off = 0.0;
+        assert_true(mesh_case_run(s, 100, 0.2));
+        FLOW_ROWS (s, k, n)
+            for (int64_t i = k; i < k + n; i++)
+                off = fmax(off, s->surface->layer[i] ? 0.0 : fabs(s->u[1][i] + 9.81 * s->t));
+        MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+        print_message("%s: t = %.3g s, velocity off by %.3g\n", steps[q], s->t,
+                      off / (9.81 * s->t));
+        assert_close(off / (9.81 * s->t), 0.0, 1e-3);
+        mesh_case_end(&c, &s);
+    }
+}
