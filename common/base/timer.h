@@ -15,7 +15,6 @@ struct timers {
         const char *name; /* borrowed: a literal */
         double wall;      /* s, summed */
         double start;     /* s, wall_time() of the last start */
-        long calls;       /* number of stops */
     } of[TIMER_MAX];
 };
 

@@ -400,11 +400,6 @@ bool h5_read_real_at(struct h5 *f, const char *name, int64_t first, int64_t n, i
     return read_at(f, name, first, n, ncomp, H5T_NATIVE_DOUBLE, v);
 }
 
-bool h5_read_int_at(struct h5 *f, const char *name, int64_t first, int64_t n, int64_t *v)
-{
-    return read_at(f, name, first, n, 1, H5T_NATIVE_INT64, v);
-}
-
 static void *read_all(struct h5 *f, const char *name, int ncomp, hid_t type, int64_t *n)
 {
     hsize_t shape[4];

@@ -61,7 +61,6 @@ bool h5_read_int(struct h5 *f, const char *name, int64_t n, int64_t *v);
  * n = 0 is legal. false on all ranks if the range of any rank is not in the dataset. */
 bool h5_read_real_at(struct h5 *f, const char *name, int64_t first, int64_t n, int ncomp,
                      double *v);
-bool h5_read_int_at(struct h5 *f, const char *name, int64_t first, int64_t n, int64_t *v);
 /* All records on every rank, [*n][ncomp], owned by the caller (mem_free). NULL if there is no such
  * dataset, or its shape differs. */
 double *h5_read_all_real(struct h5 *f, const char *name, int ncomp, int64_t *n);

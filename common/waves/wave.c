@@ -133,11 +133,6 @@ void wave_point(const struct wave *w, double x, double y, double t, double *u, d
             w->nu > 0.0 ? creal(w->s / w->nu / w->k * (up + down) * e) * sin(w->k * x) : 0.0;
 }
 
-double wave_eta(const struct wave *w, double x, double t)
-{
-    return creal(w->E * cexp(w->s * t)) * cos(w->k * x);
-}
-
 /* Half of it from the mean of sin^2; Simpson's rule on 4000 intervals resolves the layers. */
 double wave_enstrophy(const struct wave *w, double t)
 {

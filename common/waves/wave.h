@@ -26,6 +26,5 @@ void wave_point(const struct wave *w, double x, double y, double t, double *u, d
 /* Enstrophy of the still layer, half the square of the vorticity, over the area of its bottom;
  * m/s^2. */
 double wave_enstrophy(const struct wave *w, double t);
-double wave_eta(const struct wave *w, double x, double t);
 
 #endif

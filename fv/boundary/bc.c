@@ -140,7 +140,7 @@ static void make_outflow(struct fv *s, struct bc *bc, int k, enum outflow_kind k
     }
 }
 
-/* Sets kind, pressure, largest speeds and wall area on all ranks, arrays only where this rank has
+/* Sets kind, pressure and largest speeds on all ranks, arrays only where this rank has
  * the side; outflux sums the given velocity over this rank's real faces. */
 static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall)
 {
@@ -162,11 +162,6 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     }
     for (int q = 0; q < b->dim; q++)
         bc->speed = fmax(bc->speed, bc->speed_along[q]);
-    double area = 1.0;
-    for (int t = 0; t < b->dim; t++)
-        area *= t == a ? 1.0 : b->length[t];
-    if (bc->kind[k] == MESH_WALL || bc->kind[k] == MESH_SLIP)
-        bc->wall_area += area;
     if (!has_side(b, k))
         return;
     const struct bc_side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);

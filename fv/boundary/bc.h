@@ -23,7 +23,6 @@ struct bc {
     double *change[6][3]; /* m/s: of w in the step, of convective outflows; else NULL */
     double outflux;       /* m^dim/s: through this rank's faces of given velocity, outwards */
     double speed, speed_along[3]; /* m/s: largest velocity imposed, and of each component */
-    double wall_area;             /* m^(dim-1) of walls, over all ranks; 0: none */
 };
 
 /* A face of a physical side and the cell of this rank beside it. */

@@ -60,7 +60,6 @@ struct layout *layout_load(struct h5 *f, const char *name)
     int64_t *rows = h5_read_all_int(f, name, &n), *first = h5_first_rows(f, name);
     struct layout *l = rows && first ? NEW(struct layout, 1) : NULL;
     if (l) {
-        l->writers = h5_ranks(f);
         l->nboxes = (int)(n / NUMBERS);
         l->of = NEW(struct layout_box, l->nboxes);
         l->writer = NEW(int, l->nboxes);

@@ -19,7 +19,7 @@ struct layout_box {
 
 /* The boxes of all writers; owned. */
 struct layout {
-    int nboxes, writers;
+    int nboxes;
     struct layout_box *of; /* [nboxes] of all writers */
     int *writer;           /* [nboxes] */
 };

@@ -99,7 +99,6 @@ struct surface {
     double rise;            /* s^2: implicit steps: see surface_pressure.c */
     double g;               /* m/s^2: size of gravity */
     struct fit oscillation; /* of a standing wave: its momentum, sampled (surface_mode.c) */
-    int64_t setups;         /* pressure matrices made so far */
     int64_t reinits;        /* reinitialisations so far */
     int64_t repeats;        /* steps that were repeated so far */
 };

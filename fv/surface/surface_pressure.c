@@ -114,7 +114,6 @@ void surface_rebuild(struct fv *s)
     extension_build(s);
     f->ops->find_faces(s);
     count(s);
-    f->setups++;
 }
 
 void surface_set_pressure(struct fv *s)
