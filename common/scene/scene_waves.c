@@ -7,6 +7,7 @@
 #include "../base/base.h"
 #include "scene_currents.h"
 #include "scene_fluid.h"
+#include "scene_mesh.h"
 #include "wave_maker.h"
 
 void scene_waves_mark(struct scene *s)
@@ -378,6 +379,75 @@ void scene_waves_check(struct scene *s, const struct params *p, struct faults *f
     waves_free(&made);
 }
 
+/* --- what stands in zones --- */
+
+/* Whether the box lo[3], hi[3] reaches into the zone's length. What lies on its side does not. */
+static bool reaches(const struct scene *s, const struct scene_wall *w, const double *lo,
+                    const double *hi)
+{
+    bool low;
+    const int axis = scene_zone_axis(w, &low);
+    const double small = 1e-6 * w->beach,
+                 from = low ? s->domain.min[axis] : s->domain.max[axis] - w->beach;
+    return w->zone != ZONE_NONE && hi[axis] > from + small && lo[axis] < from + w->beach - small;
+}
+
+/* A hundredth of the depth over the floor is the floor. */
+static bool is_wet(const struct scene *s, const double *lo, const double *hi)
+{
+    const double level = scene_waves_level(s), depth = scene_waves_depth(s),
+                 a = scene_height(s, lo), b = scene_height(s, hi);
+    return fmin(a, b) < level && fmax(a, b) > level - 0.99 * depth;
+}
+
+bool scene_waves_stands(const struct scene *s, const char *what, const double lo[3],
+                        const double hi[3])
+{
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        if (!reaches(s, w, lo, hi) || !is_wet(s, lo, hi))
+            continue;
+        log_warn("%s stands in the zone of %.4g m before %s, whose waves are those over a flat "
+                 "floor: %s",
+                 what, w->beach, scene_side_names[w->side - SIDE_X_MIN],
+                 w->zone == ZONE_WAVE ? "the tank gets others" : "more of them come back");
+        return true;
+    }
+    return false;
+}
+
+/* The same of a line's segments or corners. */
+static void look_along(const struct scene *s, const char *what, const struct param_points *p)
+{
+    bool told = false;
+    for (int i = 0; i + 1 < p->n && !told; i++) {
+        double lo[3] = {0.0}, hi[3] = {0.0};
+        for (int a = 0; a < 2; a++) {
+            lo[a] = fmin(p->x[i][a], p->x[i + 1][a]);
+            hi[a] = fmax(p->x[i][a], p->x[i + 1][a]);
+        }
+        told = scene_waves_stands(s, what, lo, hi);
+    }
+}
+
+/* Bodies and walls at the start. */
+static void warn_of_solids(const struct scene *s)
+{
+    char what[PARAM_TEXT_SIZE + 16];
+    for (int k = 0; k < s->nbodies; k++) {
+        const struct scene_mesh *mesh = scene_mesh_of(s, MESH_OF_BODY, k);
+        snprintf(what, sizeof what, "body %s", s->bodies[k].name);
+        if (mesh)
+            scene_waves_stands(s, what, mesh->lo, mesh->hi);
+        else
+            look_along(s, what, &s->bodies[k].points);
+    }
+    for (int k = 0; k < s->nwalls; k++) {
+        snprintf(what, sizeof what, "walls.[%d]", k);
+        look_along(s, what, &s->walls[k].points);
+    }
+}
+
 /* --- the log --- */
 
 /* waves.at of a group is a place and a time, not a point. */
@@ -484,6 +554,7 @@ void scene_waves_describe(const struct scene *s)
                      "a sea",
                      side, w->zone == ZONE_WAVE ? "waves.zone" : "beach", length, 1.5 * length);
     }
+    warn_of_solids(s);
 }
 
 void scene_waves_resolution(const struct scene *s, const char *points, const double *h,

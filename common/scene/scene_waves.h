@@ -23,6 +23,10 @@ void scene_waves_check(struct scene *s, const struct params *p, struct faults *f
 bool scene_makes_waves(const struct scene *s);
 /* Logs which waves are made, and what each zone reflects. */
 void scene_waves_describe(const struct scene *s);
+/* Warns if what fills the box lo[3], hi[3], m, stands in the water of a zone, whose waves are those
+ * over the flat floor at waves.depth. Returns whether it did. */
+bool scene_waves_stands(const struct scene *s, const char *what, const double lo[3],
+                        const double hi[3]);
 /* Logs how many points ("cells", "particles"), h[3] m apart along the axes, a wave has along its
  * length and over its height, and warns below least[0] and least[1] of them. */
 void scene_waves_resolution(const struct scene *s, const char *points, const double *h,

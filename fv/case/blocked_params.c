@@ -69,6 +69,9 @@ void blocked_describe(const struct run *r)
         }
         log_say("box \"%s\": %s m%s", prm->boxes[k].name, text,
                 off > 1e-6 ? ", the nearest faces of cells" : "");
+        snprintf(text, sizeof text, "box \"%.100s\"", prm->boxes[k].name);
+        if (prm->boxes[k].body == 0)
+            scene_waves_stands(&r->scene, text, prm->boxes[k].min, prm->boxes[k].max);
     }
 }
 

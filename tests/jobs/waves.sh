@@ -81,6 +81,17 @@ done
 # told, and run: gauges in a zone, gauges half a length apart, which tell nothing of what comes back, cells that are too few
 sed 's/at = (1.9,/at = (0.9,/' regular.cfg >told.cfg
 "$b/fv" told.cfg --check 2>&1 | grep -q 'gauges tank: a stands in the zone of 1 m before x_min' || bad "a gauge in a zone"
+# solid NAME PROGRAM GROUP WORDS: what stands in a zone is told; none: what does not
+solid() {
+    sed "s/^fv:/$3; &/; s/^sph:/$3; &/" "$1.cfg" >told.cfg
+    "$b/$2" told.cfg --check >told.log 2>&1 || bad "$2: $3" told.log
+    [ "$4" = none ] && ! grep -q 'stands in' told.log || grep -q "$4" told.log || bad "$2: $3: not told \"$4\"" told.log
+}
+box='blocked: ( { name = "step"; min = (0, 0); max = (0.5, 0.06); } )' body='bodies: ( { name = "b"; box = ((3.8, 0.1), (4.1, 0.2)); } )'
+solid regular fv "$box" 'box "step" stands in the zone of 1 m before x_min, .*: the tank gets others'
+solid regular fv "$(echo "$box" | sed 's/(0, 0)/(1.5, 0)/; s/(0.5,/(2,/')" none
+solid grains sph "$body" 'body b stands in the zone of 1 m before x_max, .*: more of them come back'
+solid grains sph "$(echo "$body" | sed 's/3.8/2.2/; s/4.1/2.5/')" none
 sed 's/at = (2.15,/at = (2.4,/; s/cells = (144, 32)/cells = (45, 12)/; s/end = 10/end = 4/' regular.cfg >told.cfg
 "$b/fv" told.cfg -o told >told.log 2>&1
 grep -q 'gauges tank: from where they stand' told.log && [ "$(sed -n 's/.*"R": \([a-z0-9.]*\).*/\1/p' told/summary.json)" = null ] || bad "gauges half a length apart" told.log
