@@ -105,6 +105,13 @@ struct sph_start {
     double volume; /* m^dim: of the fluid in a closed room, conserved by volume.h; 0: not closed */
 };
 
+/* Where a level flows: at x, m, or not; and without a jump, for sums, 0 to 1, a spacing of the
+ * coarser level wide where two levels meet, whose shares add up to 1. refinement.h */
+struct level_places {
+    bool (*flows)(const struct sph *s, const double *x);
+    double (*share)(const struct sph *s, const double *x);
+};
+
 /* One level of particles with all that acts on it. Made by sph_create, freed by sph_free
  * (sph_state.h). */
 struct sph {
@@ -137,11 +144,8 @@ struct sph {
     struct zones *zones;
     struct walls *walls;
     struct free_surface *surface;
-    struct refinement *refinement; /* of all levels: the coarsest has it */
-    /* Whether it is this level that flows at x; NULL: there is one level. refinement.h */
-    bool (*flows_at)(const struct sph *s, const double *x);
-    /* The same without a jump, for sums: 0 to 1, a spacing wide at the switch. refinement.h */
-    double (*share_at)(const struct sph *s, const double *x);
+    struct refinement *refinement;     /* of all levels: the coarsest has it */
+    const struct level_places *places; /* where this level flows; NULL: there is one level */
     struct guards *guards;
     struct body_coupling
         *body_coupling; /* of a coupled job with bodies; NULL: none; coarsest level */

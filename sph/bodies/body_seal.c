@@ -29,7 +29,7 @@ const struct sph *seal_level(const struct sph *s, const double *x)
 {
     const struct sph *at = s;
     for (const struct sph *q = s->finer; q; q = q->finer)
-        if (!q->flows_at || q->flows_at(q, x))
+        if (!q->places || q->places->flows(q, x))
             at = q;
     return at;
 }

@@ -123,8 +123,7 @@ static void create_finer(struct sph *s)
         return;
     s->refinement->local_steps = s->local_steps = local;
     s->guards = guards_create(s->run);
-    s->flows_at = refinement_flows_at;
-    s->share_at = refinement_share_at;
+    s->places = &refinement_places;
     for (struct sph *q = s; q->level < regions_levels(g);) {
         struct sph_params prm = s->prm;
         if (apr_params_of(s->run)->unshifted_finest && q->level + 1 == regions_levels(g))
@@ -132,8 +131,7 @@ static void create_finer(struct sph *s)
         q = create_level(s->run, &prm, q);
         q->guards = guards_create(s->run);
         q->local_steps = local;
-        q->flows_at = refinement_flows_at;
-        q->share_at = refinement_share_at;
+        q->places = &refinement_places;
     }
 }
 

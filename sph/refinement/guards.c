@@ -236,10 +236,26 @@ struct guard_sums {
     vec W, r[3], f[4], grad[4][3]; /* rho, u */
 };
 
+/* The least and the largest rho and u of the sources, negated where it is the least. */
+struct guard_range {
+    vec least[4], most[4];
+};
+
+/* Takes f in where W > 0: padding has none. */
+INLINE void widen(struct guard_range *to, vec W, const vec f[4], const int dim)
+{
+    const vec out = -1e300 * (1.0 + __builtin_convertvector(W > 0.0, vec));
+    for (int c = 0; c <= dim; c++) {
+        to->least[c] = vec_max(to->least[c], out - f[c]);
+        to->most[c] = vec_max(to->most[c], out + f[c]);
+    }
+}
+
 /* A record has rho at 5 (2D) or 7, f[0]; u follows in f[1..dim]. Padding has volume 0 and adds
  * nothing. */
 INLINE void add_sources(const struct sph *from, const double *x, double R_1, const int *j, int n,
-                        struct guard_sums *to, const int dim, const bool slopes)
+                        struct guard_sums *to, struct guard_range *range, const int dim,
+                        const bool slopes)
 {
     const double *prim = from->p.prim, *slope = from->p.slope;
     const ptrdiff_t width = dim == 2 ? 8 : 16;
@@ -262,6 +278,8 @@ INLINE void add_sources(const struct sph *from, const double *x, double R_1, con
         const vec t = vec_max(1.0 - vec_sqrt(r2) * R_1, vec_all(0.0)), t2 = t * t;
         const vec W = w * (t2 * t2) * (5.0 - 4.0 * t);
         to->W += W;
+        if (range)
+            widen(range, W, f, dim);
         for (int a = 0; a < dim; a++)
             to->r[a] += W * d[a];
         for (int c = 0; c <= dim; c++) {
@@ -312,38 +330,14 @@ static double excess(double P)
  * excess(P) is found by iteration, then the density by linearising p about rho. */
 static double matched_density(const struct sph *s, double rho, double from, double to)
 {
+    /* p is at least the linear one: deeper than the table on both levels */
+    if (from == to || s->c0 * s->c0 * (rho - s->rho0) > 1.1 * fmax(from, to))
+        return rho;
     const double p = eos_p(rho, s->rho0, s->c0, s->gamma), head = p - from * excess(p / from);
     double P = head / to;
-    if (from == to)
-        return rho;
     for (int k = 0; k < 8; k++) /* contracts by 0.6 */
         P = head / to + excess(P);
     return rho + (P * to - p) / pow(eos_c(rho, s->rho0, s->c0, s->gamma), 2.0);
-}
-
-/* The least and the largest rho and u of some sources. */
-struct guard_range {
-    double least[4], most[4];
-};
-
-/* The range of the n sources j of a level. Without sources it is empty, least above most. */
-static struct guard_range range_of(const struct sph *from, const int *j, int n)
-{
-    const int dim = from->dim;
-    struct guard_range is;
-    for (int c = 0; c <= dim; c++) {
-        is.least[c] = INFINITY;
-        is.most[c] = -INFINITY;
-    }
-    for (int k = 0; k < n; k++) {
-        const double *q = prim_line(&from->p, j[k]);
-        for (int c = 0; c <= dim; c++) {
-            const double v = c == 0 ? q[at_rho(dim)] : q[dim + c - 1];
-            is.least[c] = v < is.least[c] ? v : is.least[c];
-            is.most[c] = v > is.most[c] ? v : is.most[c];
-        }
-    }
-    return is;
 }
 
 /* Brings f back to at most `beyond' of the range outside of it. Slopes of a thin jet lead far
@@ -353,8 +347,13 @@ static struct guard_range range_of(const struct sph *from, const int *j, int n)
 static void bound(double f[4], const struct guard_range *is, int dim)
 {
     for (int c = 0; c <= dim; c++) {
-        const double room = beyond * (is->most[c] - is->least[c]);
-        f[c] = fmax(is->least[c] - room, fmin(f[c], is->most[c] + room));
+        double low = -is->least[c][0], high = is->most[c][0];
+        for (int l = 1; l < LANES; l++) {
+            low = fmin(low, -is->least[c][l]);
+            high = fmax(high, is->most[c][l]);
+        }
+        const double room = beyond * (high - low);
+        f[c] = fmax(low - room, fmin(f[c], high + room));
     }
 }
 
@@ -424,11 +423,15 @@ INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct gu
     }
 }
 
-/* The first n guards of level s; dim and slopes are constants in each instance. */
-INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim, const bool slopes)
+/* The first n guards of level s, or of these what stands where its level is about to flow (waking);
+ * dim and slopes are constants in each instance. */
+INLINE void update(struct sph *const *all, struct sph *s, int n, bool waking, const int dim,
+                   const bool slopes)
 {
     const struct guards *g = s->guards;
     for (int k = 0; k < n; k++) {
+        if (waking && !(s->places->share(s, prim_line(&s->p, g->who[k])) > 0.0))
+            continue;
         const struct sph *fine = all[g->source[k]];
         const double *x = prim_line(&s->p, g->who[k]), R_1 = 1.0 / reach_of(fine);
         const int *j[2] = {g->j + g->first[k][0], g->j + g->first[k][1]}, *count = g->count[k];
@@ -436,23 +439,24 @@ INLINE void update(struct sph *const *all, struct sph *s, int n, const int dim, 
         struct guard_sums sum[2];
         struct guard_range range[2];
         memset(sum, 0, sizeof sum);
-        add_sources(fine->coarser, x, R_1, j[0], count[0], sum, dim, slopes);
-        add_sources(fine, x, R_1, j[1], count[1], sum + 1, dim, slopes);
-        for (int m = 0; near && m < 2; m++)
-            range[m] = range_of(m ? fine : fine->coarser, j[m], count[m]);
+        for (int c = 0; near && c <= dim; c++)
+            for (int m = 0; m < 2; m++)
+                range[m].least[c] = range[m].most[c] = vec_all(-INFINITY);
+        add_sources(fine->coarser, x, R_1, j[0], count[0], sum, near ? range : NULL, dim, slopes);
+        add_sources(fine, x, R_1, j[1], count[1], sum + 1, near ? range + 1 : NULL, dim, slopes);
         take(s, g->who[k], sum, near ? range : NULL, fine, dim);
     }
 }
 
 /* Updates the first n guards of a level, by slopes or by the mean alone. */
-static void give(struct sph *const *all, struct sph *s, int n)
+static void give(struct sph *const *all, struct sph *s, int n, bool waking)
 {
     if (s->guards->mean)
-        (s->dim == 2 ? update(all, s, n, 2, false) : update(all, s, n, 3, false));
+        (s->dim == 2 ? update(all, s, n, waking, 2, false) : update(all, s, n, waking, 3, false));
     else if (s->dim == 2)
-        update(all, s, n, 2, true);
+        update(all, s, n, waking, 2, true);
     else
-        update(all, s, n, 3, true);
+        update(all, s, n, waking, 3, true);
 }
 
 /* What deep guards are given in the first stage holds for all of the step, which starts from y0. So
@@ -470,7 +474,7 @@ static void update_level(struct sph *const *all, struct sph *s)
 {
     struct guards *g = s->guards;
     const int n = g->fresh ? g->n : g->nshallow;
-    give(all, s, n);
+    give(all, s, n, false);
     if (g->fresh)
         keep_deep(s);
     g->fresh = false;
@@ -486,19 +490,34 @@ void guards_share(struct sph *s, bool slopes)
     timer_stop(&s->run->timers, "halo");
 }
 
-/* Records of all levels must be packed; slopes are those of the stage before, since guards are
- * needed for the next ones. */
+/* Sends records and slopes of all levels, those of the stage before, since guards are needed for
+ * the next ones; all: gets the levels. */
+static void share_levels(struct sph *s, struct sph **all)
+{
+    levels_of(s, all);
+    for (; s; s = s->finer) {
+        guards_share(s, false);
+        guards_share(s, true);
+    }
+}
+
 void guards_update(struct sph *s)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
-    levels_of(s, all);
-    for (struct sph *q = s; q; q = q->finer) {
-        guards_share(q, false);
-        guards_share(q, true); /* of the stage before */
-    }
+    share_levels(s, all);
     timer_start(&s->run->timers, "guards");
     for (struct sph *q = s; q; q = q->finer)
         update_level(all, q);
+    timer_stop(&s->run->timers, "guards");
+}
+
+void guards_wake(struct sph *s)
+{
+    struct sph *all[APR_LEVELS_MAX + 1];
+    share_levels(s, all);
+    timer_start(&s->run->timers, "guards");
+    for (struct sph *q = s; q; q = q->finer)
+        give(all, q, q->guards->nshallow, true);
     timer_stop(&s->run->timers, "guards");
 }
 
@@ -509,7 +528,7 @@ void guards_update_edge(struct sph *s)
     guards_share(s, false);
     guards_share(s, true);
     timer_start(&s->run->timers, "guards");
-    give(all, s, s->guards->nfiner);
+    give(all, s, s->guards->nfiner, false);
     timer_stop(&s->run->timers, "guards");
 }
 

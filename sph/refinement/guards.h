@@ -48,9 +48,12 @@ void guards_free(struct guards **g);
 /* Lists the guards of all levels with their sources, once a step after the lists of pairs. s: the
  * coarsest. */
 void guards_list(struct sph *s);
-/* Each stage, before the first pass: sets state and packed records of the guards of all levels.
- * Collective. */
+/* Each stage, before the first pass, when records are packed: sets state and records of the guards
+ * of all levels. Collective. */
 void guards_update(struct sph *s);
+/* The same at the end of a step, for those within half a coarser spacing of where their level
+ * flows: if they begin to flow now they must have the fields of its end. Collective. */
+void guards_wake(struct sph *s);
 /* Sends prim, or slopes, of one level to its ghosts: of other ranks, periodic, mirrored.
  * Collective. */
 void guards_share(struct sph *s, bool slopes);

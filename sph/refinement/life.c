@@ -85,7 +85,7 @@ static const struct regions *regions_of(const struct sph *s)
     return s->refinement->regions;
 }
 
-bool refinement_flows_at(const struct sph *s, const double *x)
+static bool flows_at(const struct sph *s, const double *x)
 {
     const struct regions *g = regions_of(s);
     return !(s->coarser && regions_distance(g, s->level, x) < 2.0 * s->R) &&
@@ -115,12 +115,14 @@ static double share_of(const struct sph *s, double own, double next)
            fmax(0.0, fmin(0.5 - (next - s->R) / s->dx, 1.0));
 }
 
-double refinement_share_at(const struct sph *s, const double *x)
+static double share_at(const struct sph *s, const double *x)
 {
     const struct regions *g = regions_of(s);
     return share_of(s, s->coarser ? regions_distance(g, s->level, x) : INFINITY,
                     s->finer ? regions_distance(g, s->level + 1, x) : -INFINITY);
 }
+
+const struct level_places refinement_places = {.flows = flows_at, .share = share_at};
 
 /* Mass of a level's particles by these shares, kg; this rank. */
 static double mass_of_level(const struct sph *s, const struct depths *is)

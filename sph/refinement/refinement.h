@@ -51,11 +51,8 @@ void refinement_adapt_finer(struct sph *s, struct sph *outside);
 /* Adds a child of particle i of s to `to' (s, or its finer level), displaced by d, m: 1/2^D of its
  * mass, its fields extrapolated by their slopes, rho by 5 % at most. Returns the child's index. */
 int refinement_child(const struct sph *s, struct sph *to, int i, const double *d);
-/* For sph.flows_at: whether it is this level that flows at x. */
-bool refinement_flows_at(const struct sph *s, const double *x);
-/* For sph.share_at: how much of a particle of this level at x sums over the fluid count, 0 to 1;
- * those of both levels at a switch add up to 1. */
-double refinement_share_at(const struct sph *s, const double *x);
+/* For sph.places. */
+extern const struct level_places refinement_places;
 
 /* look.c, before the adaption: computes what regions follow and, when they are due, the criteria,
  * from the packed records and slopes of the last stage. Collective. */

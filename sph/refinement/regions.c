@@ -281,15 +281,6 @@ static void set_domain(struct regions *g, const struct run *r, const struct sph_
     }
 }
 
-/* Largest distance from its surface that a layer of region k is asked for, m. */
-static double widest(const struct regions *g, int k)
-{
-    double w = g->prm->regions.of[k].offset;
-    for (int n = 1; n < g->prm->regions.of[k].level; n++)
-        w += regions_margin(g, n);
-    return w + 2.0 * g->R;
-}
-
 /* Surfaces of bodies and walls with their search trees, one for each region of that shape. */
 static void add_shells(struct regions *g)
 {
@@ -303,7 +294,7 @@ static void add_shells(struct regions *g)
         const int n = g->shell_of[k] = g->nshells++;
         const int index = body ? region_body(c, is->body) : is->wall - 1;
         g->body_of[n] = body ? index : -1;
-        g->shells[n] = shell_create(c, body ? MESH_OF_BODY : MESH_OF_WALL, index, widest(g, k));
+        g->shells[n] = shell_create(c, body ? MESH_OF_BODY : MESH_OF_WALL, index);
     }
 }
 

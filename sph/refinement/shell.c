@@ -1,8 +1,6 @@
-/* shell.c - distance from the surface of a body or wall, by a search tree over triangles. A mesh of
- * the scene is searched as it is; lines of 2D are made into a strip of triangles, so that one
- * search serves 2D and 3D. The surface stays in the frame of the start and positions are brought
- * into it.
- * SPDX-License-Identifier: BSD-3-Clause */
+/* shell.c - distance from the surface of a body or wall: in 3D by the search tree of its mesh, in
+ * 2D over its segments, which are taken in runs that a box encloses. The surface stays in the frame
+ * of the start and positions are brought into it. SPDX-License-Identifier: BSD-3-Clause */
 #include "shell.h"
 
 #include <math.h>
@@ -11,29 +9,38 @@
 #include "../../common/base/base.h"
 #include "../../common/geometry/geometry.h"
 
-/* Two triangles for each segment of the line, from z = -half to half. With half = 2 reach nothing
- * within reach of z = 0 is nearest to a rim. */
-static void strip(struct trimesh *m, const struct param_points *p, bool closed, double half)
+enum { RUN = 16 }; /* segments that follow each other share a box */
+
+struct shell_line {
+    double x[2], d[2], d2_1; /* m: start and way to the end; 1/m^2: over its square, or 0 */
+};
+
+/* The segments of a line. */
+static void add_lines(struct shell *to, const struct param_points *p, bool closed)
 {
-    const int n = p->n, segments = closed ? n : n - 1;
-    m->nvertices = 2 * n;
-    m->ntriangles = 2 * segments;
-    m->x = mem_new((size_t)m->nvertices, sizeof *m->x);
-    m->vertex = mem_new((size_t)m->ntriangles, sizeof *m->vertex);
-    for (int k = 0; k < 2 * n; k++) {
-        memcpy(m->x[k], p->x[k % n], sizeof p->x[0]);
-        m->x[k][2] = k < n ? -half : half;
+    to->nlines = closed ? p->n : p->n - 1;
+    to->line = NEW(struct shell_line, to->nlines);
+    to->run = NEW(struct shell_run, to->nlines / RUN + 1);
+    for (int k = 0; k < to->nlines; k++) {
+        const double *from = p->x[k], *end = p->x[(k + 1) % p->n];
+        struct shell_line *l = to->line + k;
+        struct shell_run *run = to->run + k / RUN;
+        double d2 = 0.0;
+        for (int a = 0; a < 2; a++) {
+            l->x[a] = from[a];
+            l->d[a] = end[a] - from[a];
+            d2 += l->d[a] * l->d[a];
+            run->lo[a] = fmin(k % RUN ? run->lo[a] : from[a], fmin(from[a], end[a]));
+            run->hi[a] = fmax(k % RUN ? run->hi[a] : from[a], fmax(from[a], end[a]));
+            to->lo[a] = fmin(k ? to->lo[a] : run->lo[a], run->lo[a]);
+            to->hi[a] = fmax(k ? to->hi[a] : run->hi[a], run->hi[a]);
+        }
+        l->d2_1 = d2 > 0.0 ? 1.0 / d2 : 0.0;
     }
-    for (int k = 0; k < segments; k++) {
-        const int next = (k + 1) % n;
-        const int two[2][3] = {{k, next, n + next}, {k, n + next, n + k}};
-        memcpy(m->vertex + (ptrdiff_t)2 * k, two, sizeof two);
-    }
-    trimesh_connect(m);
 }
 
-/* A scene's mesh and its tree are borrowed, a strip is owned. */
-struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index, double reach)
+/* A scene's mesh and its tree are borrowed. */
+struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index)
 {
     const bool body = owner == MESH_OF_BODY;
     const struct scene_mesh *file = scene_mesh_of(s, owner, index);
@@ -43,11 +50,8 @@ struct shell shell_create(const struct scene *s, enum mesh_owner owner, int inde
         memcpy(to.lo, file->lo, sizeof to.lo);
         memcpy(to.hi, file->hi, sizeof to.hi);
     } else {
-        to.mesh = NEW(struct trimesh, 1);
-        strip(to.mesh, body ? &s->bodies[index].points : &s->walls[index].points,
-              body || s->walls[index].closed, 2.0 * reach);
-        to.tree = tree_create(to.mesh);
-        trimesh_bounds(to.mesh, to.lo, to.hi);
+        add_lines(&to, body ? &s->bodies[index].points : &s->walls[index].points,
+                  body || s->walls[index].closed);
     }
     if (body)
         memcpy(to.centre, s->bodies[index].centre, sizeof to.centre);
@@ -57,11 +61,7 @@ struct shell shell_create(const struct scene *s, enum mesh_owner owner, int inde
 
 void shell_free(struct shell *s)
 {
-    if (s->mesh) {
-        tree_free(&s->tree);
-        trimesh_free(s->mesh);
-        mem_free(s->mesh);
-    }
+    FREE(s->line, s->run);
     *s = (struct shell){0};
 }
 
@@ -75,20 +75,49 @@ void shell_move(struct shell *s, const struct body_motion *now)
         s->x[a] = now ? now->x[a] : 0.0;
 }
 
+/* The square of how far x lies outside of a box, m^2. */
+static double outside2(const double *lo, const double *hi, const double *x, int dim)
+{
+    double out = 0.0;
+    for (int a = 0; a < dim; a++) {
+        const double below = lo[a] - x[a], above = x[a] - hi[a], d = below > above ? below : above;
+        out += d > 0.0 ? d * d : 0.0;
+    }
+    return out;
+}
+
+/* The square of the distance from the nearest segment, at most `most', m^2. */
+static double nearest2(const struct shell *s, const double *x, double most)
+{
+    for (int r = 0; r * RUN < s->nlines; r++) {
+        if (outside2(s->run[r].lo, s->run[r].hi, x, 2) >= most)
+            continue;
+        for (int k = r * RUN; k < s->nlines && k < (r + 1) * RUN; k++) {
+            const struct shell_line *l = s->line + k;
+            const double a = x[0] - l->x[0], b = x[1] - l->x[1];
+            const double t = (a * l->d[0] + b * l->d[1]) * l->d2_1;
+            const double at = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+            const double p = a - at * l->d[0], q = b - at * l->d[1], d2 = p * p + q * q;
+            most = d2 < most ? d2 : most;
+        }
+    }
+    return most;
+}
+
 /* The box around the surface spares the search for whatever is farther than `reach'. */
 double shell_distance(const struct shell *s, const double *x, double reach)
 {
-    double arm[3] = {0.0, 0.0, 0.0}, own[3], out = 0.0;
+    double arm[3] = {0.0, 0.0, 0.0}, own[3];
     for (int a = 0; a < s->dim; a++)
         arm[a] = x[a] - s->centre[a] - s->x[a];
     turn_back3((double(*)[3])s->Q, arm, own);
-    for (int a = 0; a < s->dim; a++) {
+    for (int a = 0; a < s->dim; a++)
         own[a] += s->centre[a];
-        const double d = fmax(fmax(s->lo[a] - own[a], own[a] - s->hi[a]), 0.0);
-        out += d * d;
-    }
+    const double out = outside2(s->lo, s->hi, own, s->dim);
     if (out >= reach * reach)
         return sqrt(out);
+    if (!s->tree)
+        return sqrt(nearest2(s, own, reach * reach));
     const double d = fabs(tree_nearest(s->tree, own, reach).distance);
     return d < reach ? d : reach;
 }

@@ -7,20 +7,25 @@
 #include "../../common/scene/scene.h"
 #include "../rigid/sph_rigid.h"
 
-/* The surface in the frame of the start, and the pose it has moved to. In 2D each segment is two
- * triangles of a strip so wide that its rims are never nearest. */
+struct shell_line;
+/* A run of segments of a line, 2D. */
+struct shell_run {
+    double lo[2], hi[2]; /* m: their bounds */
+};
+
+/* The surface in the frame of the start, and the pose it has moved to. */
 struct shell {
-    int dim;
-    struct trimesh *mesh; /* NULL: the tree is the scene's */
-    struct tree *tree;
-    double lo[3], hi[3]; /* m: bounds at the start */
-    double centre[3];    /* m: of rotation at the start */
+    int dim, nlines;
+    struct shell_line *line; /* [nlines]; 2D */
+    struct shell_run *run;
+    const struct tree *tree; /* of the scene's mesh; NULL: it has lines */
+    double lo[3], hi[3];     /* m: bounds at the start */
+    double centre[3];        /* m: of rotation at the start */
     double x[3], Q[3][3];
 };
 
-/* Of a body or a wall of the scene that has points or a mesh; reach: the largest distance that will
- * be asked for, m. Freed by shell_free. */
-struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index, double reach);
+/* Of a body or a wall of the scene that has points or a mesh. Freed by shell_free. */
+struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index);
 void shell_free(struct shell *s);
 void shell_move(struct shell *s, const struct body_motion *now);
 /* Distance of x from the surface, on either side, m; beyond reach some value between that and

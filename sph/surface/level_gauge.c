@@ -232,7 +232,7 @@ static void add_level(const struct sph *s, const struct column *c, const struct 
                 across[a] = remainder(across[a], s->hi[a] - s->lo[a]);
             weight *= share_across(s, c, a, across[a]);
         }
-        weight *= weight > 0.0 && s->share_at ? s->share_at(s, q) : 1.0;
+        weight *= weight > 0.0 && s->places ? s->places->share(s, q) : 1.0;
         if (!(weight > 0.0) ||
             (c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
             continue;

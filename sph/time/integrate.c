@@ -228,7 +228,7 @@ static void look_at_levels(struct sph *s)
         particles_lines(q);
     stop(s, "update");
     if (!s->local_steps)
-        guards_update(s);
+        guards_wake(s);
 }
 
 /* What follows the stages: imposed values, births and removals; lost: this rank had lost so many

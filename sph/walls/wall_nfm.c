@@ -121,14 +121,14 @@ static void judge(const struct sph *s, struct nfm *m)
             double x[3];
             for (int a = 0; a < s->dim; a++)
                 x[a] = prim_line(&s->p, l->who[k])[a] + l->touch[j].is.e[a];
-            m->pushes[j] = l->touch[j].is.W > 0.0 && s->flows_at(s, x);
+            m->pushes[j] = l->touch[j].is.W > 0.0 && s->places->flows(s, x);
         }
     m->judged = true;
 }
 
 static bool pushes(const struct sph *s, const struct nfm *m, const struct wall_touch *t)
 {
-    return !s->flows_at || m->pushes[t - m->list.touch];
+    return !s->places || m->pushes[t - m->list.touch];
 }
 
 /* Of what the touches of particle k take from its gamma, that of those that push. */
@@ -146,7 +146,7 @@ static double share_that_pushes(const struct sph *s, const struct nfm *m, int k)
 {
     const struct wall_list *l = &m->list;
     double all = 0.0;
-    if (!s->flows_at)
+    if (!s->places)
         return 1.0;
     for (int j = l->first[k]; j < l->first[k + 1]; j++)
         all += fabs(l->touch[j].is.gamma);
@@ -687,7 +687,7 @@ static void rates(struct sph *s)
 {
     struct nfm *m = s->walls->state;
     forces_clear(s->walls);
-    if (s->flows_at && !m->judged)
+    if (s->places && !m->judged)
         judge(s, m);
     m->mu = s->prm.viscosity == VISCOSITY_MORRIS ? kernel_pair_viscosity(s) : s->rho0 * s->nu;
     for (int k = 0; k < m->list.n && s->dim == 2; k++)
