@@ -33,18 +33,18 @@ static void look_around(const struct basins *b, const int *ic, int axis, int way
     if (in && lattice_has(b->l, next) && !lattice_is_cut(b->l, way > 0 ? cell : next, axis))
         return;
     lattice_centre(b->l, jc, b->s->dim, x);
-    if (basin_look(b, ic, axis, way) != BEYOND_WALL &&
-        !scene_is_fluid(&b->s->run->scene, &b->exact, x, NULL))
+    const bool taken = in && scene_is_fluid(&b->s->run->scene, &b->exact, x, NULL);
+    if (basin_look(b, ic, axis, way) != BEYOND_WALL && !taken)
         water->shut = false;
     lattice_centre(b->l, ic, b->s->dim, x);
-    if (water->shut && b->s->walls)
+    if (water->shut)
         water->beside |= shut_water_beside(b->s, x);
 }
 
 static void find_shut(struct basins *b)
 {
     for (int r = 0; r < b->nruns; r++)
-        b->runs[r].shut = true;
+        b->runs[r].shut = b->s->walls != NULL;
     for (int c = 0; c < b->columns; c++)
         for (int r = b->start[c]; r < b->start[c + 1]; r++) {
             struct basin_run *water = b->runs + basin_part(b, r);
