@@ -141,6 +141,8 @@ sph:     { dx = 0.025; box = ((0.8, 0), (2.6, 1)); };
 fv:      { cells = (96, 24); };
 '''
 accepts(channel)  # cut in two: wall_to_wall.py runs such a job
+silent('the fluid rests, and an inflow')
+accepts(channel, 'initial.field="rest" initial.velocity=(0,0)', 'warning: initial.field: the fluid rests, and an inflow of 1 m/s')
 accepts(channel, 'domain.max=(4,2) fv.cells=(96,48)')  # a way around
 refuses('nothing would say how much flows through it', channel,
         'walls.[0].kind=outflow walls.[0].velocity=(0,0) walls.[0].pressure=100')
