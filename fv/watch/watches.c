@@ -188,15 +188,15 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
 
 /* Over the flow's root mean square; of pressure over its own about the mean, or a twentieth of the
  * mean of u^2 where pressure hardly varies. A flow that oscillates is at rest now and then, and has
- * no pressure when it is fastest, and looks may meet it there several times: of both squares half
- * of what counted at the look before counts still. */
+ * no pressure when it is fastest, and looks may meet it there several times: of both squares nine
+ * tenths of what counted at the look before count still. */
 void watches_waves(struct watches *w, const struct flow_waves *v, double volume, double t,
                    int64_t step, struct diagnosis *d)
 {
     if (t > w->waves_t) /* not where the end looks once more */
         w->waves_before = w->waves;
-    w->waves.velocity_all = fmax(v->velocity_all, 0.5 * w->waves_before.velocity_all);
-    w->waves.pressure_all = fmax(v->pressure_all, 0.5 * w->waves_before.pressure_all);
+    w->waves.velocity_all = fmax(v->velocity_all, 0.9 * w->waves_before.velocity_all);
+    w->waves.pressure_all = fmax(v->pressure_all, 0.9 * w->waves_before.pressure_all);
     w->waves_t = t;
     const double all = fmax(w->waves.velocity_all, w->least_square * volume * w->speed * w->speed),
                  mean = sqrt(all / fmax(volume, 1e-300)),
