@@ -112,12 +112,14 @@ struct flow_maxima {
     double Re;   /* |u| h/nu of a cell; blocks */
 };
 
-/* Velocities to expect, and the one that no flow of the scene has; watch/limits.h. */
+/* Velocities to expect, and the one that no flow of the scene has, and how fast viscosity takes
+ * them away; watch/limits.h. */
 struct fv_speeds {
     double scene;     /* m/s: limits_reference */
     double partner;   /* m/s: where the partner has bodies; 0: none */
     double reference; /* m/s: limits_follow */
     double limit;     /* m/s: beyond it the run has blown up */
+    double decay;     /* 1/s: limits_decay */
 };
 
 /* What the whole run counts, for its last lines and its summary. */

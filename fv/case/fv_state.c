@@ -131,6 +131,7 @@ static void set_limit(struct fv *s)
 {
     const double most = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
     s->speed.scene = limits_reference(s->run);
+    s->speed.decay = limits_decay(&s->run->scene);
     s->speed.reference = fmax(most, fmax(s->speed.scene, s->speed.partner));
     s->speed.limit = 10.0 * s->speed.reference;
 }

@@ -34,6 +34,8 @@
 #define STIFFEST 7.75     /* h^2/nu times the largest eigenvalue of friction with walls */
 #define START_STIFF 60.0  /* first steps after a sudden start, of the time of that eigenvalue */
 #define START_SHARE 0.1   /* and later ones, of the time since: measured, README.md */
+#define DECAY_SHARE 0.1 /* of the time in which viscosity levels the flow of the start: README.md  \
+                         */
 #define MOVED_STIFF                                                                                \
     240.0         /* always where walls go with their blocks, which start anew all the time */
 #define WAVES 0.5 /* dt of sqrt(h/g), h of the smallest cell */
@@ -399,6 +401,30 @@ static void lower_motion(struct step_limit *l, const struct fv *s)
     lower(l, grid_motion_step(&s->grid, s->t), LIMIT_MOTION);
 }
 
+double limits_decay(const struct scene *s)
+{
+    double k2 = 0.0, lo[3], hi[3];
+    const int field = s->initial.field;
+    if (scene_has_surface(s))
+        return 0.0;
+    if (field == FIELD_TAYLOR_GREEN || field == FIELD_TWO_MODES || field == FIELD_BELTRAMI)
+        k2 = exact_create(s).K2;
+    for (int k = 0; k < s->nshapes && scene_shapes_move(s); k++) {
+        scene_shape_extent(s->shapes + k, lo, hi);
+        for (int a = 0; a < s->domain.dim; a++)
+            k2 = fmax(k2, pow(M_PI / (hi[a] - lo[a]), 2.0));
+    }
+    return s->fluid.nu * k2;
+}
+
+/* Newton's steps are the user's. The first one of bdf2 is of first order. */
+static void lower_decay(struct step_limit *l, const struct fv_params *p, double rate, double t)
+{
+    const double first = p->integrator == INTEGRATOR_BDF2 ? 0.3 : 1.0;
+    if (rate > 0.0 && p->integrator != INTEGRATOR_NEWTON)
+        lower(l, DECAY_SHARE * fmax(first / rate, fabs(t)), LIMIT_VISCOUS);
+}
+
 /* Of cells of any shape: as the state was measured. */
 static struct step_limit limit_on_blocks(const struct fv *s)
 {
@@ -417,6 +443,7 @@ static struct step_limit limit_on_blocks(const struct fv *s)
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(s->max.rate, s->max.Re), LIMIT_BDF2);
     lower_start(&l, s);
+    lower_decay(&l, &s->prm, s->speed.decay, s->t);
     lower_motion(&l, s);
     return l;
 }
@@ -451,6 +478,7 @@ struct step_limit limits_of(const struct fv *s)
     if (s->prm.integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, Re), LIMIT_BDF2);
     lower_start(&l, s);
+    lower_decay(&l, &s->prm, s->speed.decay, s->t);
     return l;
 }
 
@@ -473,6 +501,7 @@ struct step_limit limits_estimate(const struct run *r, const struct fv_params *p
             lower(&l, time_to_cross(OUTFLOW_CFL, rate, 0.0), LIMIT_OUTFLOW);
     if (p->integrator == INTEGRATOR_BDF2)
         lower(&l, bdf2_time(rate, limits_reference(r) * longest / s->fluid.nu), LIMIT_BDF2);
+    lower_decay(&l, p, limits_decay(s), 0.0);
     return l;
 }
 

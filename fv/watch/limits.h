@@ -38,6 +38,9 @@ double limits_pressure_difference(const struct scene *s);
  * openings and shapes, of what falls, of what pressures and gravity along periodic axes drive; at
  * least a thousandth of the domain in the run's time, so that it is never 0. */
 double limits_reference(const struct run *r);
+/* 1/s: at which viscosity levels the vortices that a scene without a surface starts with: those of
+ * the field, or of what shapes make flow, as thin as they are. 0: there are none. */
+double limits_decay(const struct scene *s);
 /* fv.upwind's default: 1 with walls, and where viscosity does not hold waves of two cells down: U
  * h/nu above 200, h the size of `cells' cells over the domain. */
 double limits_upwind(const struct run *r, bool walls, double cells);
