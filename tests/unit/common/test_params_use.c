@@ -1,5 +1,5 @@
 /* test_params_use.c - a key that a run does not use is a fault, with the reason of its row; in a
- * list of a list, too. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
+ * list of a list, too. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../common/base/mem.h"
