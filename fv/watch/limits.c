@@ -34,13 +34,12 @@
 #define STIFFEST 7.75     /* h^2/nu times the largest eigenvalue of friction with walls */
 #define START_STIFF 60.0  /* first steps after a sudden start, of the time of that eigenvalue */
 #define START_SHARE 0.1   /* and later ones, of the time since: measured, README.md */
-#define DECAY_SHARE 0.1   /* of the time in which friction levels what the start has: README.md */
-* /
+#define DECAY_SHARE 0.1   /* of the time in which friction levels the start: README.md */
 #define MOVED_STIFF                                                                                \
     240.0         /* always where walls go with their blocks, which start anew all the time */
 #define WAVES 0.5 /* dt of sqrt(h/g), h of the smallest cell */
 
-    const char *limit_name(enum limit by)
+const char *limit_name(enum limit by)
 {
     static const char *const names[] = {"nothing",   "flow",  "forces", "outflow", "bdf2",
                                         "viscosity", "waves", "motion", "output"};
