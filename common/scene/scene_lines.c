@@ -111,9 +111,33 @@ static bool is_baffle_inside_out(const struct scene *s, int k, const double shar
     return share_held(s, k) < (stands ? 0.5 : 1.0 / 11.0); /* a tenth of what is around it */
 }
 
+/* Whether line k, which spans the domain, may be a lid: another open line is below it, or the water
+ * reaches the domain's end above it. */
+static bool may_be_lid(const struct scene *s, int k)
+{
+    const struct exact e = exact_create(s);
+    const struct line l = line_of(&s->walls[k].points, false);
+    const double middle[3] = {0.5 * (l.x[0][0] + l.x[l.n - 1][0]),
+                              0.5 * (l.x[0][1] + l.x[l.n - 1][1]), 0.0};
+    const int up = scene_still_axis(s);
+    double top[3] = {middle[0], middle[1], 0.0};
+    top[up] = s->fluid.gravity[up] < 0.0
+                  ? s->domain.max[up] - 1e-6 * (s->domain.max[up] - s->domain.min[up])
+                  : s->domain.min[up] + 1e-6 * (s->domain.max[up] - s->domain.min[up]);
+    bool below = false;
+    for (int m = 0; m < s->nwalls; m++) {
+        const struct param_points *o = &s->walls[m].points;
+        below = below || (m != k && o->n > 1 && !s->walls[m].closed &&
+                          scene_height(s, (double[]){o->x[0][0], o->x[0][1], 0.0}) <
+                              scene_height(s, middle));
+    }
+    return below || wet(s, &e, top);
+}
+
 /* An open line with water on both sides that goes from one side of the domain to another is the bed
- * of what is above it, as a beach is, unless it cuts off a corner at the top, whose ceiling it is.
- * Between floor and ceiling the sense of its points decides. */
+ * of what is above it, as a beach is, unless it cuts off a corner at the top, whose ceiling it is,
+ * or spans the domain and may be a lid. Between floor and ceiling the sense of its points decides.
+ */
 static bool is_bed_inside_out(const struct scene *s, int k)
 {
     const struct line l = line_of(&s->walls[k].points, false);
@@ -126,8 +150,9 @@ static bool is_bed_inside_out(const struct scene *s, int k)
     for (int side = 0; side < 4; side++)
         down += ((at[0] >> side & 1) + (at[1] >> side & 1)) * downward(s, side);
     const double up = ((b[1] - a[1]) * g[0] - (b[0] - a[0]) * g[1]) / size; /* of its left */
-    const bool upright = fabs(up) < 0.1 * hypot(b[0] - a[0], b[1] - a[1]);
-    return !upright && (down < -0.5 ? up > 0.0 : up < 0.0);
+    if (fabs(up) < 0.1 * hypot(b[0] - a[0], b[1] - a[1]))
+        return false;
+    return down < -0.5 ? up > 0.0 : up < 0.0 && (down > 0.5 || !may_be_lid(s, k));
 }
 
 /* An open line is turned when hardly half as much of it has fluid on its left as on its right:

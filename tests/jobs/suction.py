@@ -30,6 +30,11 @@ for name, line in ('beach', '(1.2, 0.6), (0.7, 0)'), ('ceiling', '(0.7, 1), (1.2
     run_case(name + '_back', changed(parted, walls=LINE % line), words='^wall 4: its points had the fluid on their right: turned')
 run_case('ceiling', changed(parted, walls=LINE % '(1.2, 0.1), (0.7, 1)'))
 check(not says('turned', 'ceiling.txt'), 'a ceiling that is drawn right is turned', 'ceiling.txt')
+# of two lines that span the tank the upper one is a lid, which stays as it is drawn, a single one is a bed
+BED, LID = '(1.2, 0.1), (0, 0.1)', '(1.2, 0.3), (0, 0.3)'
+run_case('bed', changed(parted, walls=LINE % BED), words='^wall 4: its points had the fluid on their right: turned')
+run_case('duct', changed(parted, walls=LINE % '(0, 0.1), (1.2, 0.1)' + ', { points = (%s); }' % LID))
+check(not says('turned', 'duct.txt'), 'a lid over a bed is turned', 'duct.txt')
 for name in 'beach', 'ceiling':
     near('water, kg', column(name + '_back', 'mass')[0], column(name, 'mass')[0], 1e-6)
     about = float(re.search(r'^about (\d+) particles', open(name + '.txt').read(), re.M).group(1))
