@@ -106,6 +106,33 @@ double line_distance(const struct line *l, const double *x)
     return least;
 }
 
+struct line_foot line_foot(const struct line *l, const double *x)
+{
+    const double same = 1e-9; /* of squares of distances */
+    const int n = line_segments(l);
+    struct line_foot f = {.distance = INFINITY};
+    double least = INFINITY;
+    for (int k = 0; k < n; k++) {
+        const double *a = start_of(l, k), *b = end_of(l, k);
+        const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {x[0] - a[0], x[1] - a[1]};
+        const double d2 = d[0] * d[0] + d[1] * d[1], along = (d[0] * e[0] + d[1] * e[1]) / d2;
+        const double z = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
+        const double off[2] = {e[0] - z * d[0], e[1] - z * d[1]};
+        const double r2 = off[0] * off[0] + off[1] * off[1];
+        if (!(r2 <= least * (1.0 + same))) /* a segment without length has none */
+            continue;
+        const double aside = (d[0] * e[1] - d[1] * e[0]) / sqrt(d2);
+        if (r2 > least * (1.0 - same) && fabs(aside) <= fabs(f.aside))
+            continue;
+        const bool first = !l->closed && k == 0 && along <= 0.0,
+                   last = !l->closed && k == n - 1 && along >= 1.0;
+        f = (struct line_foot){
+            {a[0] + z * d[0], a[1] + z * d[1]}, sqrt(r2), aside, first ? -1 : last};
+        least = r2;
+    }
+    return f;
+}
+
 /* Twice the area of the triangle abc. */
 static double turn(const double *a, const double *b, const double *c)
 {

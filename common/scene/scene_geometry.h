@@ -36,6 +36,14 @@ void line_trim(struct line *l);
 bool line_inside(const struct line *l, const double *x);
 /* Distance of x to the line itself, m. */
 double line_distance(const struct line *l, const double *x);
+/* The point of a line that is nearest to another: m. Where two segments that meet are equally near,
+ * `aside' is that of the one from whose straight line the other point is farther. */
+struct line_foot {
+    double x[2], distance;
+    double aside; /* distance from the straight line of the segment, > 0 on its left */
+    int past;     /* -1, 1: the other point is beyond the first, the last end of an open line */
+};
+struct line_foot line_foot(const struct line *l, const double *x);
 /* What is wrong with a line by itself: points that coincide, no area, a fold back onto itself, a
  * crossing. line_check returns the first fault and sets at to its location, m. */
 enum line_fault { LINE_SOUND, LINE_REPEATED, LINE_FLAT, LINE_FOLDED, LINE_CROSSED };

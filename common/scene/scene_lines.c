@@ -7,6 +7,8 @@
 #include "scene_fluid.h"
 #include "scene_geometry.h"
 
+static bool is_open(const struct scene_wall *w) { return w->points.n > 1 && !w->closed; }
+
 static bool wet(const struct scene *s, const struct exact *e, const double *x)
 {
     for (int a = 0; a < 2; a++)
@@ -99,15 +101,16 @@ static double downward(const struct scene *s, int side)
 
 /* An open line with water on both sides that hangs from a side of the domain, between other walls,
  * is a baffle and not the only tank: what is inside it is solid. On the floor, where it is a roof
- * over what it would hold, it is a dyke as long as most of the water is around it. */
-static bool is_baffle_inside_out(const struct scene *s, int k, const double share[2])
+ * over what it would hold, it is a dyke as long as most of the water is around it. both: its right
+ * has half as much water as its left, or more. */
+static bool is_baffle_inside_out(const struct scene *s, int k, bool both)
 {
     const struct line open = line_of(&s->walls[k].points, false);
     const struct line shut = line_of(&s->walls[k].points, true);
     const int side = side_of_ends(s, &open);
     if (open.n < 3 || !(line_area(&shut) > 0.0) || side < 0 || !is_enclosed(s, k))
         return false;
-    const bool stands = downward(s, side) > 0.0 && share[1] > 0.5 * share[0];
+    const bool stands = downward(s, side) > 0.0 && both;
     return share_held(s, k) < (stands ? 0.5 : 1.0 / 11.0); /* a tenth of what is around it */
 }
 
@@ -127,7 +130,7 @@ static bool may_be_lid(const struct scene *s, int k)
     bool below = false;
     for (int m = 0; m < s->nwalls; m++) {
         const struct param_points *o = &s->walls[m].points;
-        below = below || (m != k && o->n > 1 && !s->walls[m].closed &&
+        below = below || (m != k && is_open(s->walls + m) &&
                           scene_height(s, (double[]){o->x[0][0], o->x[0][1], 0.0}) <
                               scene_height(s, middle));
     }
@@ -167,10 +170,10 @@ bool scene_line_is_reversed(const struct scene *s, int k)
     const struct line l = line_of(&w->points, w->closed);
     double share[2];
     sides_of(s, &l, share);
+    const bool both = share[1] > 0.5 * share[0];
     if (!w->closed)
-        return share[0] < 0.5 * share[1] ||
-               (share[1] > 0.5 * share[0] && is_bed_inside_out(s, k)) ||
-               is_baffle_inside_out(s, k, share);
+        return share[0] < 0.5 * share[1] || (both && is_bed_inside_out(s, k)) ||
+               is_baffle_inside_out(s, k, both);
     if (share[0] > 0.01 && share[1] > 0.01)
         return line_area(&l) > 0.0 && is_enclosed(s, k);
     return share[0] < share[1];
@@ -180,42 +183,25 @@ bool scene_has_open_lines(const struct scene *s)
 {
     bool any = false;
     for (int k = 0; k < s->nwalls; k++)
-        any = any || (s->walls[k].points.n > 1 && !s->walls[k].closed);
+        any = any || is_open(s->walls + k);
     return any;
 }
 
-/* The segment of open lines nearest to x so far: where two meet in a corner, the one that x is
- * further off sideways. */
-struct foot_of_lines {
-    double distance, aside; /* m; aside > 0 on its left */
-};
-
-static void look_along(const struct scene *s, const struct line *l, const double *x,
-                       struct foot_of_lines *is)
-{
-    for (int k = 0; k < l->n - 1; k++) {
-        const double *a = l->x[k], *b = l->x[k + 1];
-        const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {x[0] - a[0], x[1] - a[1]};
-        const double length = hypot(d[0], d[1]);
-        const double along = (d[0] * e[0] + d[1] * e[1]) / length;
-        const double aside = (d[0] * e[1] - d[1] * e[0]) / length;
-        const double beyond = fmax(-along, along - length);
-        const double r = hypot(fmax(0.0, beyond), aside), same = 1e-9 * length;
-        const bool past = (k == 0 && along < 0.0 && !sides_at(s, a)) ||
-                          (k == l->n - 2 && along > length && !sides_at(s, b));
-        if (r > is->distance + same || (r > is->distance - same && fabs(aside) <= fabs(is->aside)))
-            continue;
-        *is = (struct foot_of_lines){r, past ? 0.0 : aside};
-    }
-}
-
+/* Where lines are equally near, as in a corner, it is the one that x is further off sideways. */
 bool scene_is_behind_lines(const struct scene *s, const double *x)
 {
-    struct foot_of_lines is = {INFINITY, 0.0};
+    double least = INFINITY, aside = 0.0;
     for (int k = 0; k < s->nwalls; k++) {
         const struct line l = line_of(&s->walls[k].points, false);
-        if (!s->walls[k].closed && l.n > 1)
-            look_along(s, &l, x, &is);
+        if (!is_open(s->walls + k))
+            continue;
+        const struct line_foot f = line_foot(&l, x);
+        const double same = 1e-9 * least;
+        if (f.distance > least + same ||
+            (f.distance > least - same && fabs(f.aside) <= fabs(aside)))
+            continue;
+        least = f.distance;
+        aside = f.past && !sides_at(s, l.x[f.past < 0 ? 0 : l.n - 1]) ? 0.0 : f.aside;
     }
-    return is.aside < 0.0;
+    return aside < 0.0;
 }

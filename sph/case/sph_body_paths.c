@@ -66,22 +66,9 @@ static bool is_side(const struct bound *b) { return b->line.x == (const double(*
 /* Nearest point of a line to x; side: > 0 if x is on its left, 0 beyond an end. */
 static void foot_of(const struct line *l, const double *x, double foot[2], double *side)
 {
-    double least = INFINITY;
-    for (int k = 0; k < line_segments(l); k++) {
-        const double *a = l->x[k], *b = l->x[(k + 1) % l->n];
-        const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {x[0] - a[0], x[1] - a[1]};
-        const double along = (d[0] * e[0] + d[1] * e[1]) / (d[0] * d[0] + d[1] * d[1]);
-        const double z = fmax(0.0, fmin(1.0, along));
-        const double p[2] = {a[0] + z * d[0], a[1] + z * d[1]};
-        const double r = hypot(x[0] - p[0], x[1] - p[1]);
-        if (r < least) {
-            const bool end = !l->closed && ((k == 0 && along <= 0.0) ||
-                                            (k == line_segments(l) - 1 && along >= 1.0));
-            least = r;
-            memcpy(foot, p, sizeof p);
-            *side = end ? 0.0 : d[0] * e[1] - d[1] * e[0];
-        }
-    }
+    const struct line_foot f = line_foot(l, x);
+    memcpy(foot, f.x, sizeof f.x);
+    *side = f.past ? 0.0 : f.aside;
 }
 
 /* Whether the middle of the gap at x lies where fluid could be: behind no wall. */
