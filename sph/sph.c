@@ -22,11 +22,11 @@ static const double PAIRS_OF_TOUCH = 20.0;
 static const char *columns[SPH_COLUMNS];
 static struct program sph_program; /* its columns depend on the scene */
 
-/* About how many particles the run will have. */
-static double lattice(const struct run *r)
+/* About how many particles the run will have, of which so large a part of the region is filled. */
+static double lattice(const struct run *r, double part)
 {
     const struct sph_params *prm = sph_params_of(r);
-    double n = first_water_share(r, prm);
+    double n = part;
     for (int a = 0; a < r->scene.domain.dim; a++)
         n *= round((prm->box[1][a] - prm->box[0][a]) / prm->dx);
     return n;
@@ -227,8 +227,6 @@ static void warn_of(const struct run *r)
             "the others, whose masses do not follow their packing, the level wanders by a tenth "
             "in ten transits");
     sph_meshes_warn(r, prm);
-    if (!sph_params_zones(r, prm))
-        first_water_warn(r, prm);
     warn_of_passage(r, prm);
     sph_falls_warn(r, prm);
     if (prm->cfl > 0.85 * bound)
@@ -262,7 +260,9 @@ static void describe(const struct run *r)
     const char *limit;
     struct sph_params fine = *prm;
     fine.dx = regions_finest(r, prm);
-    const double dt = sph_params_dt(&fine, r->scene.fluid.nu, prm->c0, &limit), n = lattice(r);
+    const struct first_water water = first_water_look(r, prm);
+    const double dt = sph_params_dt(&fine, r->scene.fluid.nu, prm->c0, &limit),
+                 n = lattice(r, water.kept);
     const double all = n + regions_particles(r, prm);
     describe_scene(r);
     scene_meshes_say(&r->scene);
@@ -287,6 +287,8 @@ static void describe(const struct run *r)
         windows_describe(r, prm);
     if (has_partner_flow(r))
         coupling_warn(r, prm);
+    if (!sph_params_zones(r, prm))
+        first_water_warn(r, prm, water);
     warn_of(r);
 }
 
@@ -368,7 +370,8 @@ static void check(const struct run *r, struct faults *f)
     if (f->n == 0 && has_partner_flow(r))
         coupling_check(r, sph_params_of(r), f);
     if (f->n == 0) {
-        const double n = lattice(r) + regions_particles(r, sph_params_of(r));
+        const struct sph_params *prm = sph_params_of(r);
+        const double n = lattice(r, first_water_look(r, prm).kept) + regions_particles(r, prm);
         run_check_memory(r, f, "sph.dx", n, "particles", n * bytes_per_particle(r));
         regions_check_budget(r, n, f);
     }

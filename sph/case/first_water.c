@@ -11,12 +11,6 @@
 
 static const double least_parted = 0.02; /* of the water that shapes draw, behind partitions */
 
-/* Samples of the region, and how many of them are water, drawn by the shapes but behind open lines,
- * and of these with nothing above. */
-struct first_water {
-    double all, kept, behind, open;
-};
-
 /* Whether no line or body is above x; so it is under a beach, and not behind a partition. */
 static bool is_open_above(const struct scene *c, const double *x)
 {
@@ -29,14 +23,16 @@ static bool is_open_above(const struct scene *c, const double *x)
     return size > 0.0 && !sph_falls_stopped(c, x, up);
 }
 
-static struct first_water look(const struct run *r, const struct sph_params *used)
+struct first_water first_water_look(const struct run *r, const struct sph_params *used)
 {
     const struct scene *c = &r->scene;
     const int dim = c->domain.dim, m = dim == 2 ? 96 : 24;
+    const int samples = dim == 2 ? m * m : m * m * m;
+    const double one = 1.0 / samples;
     const bool lines = scene_has_open_lines(c);
     const struct exact e = exact_create(c);
-    struct first_water is = {pow(m, dim), 0.0, 0.0, 0.0};
-    for (int k = 0; k < (int)is.all; k++) {
+    struct first_water is = {0.0, 0.0, 0.0};
+    for (int k = 0; k < samples; k++) {
         const int at[3] = {k % m, k / m % m, k / m / m};
         double x[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < dim; a++)
@@ -44,17 +40,11 @@ static struct first_water look(const struct run *r, const struct sph_params *use
         if (scene_matter(c, &e, x) != MATTER_FLUID || !scene_is_room(c, x))
             continue;
         const bool behind = lines && scene_is_behind_lines(c, x);
-        is.kept += !behind;
-        is.behind += behind;
-        is.open += behind && is_open_above(c, x);
+        is.kept += behind ? 0.0 : one;
+        is.behind += behind ? one : 0.0;
+        is.open += behind && is_open_above(c, x) ? one : 0.0;
     }
     return is;
-}
-
-double first_water_share(const struct run *r, const struct sph_params *used)
-{
-    const struct first_water is = look(r, used);
-    return is.kept / is.all;
 }
 
 static bool has_wall_sides(const struct scene *c)
@@ -67,26 +57,25 @@ static bool has_wall_sides(const struct scene *c)
 
 /* More water left out than kept: of the lines one runs the wrong way, or the shapes are wrong. A
  * line that is all there is of a tank may leave out what a level draws beyond it. */
-void first_water_warn(const struct run *r, const struct sph_params *used)
+void first_water_warn(const struct run *r, const struct sph_params *used, struct first_water is)
 {
     const struct scene *c = &r->scene;
     if (!scene_has_open_lines(c) || !has_wall_sides(c))
         return;
-    const struct first_water is = look(r, used);
     const double drawn = is.behind + is.kept;
-    double sample = 1.0 / is.all; /* m^2 */
+    double size = 1.0; /* m^2 */
     for (int a = 0; a < c->domain.dim; a++)
-        sample *= used->box[1][a] - used->box[0][a];
+        size *= used->box[1][a] - used->box[0][a];
     if (is.behind <= is.kept && is.open > least_parted * drawn)
         log_warn("lines among the walls leave out %.2g %% of the water that the shapes draw, with "
                  "air above, %.3g of %.3g m^%d, which lies behind them: a line has fluid on its "
                  "left alone. If water is meant there, too, draw the partition as a body; if not, "
                  "draw the shapes before the lines alone",
-                 100.0 * is.open / drawn, is.open * sample, drawn * sample, c->domain.dim);
+                 100.0 * is.open / drawn, is.open * size, drawn * size, c->domain.dim);
     if (is.behind > is.kept)
         log_warn(
             "lines among the walls leave out %.2g %% of the water that the shapes draw, "
             "%.3g of %.3g m^%d, which lies behind them: a line has its fluid on its left; "
             "reverse the points of one that has not, or draw the shapes before the lines alone",
-            100.0 * is.behind / drawn, is.behind * sample, drawn * sample, c->domain.dim);
+            100.0 * is.behind / drawn, is.behind * size, drawn * size, c->domain.dim);
 }

@@ -6,11 +6,16 @@
 struct run;
 struct sph_params;
 
-/* Part of the region of `used' that is water at the start: in the shapes, in no body or mesh,
- * before the open lines among the walls. By a few thousand samples. */
-double first_water_share(const struct run *r, const struct sph_params *used);
+/* Parts of the region of `used': water at the start (in the shapes, in no body or mesh, before the
+ * open lines among the walls); what of the shapes' water is behind these lines; what of that has
+ * nothing above it. */
+struct first_water {
+    double kept, behind, open;
+};
+/* By a few thousand samples. */
+struct first_water first_water_look(const struct run *r, const struct sph_params *used);
 /* Warns where open lines leave out water that the shapes draw: more than half of it, or, with
  * nothing above it, 2 %. */
-void first_water_warn(const struct run *r, const struct sph_params *used);
+void first_water_warn(const struct run *r, const struct sph_params *used, struct first_water is);
 
 #endif
