@@ -6,7 +6,6 @@
 #include "shut_water.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -101,12 +100,17 @@ static bool is_open(const struct sph *s, const struct shut_water *of)
 void shut_waters_keep(struct sph *s)
 {
     double sum[SHUT_WATERS_MAX];
-    if (!s->walls || s->walls->nshut == 0)
+    bool any = false;
+    for (int k = 0; s->walls && k < s->walls->nshut; k++) {
+        struct shut_water *of = s->walls->shut[k];
+        of->volume = is_open(s, of) ? 0.0 : of->volume;
+        any = any || of->volume > 0.0;
+    }
+    if (!any) /* the same on all ranks */
         return;
     sum_volumes(s, sum);
     for (int k = 0; k < s->walls->nshut; k++) {
-        struct shut_water *of = s->walls->shut[k];
-        of->volume = is_open(s, of) ? 0.0 : of->volume;
+        const struct shut_water *of = s->walls->shut[k];
         for (int i = 0; i < s->p.n && of->volume > 0.0 && sum[k] > 0.0; i++) {
             double *v = volume_in(s, of, i);
             if (v)
@@ -120,12 +124,9 @@ void shut_waters_save(const struct sph *s, struct h5 *f)
     const struct walls *w = s->walls;
     const bool here = s->run->rank == 0;
     for (int k = 0; w && k < w->nshut; k++) {
-        char ids[32], is[32];
-        snprintf(ids, sizeof ids, "shut_water_%d_id", k);
-        snprintf(is, sizeof is, "shut_water_%d", k);
         const double row[2] = {w->shut[k]->volume, w->shut[k]->beside};
-        h5_write_int(f, ids, here ? w->shut[k]->n : 0, w->shut[k]->id);
-        h5_write_real(f, is, "m^dim, -", here ? 1 : 0, 2, row, false);
+        h5_write_int(f, key_text("shut_water_%d_id", k), here ? w->shut[k]->n : 0, w->shut[k]->id);
+        h5_write_real(f, key_text("shut_water_%d", k), "m^dim, -", here ? 1 : 0, 2, row, false);
     }
 }
 
@@ -133,14 +134,11 @@ bool shut_waters_load(struct sph *s, struct h5 *f)
 {
     bool fits = true;
     for (int k = 0; s->walls && k < SHUT_WATERS_MAX && fits; k++) {
-        char ids[32], is[32];
         int64_t n, one;
-        snprintf(ids, sizeof ids, "shut_water_%d_id", k);
-        snprintf(is, sizeof is, "shut_water_%d", k);
-        double *row = h5_read_all_real(f, is, 2, &one);
+        double *row = h5_read_all_real(f, key_text("shut_water_%d", k), 2, &one);
         if (!row)
             break;
-        int64_t *id = h5_read_all_int(f, ids, &n);
+        int64_t *id = h5_read_all_int(f, key_text("shut_water_%d_id", k), &n);
         fits = id && n > 0 && one == 1;
         if (fits) {
             struct shut_water *to = shut_water_add(s, n, (unsigned)row[1]);
