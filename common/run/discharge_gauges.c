@@ -46,10 +46,7 @@ static void judge_one(const struct scene *s, const struct scene_probe *g, const 
 
 void discharge_gauges_judge(const struct scene *s, const char *path, struct summary *summary)
 {
-    bool any = false;
-    for (int k = 0; k < s->nprobes; k++)
-        any = any || s->probes[k].kind == PROBE_DISCHARGE;
-    struct table *t = any ? table_read(path) : NULL;
+    struct table *t = probe_any(s, PROBE_DISCHARGE) ? table_read(path) : NULL;
     for (int k = 0; t && k < s->nprobes; k++)
         if (s->probes[k].kind == PROBE_DISCHARGE)
             judge_one(s, s->probes + k, t, summary);

@@ -9,6 +9,14 @@ bool probe_is_point(const struct scene_probe *g)
     return g->kind == PROBE_PRESSURE || g->kind == PROBE_VELOCITY;
 }
 
+bool probe_any(const struct scene *s, int kind)
+{
+    bool any = false;
+    for (int k = 0; k < s->nprobes; k++)
+        any = any || s->probes[k].kind == kind;
+    return any;
+}
+
 int probe_columns(const struct scene_probe *g, int dim)
 {
     return g->kind == PROBE_VELOCITY ? dim : 1;

@@ -8,6 +8,8 @@
 
 /* Whether a gauge measures at one point: pressure or velocity. */
 bool probe_is_point(const struct scene_probe *g);
+/* Whether the scene has a gauge of this kind (enum probe_kind). */
+bool probe_any(const struct scene *s, int kind);
 /* Number of columns of series.csv that a gauge has, and the heading of one of them, "NAME [Pa]". */
 int probe_columns(const struct scene_probe *g, int dim);
 void probe_heading(const struct scene_probe *g, int dim, int column, char *text, size_t size);

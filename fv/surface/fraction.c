@@ -204,18 +204,10 @@ static bool has_boxes(const struct fv *s)
     return any;
 }
 
-static bool has_discharge_gauge(const struct scene *c)
-{
-    bool any = false;
-    for (int k = 0; k < c->nprobes; k++)
-        any = any || c->probes[k].kind == PROBE_DISCHARGE;
-    return any;
-}
-
 void fraction_start(struct fv *s)
 {
     s->surface->fraction = create(s);
-    for (int a = 0; a < s->dim && has_discharge_gauge(&s->run->scene); a++)
+    for (int a = 0; a < s->dim && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
         s->surface->fraction->passed[a] = NEW(double, s->size);
     s->surface->fraction->boxes = has_boxes(s);
     s->surface->fraction->first = first_axis(s);
