@@ -127,7 +127,11 @@ static void say_turned(const struct scene *c)
             log_say("wall %d: its points had the fluid on their right: turned", k + 1);
     for (int k = 0; k < c->nbodies; k++)
         if (c->bodies[k].turned)
-            log_say("body %d (%s): its points ran counter-clockwise: turned", k + 1,
+            log_say("body %d (%s): its points ran %sclockwise: turned", k + 1, c->bodies[k].name,
+                    c->bodies[k].tank ? "" : "counter-");
+    for (int k = 0; k < c->nbodies; k++)
+        if (c->bodies[k].tank)
+            log_say("body %d (%s) is a tank: it holds all water of the shapes", k + 1,
                     c->bodies[k].name);
     for (int k = 0; k < c->nbodies; k++)
         if (c->bodies[k].cut)
@@ -282,7 +286,10 @@ static void describe(const struct run *r)
         forecast_say("sph", r->scene.domain.dim,
                      all * pairs_of_particle(r) + PAIRS_OF_TOUCH * touches_of_meshes(r, n), steps);
     else
-        log_say("run time: not known, as there is no water at the start");
+        log_warn(
+            "there is no water at the start, or walls and bodies leave it no place: lines have "
+            "fluid on their left; a body in 2D is a tank if all water of the shapes is inside "
+            "and there are no walls");
     if (has_partner_flow(r))
         windows_describe(r, prm);
     if (has_partner_flow(r))

@@ -47,12 +47,11 @@ static bool key_holds(const struct param_use *u, const struct param *rows, int n
                       const void *element)
 {
     const struct param *row = row_of(rows, nrows, u->key);
-    const struct param *other = row_of(rows, nrows, u->other);
     if (!row)
         return false;
     if (u->choices)
         return u->choices >> *(const int *)(const void *)((const char *)element + row->offset) & 1u;
-    return (says(row, element) || (other && says(other, element))) != u->without;
+    return says(row, element) != u->without;
 }
 
 static bool holds(const struct walk *w, const struct param_use *u, const struct param *rows,
@@ -198,21 +197,19 @@ static unsigned choices_left(const struct param_use *uses, const struct param_us
 static void add_condition(char *to, size_t size, const struct param *rows, int nrows,
                           const struct param_use *uses, const struct param_use *u)
 {
-    const struct param *other = row_of(rows, nrows, u->key);
+    const struct param *key = row_of(rows, nrows, u->key);
     const unsigned left = !u->choices ? 0 : u->facts ? u->choices : choices_left(uses, u);
     const char *before = *to ? "; " : "";
-    if (u->words || left || (other && !u->choices))
+    if (u->words || left || (key && !u->choices))
         add(to, size, before, "", 0);
     if (u->words)
         add(to, size, "", u->words, (int)strlen(u->words));
-    if (u->words && other)
+    if (u->words && key)
         add(to, size, " or ", "", 0);
-    if (other && left)
-        add_choices(to, size, other, left);
-    else if (other && !u->choices)
+    if (key && left)
+        add_choices(to, size, key, left);
+    else if (key && !u->choices)
         add(to, size, u->without ? "without " : "with ", u->key, (int)strlen(u->key));
-    if (other && u->other)
-        add(to, size, " or ", u->other, (int)strlen(u->other));
 }
 
 const char *params_use_words(const struct param *rows, int nrows, const struct param *row)

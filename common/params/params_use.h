@@ -12,8 +12,8 @@
 struct param_use {
     const char *why;          /* reason and remedy where it does not hold; NULL ends the list */
     unsigned long long facts; /* bits, of which the run must have one */
-    const char *key, *other;  /* of the group: a choice that must be one of `choices', or given */
-    unsigned choices;         /* bits 1 << index; 0: key, or the other one, must be given */
+    const char *key;          /* of the group: a choice that must be one of `choices', or given */
+    unsigned choices;         /* bits 1 << index; 0: key must be given */
     bool without;             /* key must not be given */
     bool (*test)(const void *context, const void *element); /* the group's struct */
     const char *words; /* the facts or the test in the manual, behind "used with" */
@@ -35,10 +35,6 @@ struct param_use {
 #define WITH(k, reason)                                                                            \
     {                                                                                              \
         .key = #k, .why = (reason)                                                                 \
-    }
-#define WITH_ANY(k, o, reason)                                                                     \
-    {                                                                                              \
-        .key = #k, .other = #o, .why = (reason)                                                    \
     }
 #define WITHOUT(k, reason)                                                                         \
     {                                                                                              \

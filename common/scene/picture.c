@@ -397,14 +397,12 @@ static void scene(struct picture *p, bool first)
             picture_line(p, kind_of(s->walls + k), s->walls[k].points.n, s->walls[k].points.x,
                          s->walls[k].closed, false, true);
     for (int k = 0; k < s->nbodies; k++) {
-        if (s->bodies[k].points.n == 0)
+        const struct scene_body *b = s->bodies + k;
+        const double *x = b->points.x[0];
+        if (b->points.n == 0)
             continue;
-        picture_line(p, PICTURE_BODY, s->bodies[k].points.n, s->bodies[k].points.x, true, true,
-                     true);
-        picture_text(p,
-                     (const double[]){s->bodies[k].points.x[0][0], s->bodies[k].points.x[0][1],
-                                      s->bodies[k].points.x[0][1]},
-                     s->bodies[k].name);
+        picture_line(p, PICTURE_BODY, b->points.n, b->points.x, true, !b->tank, true);
+        picture_text(p, (const double[]){x[0], x[1], x[1]}, b->name);
     }
     for (int k = 0; k < s->nprobes; k++) {
         const double *at = s->probes[k].at;

@@ -40,12 +40,6 @@ static bool has_section(const void *scene, const void *element)
     return (void)scene, b->radius > 0.0 || b->points.n > 0 || b->section.n > 0;
 }
 
-static bool is_placed(const void *scene, const void *element)
-{
-    const struct scene_body *b = element;
-    return (void)scene, *b->surface.mesh || *b->surface.outline || scene_form_of(b) != FORM_NONE;
-}
-
 static bool is_first(const void *scene, const void *element)
 {
     return element == (const void *)((const struct scene *)scene)->bodies;
@@ -124,14 +118,13 @@ static const struct param_list contacts = INNER(struct scene_contacts, contact_r
 #define P struct scene_body
 const struct param scene_body_rows[] = {
     PARAM(P, name,     "-",   "body#", 0, 0, "its name in the outputs"),
-    PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (reversed, with a line in the log, if not)"),
+    PARAM(P, points,   "m",   "()", -1e9, 1e9, "corners in order, clockwise (reversed, with a line in the log, if not); with all water inside, in a scene without walls, those of a tank"),
     PARAM(P, box,      "m",   "((0.0, 0.0), (0.0, 0.0))", -1e9, 1e9, "instead of points or a file: two opposite corners of a box along the axes"),
     PARAM(P, radius,   "m",   "0.0", 0, 1e9, "instead: of a disc, in 3D a sphere; its middle is centre, or translate, if only that is given"),
     PARAM(P, length,   "m",   "0.0", 0, 1e9, "in 3D: of a cylinder (radius) or prism (points), along z, half of it on either side of z = 0",
           USED(NEED(SPACE, "in 2 dimensions bodies have no length across the plane"),
                WHERE(has_section, "with radius or points", "it is of a cylinder (radius) or a prism (points)"))),
-    SURFACE_ROWS(P, .uses = NULL, .uses = NULL,
-                 USED(WHERE(is_placed, "with mesh, outline, box, radius or length", "no mesh, outline, box, radius or length is given"))),
+    SURFACE_ROWS(P, .uses = NULL, .uses = NULL, .uses = NULL),
     PARAM(P, thin,     "-",   "false", 0, 0, "of a mesh: fluid on one side does not interact with that on the other",
           USED(WITH(mesh, "it is of a mesh"))),
     CHOICE(P, kind, "slip|no_slip", "slip", "kind of boundary on its surface",

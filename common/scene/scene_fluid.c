@@ -223,7 +223,7 @@ bool scene_is_room(const struct scene *s, const double *x)
 {
     for (int k = 0; k < s->nbodies; k++) {
         const struct line l = line_of(&s->bodies[k].points, true);
-        if (line_inside(&l, x))
+        if (line_inside(&l, x) != s->bodies[k].tank)
             return false;
     }
     return scene_in_tanks(s, x);
@@ -254,7 +254,7 @@ void scene_orient(struct scene *s)
         bool closed = true;
         close_line(&b->points, &closed);
         const struct line l = line_of(&b->points, true);
-        b->turned = l.n > 2 && line_area(&l) > 0.0;
+        b->turned = l.n > 2 && (line_area(&l) > 0.0) != b->tank;
         if (b->turned)
             points_reverse(&b->points);
         scene_cut_at_sides(s, b);

@@ -74,13 +74,12 @@ static int side_of_ends(const struct scene *s, const struct line *l)
     return side;
 }
 
-/* The water that line k would hold, between itself and the side from which it hangs, over all water
- * of the shapes. */
-static double share_held(const struct scene *s, int k)
+/* The water of the shapes inside the closed line of these points over all of it; none: 0. */
+static double share_held(const struct scene *s, const struct param_points *points)
 {
     enum { ACROSS = 200 };
     const struct exact e = exact_create(s);
-    const struct line l = line_of(&s->walls[k].points, true);
+    const struct line l = line_of(points, true);
     const double *lo = s->domain.min, *hi = s->domain.max;
     int n[2] = {0, 0};
     for (int i = 0; i < ACROSS * ACROSS; i++) {
@@ -89,6 +88,13 @@ static double share_held(const struct scene *s, int k)
         n[line_inside(&l, x)] += wet(s, &e, x);
     }
     return (double)n[1] / fmax(1.0, n[0] + n[1]);
+}
+
+bool scene_body_is_tank(const struct scene *s, int k)
+{
+    const struct param_points *points = &s->bodies[k].points;
+    return s->domain.dim == 2 && s->nshapes > 0 && s->nwalls == 0 &&
+           s->initial.field == FIELD_REST && points->n > 2 && share_held(s, points) == 1.0;
 }
 
 /* How far the side's outward normal points down, -1 to 1. */
@@ -111,7 +117,8 @@ static bool is_baffle_inside_out(const struct scene *s, int k, bool both)
     if (open.n < 3 || !(line_area(&shut) > 0.0) || side < 0 || !is_enclosed(s, k))
         return false;
     const bool stands = downward(s, side) > 0.0 && both;
-    return share_held(s, k) < (stands ? 0.5 : 1.0 / 11.0); /* a tenth of what is around it */
+    return share_held(s, &s->walls[k].points) <
+           (stands ? 0.5 : 1.0 / 11.0); /* a tenth of what is around it */
 }
 
 /* Whether line k, which spans the domain, may be a lid: another open line is below it, or the water

@@ -7,6 +7,7 @@
 #include "../base/base.h"
 #include "../geometry/geometry.h"
 #include "scene_forms.h"
+#include "scene_lines.h"
 
 void scene_outline_place(const struct scene_surface *is, int n, const double (*x)[2],
                          struct param_points *to)
@@ -20,14 +21,17 @@ void scene_outline_place(const struct scene_surface *is, int n, const double (*x
     }
 }
 
-/* Whether its file is closed. */
+/* Corners from a file, or those given, in their place. Whether the file's are closed. */
 static bool read_one(const char *dir, const char *group, int k, const struct scene_surface *is,
                      struct param_points *to, const struct params *p, struct faults *f)
 {
     char file[1024 + PARAM_TEXT_SIZE], text[1400];
     struct outline o;
-    if (!*is->outline)
+    if (!*is->outline) {
+        const struct param_points own = *to;
+        scene_outline_place(is, own.n, own.x, to);
         return false;
+    }
     const char *key = key_text("%s.[%d].outline", group, k);
     snprintf(file, sizeof file, "%s%s%s", *is->outline == '/' ? "" : dir,
              *is->outline == '/' ? "" : "/", is->outline);
@@ -52,7 +56,10 @@ void scene_outlines_read(struct scene *s, const char *dir, const struct params *
             read_one(dir, "walls", k, &s->walls[k].surface, &s->walls[k].points, p, f) ||
             s->walls[k].closed;
     for (int k = 0; k < s->nbodies; k++)
-        read_one(dir, "bodies", k, &s->bodies[k].surface, &s->bodies[k].points, p, f);
+        if (scene_form_of(s->bodies + k) == FORM_NONE)
+            read_one(dir, "bodies", k, &s->bodies[k].surface, &s->bodies[k].points, p, f);
     for (int k = 0; k < s->nshapes; k++)
         read_one(dir, "shapes", k, &s->shapes[k].surface, &s->shapes[k].points, p, f);
+    for (int k = 0; k < s->nbodies; k++)
+        s->bodies[k].tank = scene_body_is_tank(s, k);
 }

@@ -265,10 +265,11 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
             params_fault(p, f, key, "%s: a shore is read by sph alone, in 2D", g->name);
         for (int b = 0; b < s->nbodies && probe_is_point(g); b++) {
             const struct line l = line_of(&s->bodies[b].points, true);
-            if (l.n > 2 && line_inside(&l, g->at) &&
+            const bool tank = s->bodies[b].tank;
+            if (l.n > 2 && line_inside(&l, g->at) != tank &&
                 line_distance(&l, g->at) > 1e-6 * line_size(&l))
-                params_fault(p, f, key, "%s is inside body %s: put it on its surface", g->name,
-                             s->bodies[b].name);
+                params_fault(p, f, key, "%s is %s body %s: put it on its surface", g->name,
+                             tank ? "outside the tank that is" : "inside", s->bodies[b].name);
         }
         if (strcmp(g->name, "t") == 0 || strcmp(g->name, "dt") == 0)
             params_fault(p, f, key,

@@ -1,5 +1,5 @@
-/* scene_surface.h - the keys by which walls, bodies and shapes take their surface from a file:
- * triangles in 3D, an outline in the plane.
+/* scene_surface.h - the keys by which walls, bodies and shapes take their surface from a file,
+ * triangles in 3D, an outline in the plane, and put it, or their points, in its place.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_SURFACE_H
 #define COMMON_SCENE_SURFACE_H
@@ -23,7 +23,6 @@ struct scene_surface {
         .key = #m, .type = is, .offset = offsetof(T, surface.m), .unit = unit_, .dflt = dflt_,     \
         .min = min_, .max = max_, .help = __VA_ARGS__                                              \
     }
-#define OF_FILE USED(WITH_ANY(mesh, outline, "no mesh and no outline is given"))
 #define SURFACE_ROWS(T, MESH, OUTLINE, PLACED)                                                     \
     SURFACE_ROW(T, mesh, PARAM_TEXT, "-", "", 0, 0,                                                \
                 "file beside the case with its triangles: STL, OBJ or PLY; sph in 3D", MESH),      \
@@ -33,8 +32,7 @@ struct scene_surface {
                     "origin, lengths are its own units times scale",                               \
                     OUTLINE),                                                                      \
         SURFACE_ROW(T, scale, PARAM_REAL, "-", "1.0", 1e-9, 1e9,                                   \
-                    "factor on the coordinates of a mesh or an outline: 0.001 for a file in mm",   \
-                    PLACED),                                                                       \
+                    "factor on the coordinates: 0.001 for a file in mm", PLACED),                  \
         SURFACE_ROW(T, rotate, PARAM_REALS, "degrees", "(0.0, 0.0, 0.0)", -3600, 3600,             \
                     "then its rotation about the origin, axis times angle: (0, 0, 90) turns x "    \
                     "to y",                                                                        \

@@ -423,7 +423,12 @@ static void fault_of_places(const struct run *r, struct faults *f, const struct 
                      : "let them touch, or draw them as one");
 }
 
-/* What is wrong at one time; true: something. */
+static bool is_tank(const struct run *r, const struct bound *b)
+{
+    return b->body >= 0 && r->scene.bodies[b->body].tank;
+}
+
+/* What is wrong at one time; true: something. What a tank holds is inside it. */
 static bool check_places(const struct run *r, const struct sph_params *used,
                          const struct bound *all, int n, double t, struct faults *f)
 {
@@ -441,8 +446,9 @@ static bool check_places(const struct run *r, const struct sph_params *used,
                 continue;
             if (m == k || (all[m].body >= 0 && m > k))
                 continue;
-            if (all[m].body >= 0 ? line_overlaps(&all[k].line, &all[m].line, at)
-                                 : line_pierces(&all[k].line, &all[m].line, at))
+            const bool apart = all[m].body >= 0 && !is_tank(r, all + k) && !is_tank(r, all + m);
+            if (apart ? line_overlaps(&all[k].line, &all[m].line, at)
+                      : line_pierces(&all[k].line, &all[m].line, at))
                 fault_of_places(r, f, all + k, all + m, at, when);
         }
     }

@@ -106,6 +106,10 @@ bool body_mass_of(const struct scene_body *is, const struct trimesh *mesh, int d
     memcpy(m->centre, is->centre, sizeof m->centre);
     if (is->density > 0.0 && is->mass > 0.0)
         return no(why, size, "density or mass, not both");
+    if (is->density > 0.0 && is->tank)
+        return no(
+            why, size,
+            "the points of a tank say nothing of its own mass: give mass, centre and inertia");
     if (is->density > 0.0 && dim == 2)
         return of_outline(is, is->density, m);
     if (is->density > 0.0 && mesh && mesh->closed)

@@ -1,6 +1,7 @@
 """Bodies as a case has them: forces where a body meets a wall, contact, free bodies over a restart and on two ranks.
 SPDX-License-Identifier: BSD-3-Clause"""
 import math
+import re
 
 import lib
 from lib import TANK, box_stl, changed, check, column, last, mean, number, run_case, sides, write
@@ -215,4 +216,34 @@ run_case('shut', sliding('(0, 2.2), (4.4, -1)', FREE % (0.01, 0.5) + low), '--ch
 run_case('still', sliding('(0, 2.2), (4.4, -1)', low), '--check', code=2, words=behind)
 run_case('through', sliding(body=FREE % (0.5, 0.1) + points(1.5, 1.6, 1.7, 1.8)), '--check', code=2,
          words=r'bodies.\[0\].contact: contact.gap of 0.1 sph.dx is 0.005 m, and a body that falls')
+
+# A body around all water is a tank. Full to its roof and shaken up and down, by 0.05 sin(2 pi t) m, its floor bears rho (g + a) h
+# more than its roof (2 %); part full and rolling, its level at the wall is that of fv's block (3 % of its range); at rest a float
+# in it stands by its density within dx, its weight on the tank's floor (1 %). Its points say nothing of its mass.
+VESSEL = 'name = "tank"; points = ((-0.5, 0), (0.5, 0), (0.5, 0.6), (-0.5, 0.6)); centre = (0, 0); %s'
+MOVES = 'motion = ( { kind = "harmonic"; axis = "%s"; amplitude = %g; period = %g; ramp = %g; } );'
+vessel = changed(TANK, time='end = 1.2;', domain='min = (-0.7, -0.3); max = (0.7, 0.8);', sph='dx = 0.02;', walls='', output='series = 2; snapshots = false;',
+                 shapes='{ form = "box"; box = ((-0.5, 0), (0.5, 0.6)); }', bodies='{ %s }' % VESSEL % MOVES % ('y', 0.05, 1.0, 0.5),
+                 probes='{ name = "low"; at = (0, 0.001); body = "tank"; }, { name = "top"; at = (0, 0.599); body = "tank"; }')
+run_case('shaken', vessel, words='body 1 .tank. is a tank')
+off = [low - top - 1000 * (9.81 - 0.05 * (2 * math.pi) ** 2 * math.sin(2 * math.pi * t)) * 0.598
+       for t, low, top in zip(*(column('shaken', of) for of in ('t [', 'low', 'top'))) if t > 0.6]
+check(len(off) > 100 and max(map(abs, off)) < 0.02 * 9810 * 0.598, 'a shaken tank: %g Pa off' % max(map(abs, off)))
+gauge = '{ name = "H"; kind = "level"; at = (-0.4, 0.05); body = "tank"; }'
+rolls = changed(vessel, time='end = 2.4;', shapes='{ form = "box"; box = ((-0.5, 0), (0.5, 0.2)); }', probes=gauge,
+                bodies='{ %s }' % VESSEL % MOVES % ('rz', 0.07, 1.6, 1.6))
+run_case('rolls', rolls)
+block = 'name = "tank"; min = (-0.5, 0); max = (0.5, 0.6); cells = (50, 30); centre = (0, 0); %s'
+block %= 'i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip"; ' + MOVES % ('rz', 0.07, 1.6, 1.6)
+run_case('rolls_fv', re.sub('^(bodies|walls|sph).*?\n', '', changed(rolls, blocks='') .replace('blocks: {  }', 'blocks: ( { %s } )' % block), flags=re.M) +
+         'fv: {};', program='fv')
+t, level = column('rolls', 't ['), column('rolls', 'H')
+fv_t, fv_level = column('rolls_fv', 't ['), column('rolls_fv', 'H')
+off = [next(h for s, h in zip(fv_t, fv_level) if s >= at) - h for at, h in zip(t, level) if at < 2.39]
+rms = math.sqrt(sum(o * o for o in off) / len(off))
+check(rms < 0.03 * (max(fv_level) - min(fv_level)), 'a rolling tank: its level is %g m off that of fv' % rms)
+run_case('holds_float', changed(vessel, shapes='{ form = "box"; box = ((-0.5, 0), (0.5, 0.3)); }', probes='{ name = "H"; kind = "level"; at = (0.3, 0); }',
+                                bodies='{ %s }, { name = "float"; free = true; density = 500; box = ((-0.1, 0.2), (0.1, 0.4)); }' % VESSEL % ''))
+check(abs(last('holds_float', 'float y ') - 0.3) < 0.02, 'a float in a tank stands at %g m' % last('holds_float', 'float y '))
+run_case('weighs', changed(vessel, bodies='{ %s }' % VESSEL % 'free = true; density = 2000;'), '--check', code=2, words='say nothing of its own mass')
 lib.end('%d faults' % lib.failed)

@@ -35,6 +35,11 @@ def same(one, other, *titles, most=1e-6):
 
 alone('sph', 'files', files)
 alone('sph', 'points', points)
+# points, too, are put in their place
+alone('sph', 'placed', varied(points, wall, '{ points = ((0, -0.05), (0.025, -0.2), (0, -0.2)); scale = 10; rotate = (0, 0, 90); }',
+                              hull, 'points = ((-0.2, 0.1), (0.2, 0.1), (0.1, -0.1), (-0.1, -0.1)); translate = (0.8, 0.5);',
+                              pool, 'points = ((1, 0), (-1, 0), (-1, -1.2), (1, -1.2)); translate = (1, 0.6);'))
+same('placed', 'points', 'hull y', 'hull force y', 'mass', 'kinetic energy')
 same('files', 'points', 'hull y', 'hull force y', 'mass', 'kinetic energy')
 for folder, case in ('fv_files', files), ('fv_points', points):
     case = re.sub(r'"y_min"; }, {.*} \);\nbodies:.*', '"y_min"; }, { side = "y_max"; } );', case)
@@ -55,7 +60,7 @@ for old, new, words in (
         ('bed.csv', 'wrong.csv', r'walls.\[3\].outline: .*wrong.csv: line 3 is no row of x, y'),
         ('ship.svg#hull', 'ship.svg#keel', r'bodies.\[0\].outline: .*ship.svg: it has no path, polygon or polyline of the id keel'),
         ('outline = "bed.csv";', r'\g<0> points = ((0, 0), (1, 1));', r'walls.\[3\].outline: points are given, too'),
-        ('outline = "bed.csv";', 'points = ((0.5, 0), (2, 0.25)); scale = 2.0;', r'walls.\[3\].scale.*no mesh and no outline is given'),
+        ('side = "x_min";', 'side = "x_min"; scale = 2.0;', r'walls.\[0\].scale.*a side of the domain has its place'),
         ('form = "polygon"', 'form = "box"', 'faulty.cfg:[0-9]*: shapes')):
     refused_by('sph', files, old, new, words)
 lib.end('%d faults' % lib.failed)
