@@ -78,6 +78,18 @@ static inline double *slope_line(const struct particles *p, int i)
     return p->slope + (ptrdiff_t)p->nslope * i;
 }
 
+/* Takes the fraction `share' of the mass of particle i, with the momentum that it carries, out of
+ * `rows': of the state y, or of the rates, for which share is per second. Velocity and volume stay.
+ * Mass that was taken back without its momentum would slow a stream, so that the flow would depend
+ * on the observer. */
+static inline void particles_give_back(struct particles *p, double *rows, int i, double share)
+{
+    const double *y = state_row(p, p->y, i);
+    double *row = state_row(p, rows, i);
+    for (int k = p->nstate / 2 - 1; k < p->nstate; k++)
+        row[k] -= k == p->nstate - 2 ? 0.0 : share * y[k];
+}
+
 /* Whether particle i is a guard, which takes part in no sum over the fluid. */
 static inline bool particles_is_guard(const struct particles *p, int i)
 {

@@ -417,7 +417,7 @@ void refinement_spread_mass(struct sph *s, double gained)
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             if (!particles_is_guard(&q->p, i))
-                state_row(&q->p, q->p.y, i)[at_mass(q->dim)] *= 1.0 - share;
+                particles_give_back(&q->p, q->p.y, i, share);
 }
 
 /* Each stage; one reduction. */
@@ -437,8 +437,7 @@ void refinement_keep_mass(struct sph *s)
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             if (!particles_is_guard(&q->p, i))
-                state_row(&q->p, q->p.rate, i)[at_mass(q->dim)] -=
-                    share * state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
+                particles_give_back(&q->p, q->p.rate, i, share);
 }
 
 void refinement_free(struct sph *s)

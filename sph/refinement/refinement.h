@@ -63,7 +63,8 @@ void refinement_follow(struct sph *s, struct sph *outside);
  * them. */
 void refinement_watch_bodies(struct sph *s);
 /* After the rates of a stage: guards give nothing back for fluxes between them and what flows, so
- * that mass would be lost; in a closed room it is distributed over what flows. Collective. */
+ * that mass would be lost; in a closed room it is distributed over what flows, with its momentum.
+ * Collective. */
 void refinement_keep_mass(struct sph *s);
 /* The same with local steps, at the end of the common step: `gained', kg, on this rank.
  * Collective. */

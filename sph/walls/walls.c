@@ -418,18 +418,16 @@ double *walls_rooms(struct sph *s)
 
 void walls_keep_mass(struct sph *s, int n, const int *who)
 {
-    const size_t width = (size_t)s->p.nstate, mass = width - 1;
+    const int at = at_mass(s->dim);
     double sums[2] = {0.0, 0.0};
     n = who ? n : s->p.n;
     for (int i = 0; i < s->p.n; i++)
-        sums[0] += s->p.rate[width * i + mass];
+        sums[0] += state_row(&s->p, s->p.rate, i)[at];
     for (int k = 0; k < n; k++)
-        sums[1] += s->p.y[width * (who ? who[k] : k) + mass];
+        sums[1] += state_row(&s->p, s->p.y, who ? who[k] : k)[at];
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int k = 0; k < n && sums[1] > 0.0; k++) {
-        const size_t at = width * (who ? who[k] : k) + mass;
-        s->p.rate[at] -= s->p.y[at] * sums[0] / sums[1];
-    }
+    for (int k = 0; k < n && sums[1] > 0.0; k++)
+        particles_give_back(&s->p, s->p.rate, who ? who[k] : k, sums[0] / sums[1]);
 }
 
 /* The end of a part of a wall, which is the wall's own if it is that near. */
