@@ -87,13 +87,11 @@ static int zoned(const struct scene *s, int n, const int *probe, const struct sc
 {
     for (int i = 0; i < n; i++)
         for (int k = 0; k < s->nwalls; k++) {
-            bool low;
+            double lo[3], hi[3];
             *of = s->walls + k;
-            const int axis = scene_zone_axis(*of, &low);
-            if ((*of)->zone == ZONE_NONE)
-                continue;
-            const double x = s->probes[probe[i]].at[axis];
-            if ((low ? x - s->domain.min[axis] : s->domain.max[axis] - x) < (*of)->beach)
+            const int axis = scene_zone_box(s, *of, lo, hi);
+            const double x = axis < 0 ? 0.0 : s->probes[probe[i]].at[axis];
+            if (axis >= 0 && x > lo[axis] && x < hi[axis])
                 return probe[i];
         }
     return -1;

@@ -217,23 +217,12 @@ static void side(struct picture *p, int number)
 /* Zones before sides that make waves or absorb them, over the depth of the domain. */
 static void wave_zones(struct picture *p)
 {
-    const struct scene_domain *d = &p->s->domain;
     for (int k = 0; k < p->s->nwalls; k++) {
         const struct scene_wall *w = p->s->walls + k;
-        bool low;
         double lo[3], hi[3];
-        if (w->zone == ZONE_NONE)
-            continue;
-        const int a = scene_zone_axis(w, &low);
-        if (a != p->axis[0])
-            continue;
-        memcpy(lo, d->min, sizeof lo);
-        memcpy(hi, d->max, sizeof hi);
-        if (low)
-            hi[a] = lo[a] + w->beach;
-        else
-            lo[a] = hi[a] - w->beach;
-        picture_box(p, PICTURE_WAVES, lo, hi, w->zone == ZONE_WAVE ? "wave zone" : "beach");
+        const int axis = scene_zone_box(p->s, w, lo, hi);
+        if (axis >= 0 && axis == p->axis[0])
+            picture_box(p, PICTURE_WAVES, lo, hi, w->zone == ZONE_WAVE ? "wave zone" : "beach");
     }
 }
 

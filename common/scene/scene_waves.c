@@ -77,38 +77,47 @@ int scene_zone_axis(const struct scene_wall *w, bool *low)
     return (w->side - SIDE_X_MIN) / 2;
 }
 
-/* A corner of a side's zone. */
-static void corner_of(const struct scene *s, const struct scene_wall *w, int corner, double x[3])
+int scene_zone_box(const struct scene *s, const struct scene_wall *w, double lo[3], double hi[3])
 {
     bool low;
     const int axis = scene_zone_axis(w, &low);
+    if (w->zone == ZONE_NONE)
+        return -1;
     for (int a = 0; a < 3; a++) {
-        x[a] = corner >> a & 1 ? s->domain.max[a] : s->domain.min[a];
-        if (a == axis && low != !(corner >> a & 1))
-            x[a] = low ? s->domain.min[a] + w->beach : s->domain.max[a] - w->beach;
+        lo[a] = s->domain.min[a];
+        hi[a] = s->domain.max[a];
     }
-    if (s->domain.dim == 2)
-        x[2] = 0.0;
+    if (low)
+        hi[axis] = lo[axis] + w->beach;
+    else
+        lo[axis] = hi[axis] - w->beach;
+    return axis;
 }
 
 /* Least and largest place along the direction and across it in the zones that make waves. */
 static void window_of(const struct scene *s, double window[2][2])
 {
-    double d[2][3], x[3];
+    double d[2][3], lo[3], hi[3];
     scene_waves_direction(s, d[0], d[1]);
     const bool any = scene_makes_waves(s);
     for (int k = 0; k < 2; k++) {
         window[k][0] = any ? INFINITY : 0.0;
         window[k][1] = any ? -INFINITY : 0.0;
     }
-    for (int k = 0; k < s->nwalls; k++)
-        for (int corner = 0; corner < 8 && s->walls[k].zone == ZONE_WAVE; corner++) {
-            corner_of(s, s->walls + k, corner, x);
-            for (int i = 0; i < 2; i++) {
-                window[i][0] = fmin(window[i][0], vec3_dot(x, d[i]));
-                window[i][1] = fmax(window[i][1], vec3_dot(x, d[i]));
+    for (int k = 0; k < s->nwalls; k++) {
+        if (s->walls[k].zone != ZONE_WAVE)
+            continue;
+        scene_zone_box(s, s->walls + k, lo, hi);
+        for (int i = 0; i < 2; i++) {
+            double from = 0.0, to = 0.0;
+            for (int a = 0; a < s->domain.dim; a++) {
+                from += fmin(lo[a] * d[i][a], hi[a] * d[i][a]);
+                to += fmax(lo[a] * d[i][a], hi[a] * d[i][a]);
             }
+            window[i][0] = fmin(window[i][0], from);
+            window[i][1] = fmax(window[i][1], to);
         }
+    }
 }
 
 /* s: so that a run which goes on to a somewhat later end sees the same sea. */
@@ -385,11 +394,10 @@ void scene_waves_check(struct scene *s, const struct params *p, struct faults *f
 static bool reaches(const struct scene *s, const struct scene_wall *w, const double *lo,
                     const double *hi)
 {
-    bool low;
-    const int axis = scene_zone_axis(w, &low);
-    const double small = 1e-6 * w->beach,
-                 from = low ? s->domain.min[axis] : s->domain.max[axis] - w->beach;
-    return w->zone != ZONE_NONE && hi[axis] > from + small && lo[axis] < from + w->beach - small;
+    double from[3], to[3];
+    const int axis = scene_zone_box(s, w, from, to);
+    const double small = 1e-6 * w->beach;
+    return axis >= 0 && hi[axis] > from[axis] + small && lo[axis] < to[axis] - small;
 }
 
 /* A hundredth of the depth over the floor is the floor. */

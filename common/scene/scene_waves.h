@@ -42,6 +42,9 @@ double scene_waves_depth(const struct scene *s);
 void scene_waves_direction(const struct scene *s, double *d, double *across);
 /* The axis that a wall's side is normal to; *low: whether it is the lower side. */
 int scene_zone_axis(const struct scene_wall *w, bool *low);
+/* The box lo[3], hi[3], m, of the zone before a wall's side: as long as the zone along the axis
+ * that is returned, and as wide as the domain. -1: no zone stands there. */
+int scene_zone_box(const struct scene *s, const struct scene_wall *w, double lo[3], double hi[3]);
 /* What the group waves asks for, in the terms of waves.h. */
 struct wave_spec scene_waves_spec(const struct scene *s);
 

@@ -61,13 +61,15 @@ struct wave_zones *wave_zones_create(const struct scene *s, bool pass)
     }
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
+        double lo[3], hi[3];
         bool low;
-        const int axis = scene_zone_axis(w, &low);
-        if (w->zone == ZONE_NONE)
+        const int axis = scene_zone_box(s, w, lo, hi);
+        if (axis < 0)
             continue;
+        scene_zone_axis(w, &low);
         z->zone[z->n].axis = axis;
-        z->zone[z->n].edge = low ? s->domain.min[axis] : s->domain.max[axis];
-        z->zone[z->n].length = low ? w->beach : -w->beach;
+        z->zone[z->n].edge = low ? lo[axis] : hi[axis];
+        z->zone[z->n].length = (low ? hi[axis] : lo[axis]) - z->zone[z->n].edge;
         z->zone[z->n].per = 1.0 / z->zone[z->n].length;
         z->zone[z->n].rate = 4.0 * M_PI / w->beach_period;
         if (w->zone == ZONE_WAVE)
