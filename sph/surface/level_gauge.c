@@ -261,11 +261,22 @@ static double level_of(const struct sph *s, const struct column *c, double volum
     return level > c->roof + 0.5 * s->dx ? level + c->drowned : level; /* no roof: NAN */
 }
 
-/* The section that water really fills is that of its inside, from above the ground to below the
- * level: beside walls, where levels of refinement meet and where particles crowd, volumes do not
- * add up to the column's. Water with air in it, or less than 5.5 dx deep, fills the section. Hence
- * two sums: the first for the level, from which the window follows, the second for what is in
- * it. */
+/* Whether the water of the column can stand closer, or wider, than its volumes say: beside walls,
+ * over a floor that is not even, under a roof and where levels of refinement meet. */
+static bool is_disturbed(const struct sph *s, const struct column *c)
+{
+    bool cut = s->finer || c->ground > c->floor + 1e-6 * s->dx || isfinite(c->roof);
+    for (int a = 0; a < s->dim; a++)
+        cut = cut || (a != c->up && c->hi[a] - c->lo[a] < (4.0 - 1e-6) * s->dx);
+    return cut;
+}
+
+/* Away from walls the volumes over the section are the level: their sum over a closed tank is that
+ * of its water (to 3e-5 in waves). Elsewhere the section that water really fills is that of its
+ * inside, from above the ground to below the level: there volumes do not add up to the column's,
+ * but the topmost row holds less than a row's, by which the level would be 0.03 dx low. Water with
+ * air in it, or less than 5.5 dx deep, fills the section. Hence a second sum: the first is for the
+ * level, from which the window follows. */
 double level_gauge(struct sph *s, const double *at)
 {
     const struct column c = column_at(s, at);
@@ -274,7 +285,7 @@ double level_gauge(struct sph *s, const double *at)
     sum_column(s, &c, &none, all);
     const double level = level_of(s, &c, all[COLUMN_ALL]);
     const struct level_window w = level_window(isfinite(c.roof) ? c.crest : c.ground, level, s->dx);
-    if (!level_window_fits(&w))
+    if (!is_disturbed(s, &c) || !level_window_fits(&w))
         return level;
     sum_column(s, &c, &w, sums);
     const double section = sums[COLUMN_WINDOW] / (w.high - w.low);
