@@ -196,6 +196,23 @@ static void free_history(struct history *h, int n)
         mem_free(h->v[i]);
 }
 
+/* Whether the waves told apart are those of a sea or a group of the group waves. */
+static bool is_sea(const struct scene *s, const struct scene_gauges *g)
+{
+    return s->has_waves && s->waves.kind != WAVE_REGULAR && !(g->period > 0.0);
+}
+
+/* s: what the record is cut to a whole number of: a period, or what a sea repeats itself after
+ * where the record holds that, for then its lines are those of the spectrum and none leaks into
+ * another. */
+static double unit_of(const struct scene *s, const struct scene_gauges *g, double record)
+{
+    const double period = period_of(s, g), repeat = is_sea(s, g) && s->waves.kind != WAVE_FILE
+                                                        ? scene_waves_spec(s).repeat
+                                                        : INFINITY;
+    return record * (1.0 + 1e-9) >= repeat ? repeat : period;
+}
+
 /* Squares of the heights of one frequency that run onward and back; how well the gauges stand for
  * it. */
 static double separate(const struct history *h, int n, const double *x, double omega, double k,
@@ -218,11 +235,11 @@ static double separate(const struct history *h, int n, const double *x, double o
  * of squares, nan where no line is left. The larger sum is taken as incident: waves may run against
  * waves.direction. */
 static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
-                            const struct history *h, int n, const int *probe, double period,
+                            const struct history *h, int n, const int *probe, double all,
                             struct summary *summary)
 {
-    const double all = h->t[h->n - 1] - h->t[0], gravity = vec3_length(s->fluid.gravity);
-    const bool sea = s->has_waves && s->waves.kind != WAVE_REGULAR && !(g->period > 0.0);
+    const double period = period_of(s, g), gravity = vec3_length(s->fluid.gravity);
+    const bool sea = is_sea(s, g);
     double x[GAUGE_PROBES], sums[2] = {0.0, 0.0}, squares[2];
     places_of(s, n, probe, x);
     if (!sea && separate(h, n, x, 2.0 * M_PI / period, number_of(s, period), sums) < useless)
@@ -247,9 +264,13 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
                  g->name);
     else
         log_say("waves      gauges %s: amplitude %.4g m %s, %.4g m back: R %.3g %% (period %.4g s, "
-                "over %.3g periods)",
+                "over %.3g periods%s)",
                 g->name, incident, onward ? "onward" : "against waves.direction", back,
-                100.0 * back / incident, period, all / period);
+                100.0 * back / incident, period, all / period,
+                sea && s->waves.kind == WAVE_SEA && unit_of(s, g, all) == period
+                    ? "; the ends of a record that holds no whole waves.repeat count as some "
+                      "per cent of R"
+                    : "");
 }
 
 static bool makes_sea(const struct scene *s) { return s->has_waves && s->waves.kind == WAVE_SEA; }
@@ -325,14 +346,14 @@ void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
         int probe[GAUGE_PROBES];
         const int n = probes_of(s, g, probe, wrong);
         const double period = period_of(s, g), end = t->v[(size_t)(t->nrows - 1) * t->ncolumns],
-                     from = g->from > 0.0 ? g->from : 0.5 * end,
-                     whole = floor((end - from) / period * (1.0 + 1e-9)) * period;
+                     from = g->from > 0.0 ? g->from : 0.5 * end, unit = unit_of(s, g, end - from),
+                     whole = floor((end - from) / unit * (1.0 + 1e-9)) * unit;
         struct history h = read_history(s, t, n, probe, end - whole);
         if (h.n >= 0 && (h.n < 16 || whole < period))
             log_warn("gauges %s: %d rows over %.3g periods are too few to tell waves apart",
                      g->name, h.n, whole / period);
         else if (h.n >= 0) {
-            tell_reflection(s, g, &h, n, probe, period, summary);
+            tell_reflection(s, g, &h, n, probe, whole, summary);
             tell_heights(s, &h, n, probe, summary);
             if (h.n * period < 16.0 * whole)
                 log_warn(

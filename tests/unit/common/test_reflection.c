@@ -5,8 +5,12 @@
 
 #include <complex.h>
 
+#include "../../../common/files/files.h"
+#include "../../../common/run/wave_gauges.h"
+#include "../../../common/scene/scene.h"
 #include "../../../common/waves/reflection.h"
 #include "../../../common/waves/wave_statistics.h"
+#include "../../../common/waves/waves.h"
 
 enum { N = 2000, GAUGES = 3 };
 static const double places[GAUGES] = {0.0, 0.1, 0.27}; /* wave lengths */
@@ -75,6 +79,67 @@ TEST(wave_numbers_are_found)
     for (int g = 0; g < 4; g++)
         A[g] = cexp(-I * (k * x[g])) + 0.1 * cexp(I * (k * x[g] + 1.0));
     near(reflection_fit_number(4, x, A, 1.02 * k, 0.05), k, 1e-6);
+}
+
+enum { LINES = 29 }; /* 12/20 to 40/20 Hz */
+
+/* A sea of the peak period 0.9 s that repeats itself after 20 s, and a share R of each of its lines
+ * that runs back, at gauges over 0.16 m of water, from 18 s to the end: rows of the file. */
+static void write_sea(const char *path, const double *x, double R, double end)
+{
+    FILE *f = fopen(path, "w");
+    fputs("t [s],a [m],b [m],c [m]\n", f);
+    for (double t = 18.0; t <= end; t += 0.02) {
+        fprintf(f, "%.17g", t);
+        for (int g = 0; g < GAUGES; g++) {
+            double eta = 0.16;
+            for (int j = 0; j < LINES; j++) {
+                const double w = 2.0 * M_PI * (12 + j) / 20.0, k = waves_number(w, 9.81, 0.16),
+                             a = 0.001 * exp(-0.02 * (j - 10) * (j - 10)), at = w * t + 7.0 * j * j;
+                eta += a * (cos(at - k * x[g]) + R * cos(at + k * x[g] + 2.0 * j));
+            }
+            fprintf(f, ",%.17g", eta);
+        }
+        fputc('\n', f);
+    }
+    fclose(f);
+}
+
+/* What comes back of a sea, by a record that is longer than what it repeats itself after: its last
+ * 20 s are taken, for their lines do not leak into each other. */
+static double of_sea(double R)
+{
+    static const char path[] = "test_reflection_sea.csv";
+    const double x[GAUGES] = {2.0, 2.2, 2.6};
+    struct scene *s = NEW(struct scene, 1);
+    double is = NAN;
+    *s = (struct scene){.has_waves = true, .nprobes = GAUGES, .ngauges = 1, .nshapes = 1};
+    s->domain.dim = 2;
+    s->fluid.gravity[1] = -9.81;
+    s->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.16};
+    s->waves =
+        (struct scene_waves){.kind = WAVE_SEA, .height = 0.01, .period = 0.9, .repeat = 20.0};
+    s->waves.made.period = 0.9;
+    s->gauges[0] = (struct scene_gauges){.name = "tank", .probes = "a b c", .from = 18.0};
+    for (int g = 0; g < GAUGES; g++) {
+        s->probes[g] = (struct scene_probe){.kind = PROBE_LEVEL, .at = {x[g], 0.17}};
+        s->probes[g].name[0] = (char)('a' + g);
+    }
+    struct summary *to = summary_create();
+    write_sea(path, x, R, 40.0);
+    wave_gauges_judge(s, path, ".", to);
+    summary_find(to, "reflection.tank.R", &is);
+    summary_free(&to);
+    remove(path);
+    remove("spectrum_tank.csv");
+    mem_free(s);
+    return is;
+}
+
+TEST(seas_are_told_apart_by_their_lines)
+{
+    near(of_sea(0.0), 0.0, 0.01);
+    near(of_sea(0.05), 0.05, 0.01);
 }
 
 /* Heights of a sum of two waves of 1 and 1.2 Hz: their beats; a sine has one height. The spectrum
