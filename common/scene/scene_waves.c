@@ -94,6 +94,19 @@ int scene_zone_box(const struct scene *s, const struct scene_wall *w, double lo[
     return axis;
 }
 
+/* Widens `ends' to where the box reaches along d, m. */
+static void reach_along(int dim, const double *d, const double *lo, const double *hi,
+                        double ends[2])
+{
+    double from = 0.0, to = 0.0;
+    for (int a = 0; a < dim; a++) {
+        from += fmin(lo[a] * d[a], hi[a] * d[a]);
+        to += fmax(lo[a] * d[a], hi[a] * d[a]);
+    }
+    ends[0] = fmin(ends[0], from);
+    ends[1] = fmax(ends[1], to);
+}
+
 /* Least and largest place along the direction and across it in the zones that make waves. */
 static void window_of(const struct scene *s, double window[2][2])
 {
@@ -108,15 +121,8 @@ static void window_of(const struct scene *s, double window[2][2])
         if (s->walls[k].zone != ZONE_WAVE)
             continue;
         scene_zone_box(s, s->walls + k, lo, hi);
-        for (int i = 0; i < 2; i++) {
-            double from = 0.0, to = 0.0;
-            for (int a = 0; a < s->domain.dim; a++) {
-                from += fmin(lo[a] * d[i][a], hi[a] * d[i][a]);
-                to += fmax(lo[a] * d[i][a], hi[a] * d[i][a]);
-            }
-            window[i][0] = fmin(window[i][0], from);
-            window[i][1] = fmax(window[i][1], to);
-        }
+        for (int i = 0; i < 2; i++)
+            reach_along(s->domain.dim, d[i], lo, hi, window[i]);
     }
 }
 
@@ -461,12 +467,19 @@ static void warn_of_solids(const struct scene *s)
 /* waves.at of a group is a place and a time, not a point. */
 static void describe_focus(const struct scene *s, const struct waves *w)
 {
-    const double grown = s->waves.start * w->period;
+    const double grown = s->waves.start * w->period, at = w->of.at[0];
+    double d[3], ends[2] = {INFINITY, -INFINITY};
+    scene_waves_direction(s, d, NULL);
+    reach_along(s->domain.dim, d, s->domain.min, s->domain.max, ends);
     log_say("its focus: %g m along its direction, t = %g s", w->of.at[0], w->of.at[1]);
     if (w->of.at[1] < grown || w->of.at[1] > s->time.end)
         log_warn("waves.at: the focus, t = %g s, is not within the run, from t = %.3g s, when the "
                  "waves are fully grown, to %g s: give at = (place in m, time in s)",
                  w->of.at[1], grown, s->time.end);
+    if (at < ends[0] || at > ends[1])
+        log_warn("waves.at: the focus, %g m along waves.direction, is not in the domain, which "
+                 "reaches from %g to %g m there",
+                 at, ends[0], ends[1]);
 }
 
 static void say_field(const struct waves *w)

@@ -591,6 +591,7 @@ sph:     { dx = 0.05; };
 tells('group', 's/^$//', 'its focus: 6 m along its direction, t = 8 s')
 holds(not told('waves.at'), 'a focus within the run is warned of')
 tells('group', 's/at = (6, 8)/at = (6, 0)/', 'warning: waves.at: the focus, t = 0 s, is not within the run, from t = 2.8 s')
+tells('group', 's/at = (6, 8)/at = (60, 8)/', 'warning: waves.at: the focus, 60 m along waves.direction, is not in the domain, which reaches from')
 
 # regions of refinement
 write('apr.cfg', '''format = 1;
