@@ -85,14 +85,14 @@ struct sph_totals {
     /* With zones: |M/mass - 1|, with and without the mass that the accumulators of boundary faces
      * hold. */
     double fluctuation, fluctuation_particles;
-    double fallen[6];  /* kg: of this level, gone out through each side where water falls out; this
-                          rank */
-    double lost;       /* number of other particles removed; this rank */
-    double lost_at[3]; /* m: the first of a level beyond a side; this rank */
-    bool lost_any;     /* there is one */
-    double lost_said;  /* of all ranks, when last reported */
-    int64_t pairs;     /* ordered pairs within R summed over stages; this rank */
-    int64_t pairs_now; /* the same, of the present list */
+    double fallen[6];      /* kg: of this level, gone out through each side where water falls out or
+                              that has no wall; this rank */
+    double lost;           /* number of other particles removed; this rank */
+    double lost_at[3];     /* m: the first of a level beyond a side; this rank */
+    bool lost_any;         /* there is one */
+    double lost_said;      /* of all ranks, when last reported */
+    int64_t pairs;         /* ordered pairs within R summed over stages; this rank */
+    int64_t pairs_now;     /* the same, of the present list */
     double wall_s, cpu_s;  /* s: of all steps; this rank */
     struct fit signal_fit; /* of a standing wave or of the drop, sampled with the series */
     struct mean_force mean_force;

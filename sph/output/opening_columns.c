@@ -48,8 +48,8 @@ static const bool *open_sides(const struct sph *s)
     return s->zones && s->prm.outer == OUTER_SIDES ? s->open : none;
 }
 
-/* Mass through each side since the start, kg, positive inwards, summed over levels and ranks; 0 for
- * sides that nothing passes. Collective. */
+/* Mass through each side since the start, kg, positive inwards, summed over levels and ranks.
+ * Collective. */
 static void sum_through(const struct sph *s, double through[6])
 {
     for (int side = 0; side < 6; side++) {
@@ -101,12 +101,12 @@ void opening_summary(const struct sph *s, struct summary *to)
         budget_summary(s, to);
     sum_through(s, through);
     for (int side = 0; side < 2 * s->dim; side++) {
+        sum += through[side]; /* what has gone over a side without a wall, too */
+        in += fmax(through[side], 0.0);
         if (passing(s->run, open_sides(s), side) == PASSES_NOTHING)
             continue;
         any = true;
         summary_real(to, key_text("through.%s", scene_side_names[side]), through[side]);
-        sum += through[side];
-        in += fmax(through[side], 0.0);
     }
     if (any && !around)
         summary_real(to, "drift.budget", (zones_mass(s) - sum - s->start.mass) / in);

@@ -359,16 +359,6 @@ static void save_levels(struct sph *s, struct h5 *f)
     regions_save(s->refinement->regions, f);
 }
 
-/* Whether some side is one where it is to. Whether the scene has a side where water is to fall
- * out. */
-static bool water_falls(const struct sph *s)
-{
-    bool any = false;
-    for (int k = 0; k < s->run->scene.nwalls; k++)
-        any = any || s->run->scene.walls[k].kind == WALL_FALLS;
-    return any;
-}
-
 /* Called at the end of a step on all ranks; it leaves no trace in the run. */
 void sph_checkpoint(void *state, struct h5 *f)
 {
@@ -380,8 +370,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     for (const struct sph *q = s; q; q = q->finer)
         for (int side = 0; side < 6; side++)
             fallen[side] += q->total.fallen[side];
-    if (water_falls(s))
-        h5_write_real(f, "fallen", "kg", 6, 1, fallen, false);
+    h5_write_real(f, "fallen", "kg", 6, 1, fallen, false);
     double back = 0.0;
     for (const struct sph *q = s; q && q->walls; q = q->finer)
         back += (double)q->walls->returned;
@@ -453,7 +442,7 @@ static bool read_next_id(struct sph *s, struct h5 *f)
 static bool read_numbers(struct sph *s, struct h5 *f)
 {
     if (!read_next_id(s, f) || !h5_read_parts(f, "lost", 1, &s->total.lost) ||
-        (water_falls(s) && !h5_read_parts(f, "fallen", 6, s->total.fallen)))
+        !h5_read_parts(f, "fallen", 6, s->total.fallen))
         return false;
     double back;
     if (s->walls && h5_read_parts(f, "put_back", 1, &back))

@@ -299,21 +299,24 @@ void level_update(struct sph *s, int k, double dt)
     stop(s, "update");
 }
 
-/* Whether a particle has gone out where water is to fall. Counts its mass for that side, unless it
- * is a guard. */
+/* Whether a particle has gone out where water is to fall. Its mass counts for that side, or for the
+ * one without a wall that it has gone over, unless it is a guard. */
 static bool has_fallen(struct sph *s, int i)
 {
     const double *y = state_row(&s->p, s->p.y, i);
-    for (int side = 0; side < 2 * s->dim; side++) {
+    int over = -1;
+    bool falls = false;
+    for (int side = 0; side < 2 * s->dim && !falls; side++) {
         const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
-        if (w && w->kind == WALL_FALLS &&
-            (side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2])) {
-            if (!particles_is_guard(&s->p, i))
-                s->total.fallen[side] += y[at_mass(s->dim)];
-            return true;
-        }
+        falls = w && w->kind == WALL_FALLS;
+        if (side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2])
+            over = falls || !w ? side : over;
+        else
+            falls = false;
     }
-    return false;
+    if (over >= 0 && !particles_is_guard(&s->p, i))
+        s->total.fallen[over] += y[at_mass(s->dim)];
+    return falls;
 }
 
 /* Removes particles beyond a side where nothing holds them; the number of those that were to stay.

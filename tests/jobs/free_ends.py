@@ -45,6 +45,10 @@ for program, folder, case in ('fv', 'dry_fv', dry), ('sph', 'dry_sph', dry_sph),
 close('left in the domain, in fv and in sph', last('dry_fv/series.csv', 'volume ['), last('dry_sph/series.csv', 'mass') / 1000, 0.05)
 near('sph: water that fell out and is not told', number('dry_sph', 'budget'), 0, 1e-9)
 below('sph: particles that fell out and count as lost', number('dry_sph', 'particles_lost'), 0)
+# what goes over a side without a wall has left, too
+go('sph', 'bare', varied(dry_sph, '{ side = "x_min"; }, ', '', '((0, 0)', '((0.1, 0)'), warned=True)
+below('particles that go over the bare side, at least', 10, number('bare', 'particles_lost'))
+near('water over a bare side that is told as missing', number('bare', 'budget'), 0, 1e-9)
 # with levels, whose guards leave beside what they stand for
 go('sph', 'levels', dry_sph, 'sph.dx=0.04 apr.regions=({min=(0.6,-1);max=(2,0.3);})', warned=True)
 near('levels: water that fell out and is not told', number('levels', 'budget'), 0, 0.02)
