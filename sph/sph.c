@@ -288,7 +288,7 @@ static void describe(const struct run *r)
     else
         log_warn(
             "there is no water at the start, or walls and bodies leave it no place: lines have "
-            "fluid on their left; a body in 2D is a tank if all water of the shapes is inside "
+            "fluid on their left; a body is a tank if all water of the shapes is inside "
             "and there are no walls");
     if (has_partner_flow(r))
         windows_describe(r, prm);

@@ -82,7 +82,7 @@ struct scene_body {
     const struct scene_mesh *mesh;    /* what its file holds; NULL: points */
     bool thin;                        /* particles on one side have no neighbours on the other */
     int kind;                         /* WALL_SLIP or WALL_NO_SLIP */
-    bool tank;                        /* in 2D its points are around all water of the start */
+    bool tank;                        /* resolved: it is around all water of the start */
     bool turned;                      /* the sense of the points was reversed by scene_orient */
     bool cut;                         /* what is beyond closed sides was left out: scene_cut.h */
     double centre[3];                 /* m: centre of rotation and of moments at t = 0 */

@@ -223,7 +223,7 @@ bool scene_is_room(const struct scene *s, const double *x)
 {
     for (int k = 0; k < s->nbodies; k++) {
         const struct line l = line_of(&s->bodies[k].points, true);
-        if (line_inside(&l, x) != s->bodies[k].tank)
+        if (l.n > 2 && line_inside(&l, x) != s->bodies[k].tank)
             return false;
     }
     return scene_in_tanks(s, x);

@@ -155,7 +155,7 @@ static bool is_sound(const struct reading *r, const struct scene_mesh *m, const 
 
 /* --- which side --- */
 
-/* Share of the fluid of the shapes that a closed surface holds. */
+/* Share of the fluid of the shapes that a closed surface holds; none: nan. */
 static double share_inside(const struct scene *s, const struct scene_mesh *m)
 {
     enum { N = 24 };
@@ -171,7 +171,7 @@ static double share_inside(const struct scene *s, const struct scene_mesh *m)
         wet++;
         in += scene_mesh_holds(m, x);
     }
-    return wet > 0 ? (double)in / wet : 1.0;
+    return (double)in / wet;
 }
 
 /* Other walls or open sides bound the fluid outside of a closed surface. */
@@ -190,9 +190,15 @@ static bool is_bounded(const struct scene *s)
 static int side_of_closed(const struct scene *s, const struct scene_mesh *m)
 {
     const double in = share_inside(s, m);
-    if (in < 0.02 || in > 0.98)
-        return in < 0.02 ? FLUID_OUTSIDE : FLUID_INSIDE;
-    return is_bounded(s) ? FLUID_OUTSIDE : FLUID_INSIDE;
+    return in < 0.02 || (in <= 0.98 && is_bounded(s)) ? FLUID_OUTSIDE : FLUID_INSIDE;
+}
+
+/* A body is a tank as in the plane (scene_lines.h). */
+static int side_of_body(struct scene *s, const struct scene_mesh *m)
+{
+    bool *tank = &s->bodies[m->index].tank;
+    *tank = s->nwalls == 0 && s->nshapes > 0 && share_inside(s, m) == 1.0;
+    return *tank ? FLUID_INSIDE : FLUID_OUTSIDE;
 }
 
 /* Parts of the area with fluid close by before the normals' tails and before their heads. */
@@ -262,14 +268,16 @@ static void orient(const struct reading *r, struct scene_mesh *m)
         m->parts = trimesh_orient_closed(&m->mesh, 1);
     if (!m->mesh.closed) {
         orient_open(r, m);
-    } else if (m->owner != MESH_OF_WALL) {
-        m->fluid_side = m->owner == MESH_OF_BODY ? FLUID_OUTSIDE : FLUID_INSIDE;
-    } else {
+    } else if (m->owner == MESH_OF_SHAPE) {
         m->fluid_side = FLUID_INSIDE;
-        const int wanted = r->s->walls[m->index].fluid_side;
+    } else {
+        const int wanted = m->owner == MESH_OF_WALL ? r->s->walls[m->index].fluid_side : FLUID_AUTO;
+        m->fluid_side = FLUID_INSIDE;
         m->tree = tree_create(&m->mesh);
-        m->fluid_side =
-            wanted == FLUID_INSIDE || wanted == FLUID_OUTSIDE ? wanted : side_of_closed(r->s, m);
+        m->fluid_side = m->owner == MESH_OF_BODY ? side_of_body(r->s, m)
+                        : wanted == FLUID_INSIDE || wanted == FLUID_OUTSIDE
+                            ? wanted
+                            : side_of_closed(r->s, m);
         tree_free(&m->tree);
     }
     if (m->mesh.closed && m->fluid_side == FLUID_OUTSIDE)

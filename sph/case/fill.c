@@ -333,7 +333,7 @@ static void warn_of_taken(const struct sph *s, const struct look *k)
     if (k->drawn ? 2 * n[1] > n[0] : n[1] > 0 && n[1] == n[0])
         log_warn("walls and bodies take %lld of %lld particles that the shapes give: lines have "
                  "fluid on "
-                 "their left; a body in 2D is a tank if all water is inside and there are no walls",
+                 "their left; a body is a tank if all water is inside and there are no walls",
                  n[1], n[0]);
 }
 

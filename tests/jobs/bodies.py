@@ -246,4 +246,9 @@ run_case('holds_float', changed(vessel, shapes='{ form = "box"; box = ((-0.5, 0)
                                 bodies='{ %s }, { name = "float"; free = true; density = 500; box = ((-0.1, 0.2), (0.1, 0.4)); }' % VESSEL % ''))
 check(abs(last('holds_float', 'float y ') - 0.3) < 0.02, 'a float in a tank stands at %g m' % last('holds_float', 'float y '))
 run_case('weighs', changed(vessel, bodies='{ %s }' % VESSEL % 'free = true; density = 2000;'), '--check', code=2, words='say nothing of its own mass')
+# In 3D, too: at rest its floor bears the weight of the water (2 %).
+run_case('vessel3', changed(vessel, time='end = 0.3;', fluid='rho = 1000.0; gravity = (0, 0, -9.81);', domain='dim = 3; min = (0, 0, 0); max = (0.5, 0.4, 0.4);',
+                            shapes='{ form = "box"; box = ((0.1, 0.1, 0.1), (0.4, 0.3, 0.25)); }', probes='', sph='dx = 0.025;',
+                            bodies='{ name = "tank"; box = ((0.1, 0.1, 0.1), (0.4, 0.3, 0.35)); }'), words='fluid inside')
+within('weight of the water in a tank at rest', mean('vessel3', 'tank force z', 0.1), -9810 * 0.3 * 0.2 * 0.15, 0.02)
 lib.end('%d faults' % lib.failed)
