@@ -1,5 +1,6 @@
-/* scene_cut.h - bodies that stand in the floor or in another closed side of the domain: a pile,
- * half a disc. SPDX-License-Identifier: BSD-3-Clause */
+/* scene_cut.h - what is drawn beyond the domain: bodies that stand in the floor or in another
+ * closed side, as a pile or half a disc, and beds that are longer than a period.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_SCENE_CUT_H
 #define COMMON_SCENE_CUT_H
 
@@ -9,5 +10,8 @@
  * its `cut'; its corners then lie on the side. A body that moves, is all beyond, or crosses a side
  * more than twice (legs of a table) stays as it is, for the checks of the program to refuse. */
 void scene_cut_at_sides(const struct scene *s, struct scene_body *b);
+/* In 2D: an open line that spans a period, as a bed does, keeps what lies within it, for its images
+ * go on there. One that comes back through a periodic side stays as it is. */
+void scene_cut_at_periods(const struct scene *s, struct scene_wall *w);
 
 #endif

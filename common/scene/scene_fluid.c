@@ -229,11 +229,24 @@ bool scene_is_room(const struct scene *s, const double *x)
     return scene_in_tanks(s, x);
 }
 
+/* Whether x lies inside a closed line, or inside one of its images next to it. */
+static bool inside_some(const struct scene_domain *d, const struct line *l, const double *x)
+{
+    bool in = false;
+    for (int i = d->periodic[0] ? -1 : 0; i <= (d->periodic[0] ? 1 : 0) && !in; i++)
+        for (int j = d->periodic[1] ? -1 : 0; j <= (d->periodic[1] ? 1 : 0) && !in; j++) {
+            const double y[2] = {x[0] + i * (d->max[0] - d->min[0]),
+                                 x[1] + j * (d->max[1] - d->min[1])};
+            in = line_inside(l, y);
+        }
+    return in;
+}
+
 bool scene_in_tanks(const struct scene *s, const double *x)
 {
     for (int k = 0; k < s->nwalls; k++) {
         const struct line l = line_of(&s->walls[k].points, true);
-        if (s->walls[k].closed && line_inside(&l, x) != (line_area(&l) > 0.0))
+        if (s->walls[k].closed && inside_some(&s->domain, &l, x) != (line_area(&l) > 0.0))
             return false;
     }
     return true;
@@ -264,6 +277,7 @@ void scene_orient(struct scene *s)
         if (w->side != SIDE_NONE || w->points.n < 2)
             continue;
         close_line(&w->points, &w->closed);
+        scene_cut_at_periods(s, w);
         w->turned = scene_line_is_reversed(s, k);
         if (w->turned)
             points_reverse(&w->points);

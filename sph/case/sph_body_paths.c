@@ -19,7 +19,7 @@ enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
 struct bound {
     struct line line;
     char name[64];
-    int body;       /* -1: a wall */
+    int body, wall; /* in the scene's lists; body -1: a wall */
     bool elsewhere; /* a body in another program's box */
     double x[2][2]; /* of a side */
 };
@@ -48,6 +48,7 @@ static int find_bounds(const struct scene *c, const struct sph_params *used, str
         if (w->kind >= WALL_INFLOW || (side >= 0 && !sph_params_reaches(&c->domain, used, side)))
             continue;
         all[n].body = -1;
+        all[n].wall = k;
         snprintf(all[n].name, sizeof all[n].name, "wall %d", k + 1);
         if (side >= 0)
             side_ends(&c->domain, side, all[n].x);
@@ -211,6 +212,37 @@ static void check_backs(const struct run *r, const struct sph_params *used, cons
                      at_back->line.closed ? "move it"
                                           : "give the points of that line in reverse order, close "
                                             "it round what is solid, or move the body");
+    }
+}
+
+/* Ends of open lines on a periodic side, where another line, side or body must go on beyond it: a
+ * bed has one height at both. */
+static void check_period_ends(const struct run *r, const struct sph_params *used,
+                              const struct bound *all, int n, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    const double near = 0.1 * used->dx;
+    for (int k = 0; k < 4 * n; k++) {
+        const struct bound *b = all + k / 4;
+        const int a = k / 2 % 2, last = k % 2;
+        const double *x = b->line.x[last ? b->line.n - 1 : 0], *lo = d->min, *hi = d->max;
+        double y[2] = {x[0], x[1]}, least = INFINITY;
+        const bool low = fabs(x[a] - lo[a]) < near;
+        if (b->line.closed || is_side(b) || !d->periodic[a] ||
+            (!low && fabs(x[a] - hi[a]) >= near) || x[1 - a] < lo[1 - a] + near ||
+            x[1 - a] > hi[1 - a] - near)
+            continue;
+        y[a] += low ? hi[a] - lo[a] : lo[a] - hi[a];
+        for (int m = 0; m < n; m++)
+            least = fmin(least, line_distance(&all[m].line, y));
+        if (least <= near)
+            continue;
+        params_fault(r->params, f, key_text("walls.[%d]", b->wall),
+                     "%s ends on the periodic side %c at (%g, %g) m, and nothing goes on from "
+                     "(%g, %g) m, where its image ends: a bed needs the same height at both "
+                     "ends; else end it on a wall, or take walls for the period",
+                     b->name, "xy"[a], x[0], x[1], y[0], y[1]);
+        return;
     }
 }
 
@@ -548,6 +580,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     if (f->n == before && plane)
         check_contacts(r, used, all, n, f);
     check_backs(r, used, all, n, f);
+    check_period_ends(r, used, all, n, f);
     if (!plane)
         check_meshes(r, used, bodies, times, f);
     for (int k = 0; k < c->nbodies; k++)

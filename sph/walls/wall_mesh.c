@@ -178,17 +178,33 @@ static void add_sides(struct sph *s, struct walls *w)
     }
 }
 
+/* Keeps what lies between lo and hi, m, of a mesh, and makes a tree of its own of it. */
+static void clip(const struct sph *s, struct wall_mesh *m, const double *lo, const double *hi)
+{
+    struct trimesh cut = wall_cover_clip(&m->mesh, lo, hi);
+    trimesh_weld(&cut, 1e-9 * s->R);
+    trimesh_connect(&cut);
+    if (!m->lent)
+        trimesh_free(&m->mesh);
+    m->mesh = cut;
+    m->lent = false;
+}
+
 /* Copies of the triangles within 2.5 R of a periodic side go on beyond the other one, and join
- * those that end there. A mesh that reaches beyond the sides has been prolonged already. */
+ * those that end there. A mesh that spans the period keeps what lies within it. */
 static void repeat(const struct sph *s, struct wall_mesh *m, int axis)
 {
     const double reach = 2.5 * s->R, L = s->hi[axis] - s->lo[axis], near = 1e-6 * L;
-    const int n = m->mesh.ntriangles;
-    double lo[3], hi[3];
+    double lo[3], hi[3], from[3] = {-INFINITY, -INFINITY, -INFINITY},
+                         to[3] = {INFINITY, INFINITY, INFINITY};
     trimesh_bounds(&m->mesh, lo, hi);
-    if (lo[axis] < s->lo[axis] - near || hi[axis] > s->hi[axis] + near ||
-        (lo[axis] > s->lo[axis] + reach && hi[axis] < s->hi[axis] - reach))
+    if (lo[axis] > s->lo[axis] + reach && hi[axis] < s->hi[axis] - reach)
         return;
+    from[axis] = s->lo[axis];
+    to[axis] = s->hi[axis];
+    if (hi[axis] - lo[axis] > L + near)
+        clip(s, m, from, to);
+    const int n = m->mesh.ntriangles;
     struct trimesh copy = trimesh_copy(&m->mesh), all = trimesh_copy(&m->mesh);
     for (int way = -1; way <= 1; way += 2) {
         copy.ntriangles = 0;
@@ -260,13 +276,7 @@ static void end_at_sides(const struct sph *s, struct wall_mesh *m)
         beyond = is_beyond(&m->mesh, t, lo, hi, near);
     if (!beyond)
         return;
-    struct trimesh cut = wall_cover_clip(&m->mesh, lo, hi);
-    trimesh_weld(&cut, 1e-9 * s->R);
-    trimesh_connect(&cut);
-    if (!m->lent)
-        trimesh_free(&m->mesh);
-    m->mesh = cut;
-    m->lent = false; /* a tree of its own is made of it */
+    clip(s, m, lo, hi);
 }
 
 /* Meshes of files, which the scene keeps. */

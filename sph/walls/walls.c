@@ -51,15 +51,15 @@ static void add_segment(struct walls *w, const double *a, const double *b,
         w->segments[w->nsegments++] = g;
 }
 
-/* Whether fluid goes on beyond a side of the region: its images, or what an inlet or outlet has. */
+/* Whether fluid goes on beyond a side of the region: what an inlet or outlet has. */
 static bool goes_beyond(const struct sph *s, int side)
 {
     const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
-    return s->periodic[side / 2] || (w && scene_wall_opens(w));
+    return w && scene_wall_opens(w);
 }
 
-/* Ends on a side through which fluid goes go on beyond it, as sides do; returns whether. */
-static bool extend(const struct sph *s, double *end, const double *other)
+/* Ends on an inlet or outlet go on beyond it, as sides do; those on a period meet images. */
+static void extend(const struct sph *s, double *end, const double *other)
 {
     const double d[2] = {end[0] - other[0], end[1] - other[1]};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1]);
@@ -68,9 +68,8 @@ static bool extend(const struct sph *s, double *end, const double *other)
             (goes_beyond(s, 2 * a + 1) && fabs(end[a] - s->hi[a]) < 1e-9 * s->R)) {
             end[0] += 2.5 * s->R * d[0] / length;
             end[1] += 2.5 * s->R * d[1] / length;
-            return true;
+            return;
         }
-    return false;
 }
 
 /* Whether a polyline goes straight on at b, so that how a straight wall is cut changes nothing. */
@@ -84,8 +83,7 @@ static bool goes_on(const double *a, const double *b, const double *c)
 static void add_polyline(struct sph *s, struct walls *w, const struct param_points *p, bool closed,
                          const struct segment *like)
 {
-    const int n = closed ? p->n : p->n - 1, first = w->nsegments;
-    bool beyond = false;
+    const int n = closed ? p->n : p->n - 1;
     double a[2], b[2];
     for (int k = 0; k < n; k++) {
         const double *from = p->x[k], *to = p->x[(k + 1) % p->n], *next = p->x[(k + 2) % p->n];
@@ -95,13 +93,11 @@ static void add_polyline(struct sph *s, struct walls *w, const struct param_poin
         if (k < n - 1 && goes_on(from, to, next))
             continue;
         if (!closed && a[0] == p->x[0][0] && a[1] == p->x[0][1])
-            beyond = extend(s, a, p->x[1]) || beyond;
+            extend(s, a, p->x[1]);
         if (!closed && k == n - 1)
-            beyond = extend(s, b, p->x[n - 1]) || beyond;
+            extend(s, b, p->x[n - 1]);
         add_segment(w, a, b, like);
     }
-    for (int k = first; k < w->nsegments; k++)
-        w->segments[k].beyond = beyond;
 }
 
 /* A side of the domain that the region does not reach is no wall of its particles. */
@@ -512,20 +508,20 @@ bool walls_want_image(const struct sph *s, bool moves, double lo, double hi, int
     return moves || (way > 0 ? lo < s->lo[axis] + reach : hi > s->hi[axis] - reach);
 }
 
-/* Lines near a periodic side stand beyond the other one, too; near a corner of two periods images
- * have images. */
-static void add_images(const struct sph *s, struct walls *w)
+/* Segments from `first' on that lie near a periodic side stand beyond the other one, too; near a
+ * corner of two periods images have images. Those of walls at rest are walls of their own. */
+static void add_images(const struct sph *s, struct walls *w, int first)
 {
     for (int axis = 0; axis < s->dim; axis++) {
         const int n = w->nsegments;
-        for (int k = 0; k < n && s->periodic[axis]; k++)
+        for (int k = first; k < n && s->periodic[axis]; k++)
             for (int way = -1; way <= 1; way += 2) {
                 struct segment g = w->segments[k];
                 const bool moves = g.body >= 0 && w->bodies[g.body].moves;
                 if (g.beyond || !walls_want_image(s, moves, fmin(g.a[axis], g.b[axis]),
                                                   fmax(g.a[axis], g.b[axis]), axis, way))
                     continue;
-                g.of = g.of < 0 ? k : g.of;
+                g.of = g.body < 0 ? -1 : g.of < 0 ? k : g.of;
                 g.shift[axis] = way * (s->hi[axis] - s->lo[axis]);
                 g.a[axis] += g.shift[axis];
                 g.b[axis] += g.shift[axis];
@@ -572,12 +568,15 @@ struct walls *walls_create(struct sph *s)
         else if (is->side == SIDE_NONE)
             add_polyline(s, w, &is->points, is->closed, &like);
     }
-    if (s->dim == 2)
+    if (s->dim == 2) {
+        add_images(s, w, 0);
         leave_out_covered(s, w);
+    }
+    const int first = w->nsegments;
     add_bodies(s, w);
     if (s->dim == 2) {
         find_open_ends(s, w);
-        add_images(s, w);
+        add_images(s, w, first);
     }
     wall_meshes_create(s, w);
     w->start = NEW(struct segment, w->nsegments);

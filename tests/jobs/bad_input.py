@@ -371,6 +371,7 @@ faulty('tank', r's/"b".*/"b"; box = ((2.1, 0.2), (2.5, 0.4)); } );/', r'bodies.\
 faulty('tank', 's/"b"/"b"; velocity = (2, 0)/', r'bodies.\[0\]: .*leaves the domain across x at (.*t = 0.4', 'sph')
 faulty('tank', 's/"b"/"b"; centre = (1.5, 0.3); spin = 3.0/', r'bodies.\[0\]: .*leaves the domain across y', 'sph')
 faulty('sph', r's/^sph:/bodies: ( { points = ((0.9, 0.2), (0.9, 0.4), (1.1, 0.4), (1.1, 0.2)); } );\nsph:/', r'bodies.\[0\]: .*periodic side x', 'sph')
+faulty('sph', r's/^sph:/walls: ( { points = ((-0.1, 0.1), (1.1, 0.5)); } );\nsph:/', r'walls.\[0\]: wall 1 ends on the periodic side x at (0, 0.133333) m, and nothing goes on from (1, 0.133333) m', 'sph')
 faulty('coupled', r's/^sph:/bodies: ( { velocity = (30, 0); points = ((0.45, 0.45), (0.45, 0.55), (0.55, 0.55), (0.55, 0.45)); } );\nsph:/; s/dx = 0.02/dx = 0.01; c0 = 100.0/', r'bodies.\[0\]: .*leaves the free zone', 'sph', '--check')
 faulty('tank', 's/^bodies:  (/bodies: ( { name = "c"; points = ((1.1, 0.3), (1.1, 0.45), (1.4, 0.45), (1.4, 0.3)); },/', 'overlaps with body 1 (c)', 'sph')
 faulty('tank', 's/^bodies:  (/bodies: ( { name = "c"; points = ((1.22, 0.2), (1.22, 0.4), (1.4, 0.4), (1.4, 0.2)); },/', 'bodies: a gap of 0.02 m between .* close it', 'sph')

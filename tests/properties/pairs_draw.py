@@ -66,6 +66,20 @@ def body_period(rng):
     return s
 
 
+def line_period(rng):
+    """A bed that goes on beyond the period or ends on it, with a step within the support of it; an obstacle across it."""
+    s = tank2(rng, "period", wide=(30, 40))
+    over, h, w, x = rng.uniform(0, 3) * s.dx, rng.uniform(3, 6) * s.dx, rng.uniform(4, 8) * s.dx, rng.uniform(0.5, 4) * s.dx
+    if rng.random() < 0.5:
+        s.sides = {}
+        s.lines.append({"points": [(-over, 0), (x, 0), (x, h), (x + w, h), (x + w, 0), (s.hi[0] + over, 0)]})
+    else:
+        x, y = rng.uniform(-0.8, -0.2) * w, rng.choice([0.0, gap_of(rng) * s.dx])
+        s.lines.append({"points": [(x, y), (x, y + h), (x + w, y + h), (x + w, y)], "closed": True})
+    s.gauges([0.6 * s.hi[0]])
+    return s
+
+
 def body_body(rng):
     s = tank2(rng, wide=(34, 44))
     y, w, h = 4 * s.dx, rng.uniform(4, 8) * s.dx, rng.uniform(4, s.d - 9) * s.dx
@@ -322,6 +336,16 @@ def mesh_side(rng):
         lo[a] = gap_of(rng) * s.dx
     s.block("b", lo, [a + b for a, b in zip(lo, size)])
     s.gauges([s.hi[0] - 2 * s.dx, s.hi[1] - 2 * s.dx])
+    return s
+
+
+def mesh_period(rng):
+    """A bed of triangles that goes on beyond its period by less than the support, or ends on it."""
+    s = tank3(rng)
+    s.periodic, s.sides, over = [True, True, False], {}, rng.choice([0.0, rng.uniform(0, 6)]) * s.dx
+    lo, hi = [-over, -over], [s.hi[0] + over, s.hi[1] + over]
+    s.sheet("bed.stl", [(lo[0], lo[1], 0.0), (hi[0], lo[1], 0.0), (hi[0], hi[1], 0.0), (lo[0], hi[1], 0.0)], "")
+    s.gauges([s.dx * rng.uniform(2, s.n[0] - 2), s.dx * rng.uniform(2, s.n[1] - 2)])
     return s
 
 
@@ -593,6 +617,7 @@ PAIRS = [
     ("body-side", "body x side or line (upright)", 2, body_side),
     ("body-corner", "body x two sides", 1, body_corner),
     ("body-period", "body x period", 2, body_period),
+    ("line-period", "bed or obstacle of lines x period", 1, line_period),
     ("body-body", "body x body", 2, body_body),
     ("polygon-floor", "body with edges at any angle x floor", 2, polygon_floor),
     ("wedge-floor", "corner of a body on the floor, a side or both, with wedges of water beside it", 0, wedge_floor),
@@ -611,6 +636,7 @@ PAIRS = [
     ("line-line", "line x line", 1, line_line),
     ("free-side", "free body as heavy as water x side", 2, free_floor),
     ("mesh-side", "mesh of a body x sides and periods, 3D", 2, mesh_side),
+    ("mesh-period", "bed of triangles x period, 3D", 1, mesh_period),
     ("side-surface3", "side or period x free surface, 3D", 1, side_surface3),
     ("thin-side", "thin mesh from the floor to above the surface x sides and periods, 3D", 0, thin_side),
     ("thin-thin", "thin mesh x thin mesh, 3D", 0, thin_thin),
