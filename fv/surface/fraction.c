@@ -257,12 +257,15 @@ enum { PIECE = 16 };
 
 static int64_t piece(int64_t i, int64_t n) { return n - i < PIECE ? n - i : PIECE; }
 
+/* More than full, beyond rounding: what the cells around have no room for. */
+#define OVERFULL (1.0 + 1e-9)
+
 /* Whether some cell of a row and the cell a step d below are not the same, all water or all air. */
 static bool any_mixed(const double *C, int64_t d, int64_t n)
 {
     int odd = 0;
     for (int64_t i = 0; i < n; i++)
-        odd |= (C[i] != C[i - d]) | ((C[i] > 0.0) & (C[i] < 1.0));
+        odd |= (C[i] != C[i - d]) | ((C[i] > 0.0) & ((C[i] < 1.0) | (C[i] > OVERFULL)));
     return odd;
 }
 
@@ -359,14 +362,15 @@ static double plane_in(const struct fv *s, int64_t c, int a, double lo, double h
 }
 
 /* Of the cell that the volume v (m^dim, up if > 0) through the lower face of c comes from: water in
- * it. From behind a side it is as deep as it stands on this side of it. */
+ * it. From behind a side it is as deep as it stands on this side of it, and no more than full: what
+ * a cell at an inflow has too much would feed itself. */
 static double water_across(const struct fv *s, int64_t c, int64_t d, int a, double v)
 {
     const struct fraction *f = s->surface->fraction;
     const int64_t from = v > 0.0 ? c - d : c;
     const double C = f->C[from], part = lesser(1.0, fabs(v) / f->volume[from]);
     if (!fraction_is_mixed(C))
-        return v * C;
+        return v * (surface_holds_none(s, from) ? lesser(1.0, C) : C);
     if (surface_holds_none(s, from)) {
         const int64_t in = v > 0.0 ? c : c - d;
         const double e = 1e-6, lo = v > 0.0 ? -0.5 : 0.5 - e;
@@ -390,7 +394,7 @@ static void fluxes_of_piece(const struct fv *s, int64_t c, int64_t d, int a, dou
         return;
     for (int64_t i = c; i < c + n; i++) {
         const double v = dt * flow[i];
-        if (C[i] != C[i - d] || fraction_is_mixed(C[i]))
+        if (C[i] != C[i - d] || fraction_is_mixed(C[i]) || C[i] > OVERFULL)
             flux[i] = v != 0.0 ? water_across(s, i, d, a, v) : 0.0;
     }
 }
