@@ -161,7 +161,8 @@ static double scale_of(const struct watches *w, const struct flow_energy *e, dou
  * all of it less the work of sides and gravity, by the trapezoidal rule between looks. With a
  * surface no more than what the kinetic energy has risen to beyond its largest before: gravity's
  * work on waves of a few cells oscillates by half of their energy, grow or not. The first 100 steps
- * of a run with a surface have no scale yet and are not judged. */
+ * of a run or of a restart with a surface have no scale yet and are not judged, nor is what the
+ * kinetic energy rises by within them: all of a wave that starts from rest. */
 void watches_energy(struct watches *w, const struct flow_energy *e, double t, int64_t step,
                     struct diagnosis *d)
 {
@@ -178,12 +179,12 @@ void watches_energy(struct watches *w, const struct flow_energy *e, double t, in
     w->kinetic_most = fmax(w->kinetic_most, e->kinetic);
     w->balance = energy - w->work;
     double gain = watch_budget_gain(&w->budget, step, w->balance);
-    const double more = watch_budget_gain(&w->peaks, step, w->kinetic_most);
-    if (w->has_surface)
-        gain = fmin(gain, more);
     const double scale = scale_of(w, e, energy, since * WATCH_STEPS / w->energy_every);
-    if (!w->has_surface || step >= WATCH_STEPS) /* no scale yet */
-        watch_judge(&w->energy, scale > 0.0 ? gain / scale : gain, t, step, d);
+    if (w->has_surface && w->looks < WATCH_STEPS)
+        return;
+    if (w->has_surface)
+        gain = fmin(gain, watch_budget_gain(&w->peaks, step, w->kinetic_most));
+    watch_judge(&w->energy, scale > 0.0 ? gain / scale : gain, t, step, d);
 }
 
 /* Over the flow's root mean square; of pressure over its own about the mean, or a twentieth of the
