@@ -13,6 +13,8 @@ void mesh_bc_create(struct fv *s);
 void mesh_bc_free(struct mesh_bc **b);
 /* Sets the velocities of the sides to those of time t, s; those before are kept for BC_CHANGE. */
 void mesh_bc_time(struct fv *s, double t);
+/* At the start: what walls that move gain at once is what they have more than the water beside. */
+void mesh_bc_meet_water(struct fv *s);
 /* Sets the slip error tau grad psi along the sides, for BC_AHEAD; tau, s: length of the stage.
  * Collective. */
 void mesh_bc_set_slip(const struct fv *s, double tau, const double *psi);

@@ -345,6 +345,14 @@ void mesh_bc_time(struct fv *s, double t)
     s->sides->set = true;
 }
 
+void mesh_bc_meet_water(struct fv *s)
+{
+    for (struct side *d = s->sides->side; d < s->sides->side + s->sides->n; d++)
+        SIDE_PLACES (d, 1, i, j, at, c)
+            for (int q = 0; q < s->m->dim && d->moves; q++)
+                d->w_old[q][at] = s->u[q][c];
+}
+
 /* tau times the gradient of psi along the side, of psi on the face, (7 psi_1 - psi_2)/6; c: cell
  * inside. The component across the face is taken out. */
 static void slip_at(const struct fv *s, const struct side *d, int64_t at, int64_t c, double tau,

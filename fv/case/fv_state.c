@@ -183,30 +183,6 @@ static void project_start(struct fv *s)
     set_limit(s);
 }
 
-/* Walls that move at the start, an inflow and the velocities of shapes push the water at once: the
- * start under a surface is the flow that they leave, or cells of water would lose or gain what its
- * divergence says. In so short a time gravity does nothing. What a field's averages lack is no
- * push; newton's steps, longer than what this flow lasts, make it themselves in blocks at rest. */
-static void meet_push(struct fv *s)
-{
-    const double most = 0.05 * s->max.rate;
-    if (!s->surface || s->run->coupled || (s->newton && !s->moving) ||
-        !(flow_largest_divergence(s) > most))
-        return;
-    const double tau = 1e-6 * fmin(limits_of(s).dt, s->run->scene.time.end);
-    projection(s, s->t, 0, tau, 1e-3 * fmin(1.0, s->prm.tol_pressure));
-    surface_extend(s, LAYERS);
-    s->totals.start_iterations = s->totals.iterations;
-    s->totals.iterations = 0;
-    memset(s->stages.psi[0], 0, (size_t)s->size * sizeof(double));
-    if (s->stages.start[0])
-        memset(s->stages.start[0], 0, (size_t)s->size * sizeof(double));
-    measure(s);
-    s->speed.reference =
-        fmax(s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
-    s->speed.limit = 10.0 * s->speed.reference;
-}
-
 /* Water at rest is not in balance where its surface is not level: p of the start is that which sets
  * it in motion. A partner and walls that move give velocities later. */
 static void meet_surface(struct fv *s)
@@ -300,7 +276,13 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         meet_pressures(s);
     measure(s);
     if (!f) {
-        meet_push(s);
+        if (s->moving)
+            mesh_bc_meet_water(s);
+        if (!s->run->coupled && (!s->newton || s->moving)) /* newton's steps at rest are longer than
+                                                              what such a flow lasts */
+            push_start(s);
+        s->totals.start_iterations += s->totals.iterations;
+        s->totals.iterations = 0;
         meet_surface(s);
     }
     s->watches->sum_before = s->max.u[0] + s->max.u[1] + s->max.u[2];

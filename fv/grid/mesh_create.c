@@ -216,6 +216,7 @@ struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int 
     m->comm = r->comm;
     m->prm_of = r->params;
     m->dim = r->scene.domain.dim;
+    m->turn = INFINITY;
     m->nblocks = of->n;
     set_boxes(r, m, n, box);
     MPI_Comm_rank(m->comm, &m->rank);

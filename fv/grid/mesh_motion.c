@@ -90,15 +90,29 @@ static void place_faces(struct mesh *m, const struct part *p)
         }
 }
 
+/* Place and velocity at time t. */
+static void move_to(const struct mesh *m, struct mesh_motion *v, double t)
+{
+    const double instant = 1e-9 * fmax(1.0, fabs(t));
+    struct body_motion before;
+    body_drive_motion(&v->drive, t, &v->now);
+    v->t = t;
+    if (fabs(t - m->turn) > instant)
+        return;
+    body_drive_motion(&v->drive, t - 2.0 * instant, &before);
+    memcpy(v->now.u, before.u, sizeof before.u);
+    memcpy(v->now.du, before.du, sizeof before.du);
+    memcpy(v->now.omega, before.omega, sizeof before.omega);
+    memcpy(v->now.domega, before.domega, sizeof before.domega);
+}
+
 /* Motions first, then positions, then this rank's faces (once metrics exist). */
 void mesh_motion_place(struct mesh *m, double t)
 {
     for (int k = 0; k < m->nblocks; k++) {
         struct mesh_motion *v = m->block[k].motion;
-        if (v && v->block == k) {
-            body_drive_motion(&v->drive, t, &v->now);
-            v->t = t;
-        }
+        if (v && v->block == k)
+            move_to(m, v, t);
     }
     for (int k = 0; k < m->nblocks; k++)
         if (m->block[k].motion)

@@ -30,7 +30,8 @@ void mesh_motion_free(struct mesh *m);
  * are made, for mesh_motion_place to turn. */
 void mesh_motion_metrics(struct mesh *m);
 /* Sets vertices, centres, area vectors and the flux of the grid for time t, s. Donors, and what
- * each cell is, stay as they were. */
+ * each cell is, stay as they were. A motion that changes at once has two velocities then: that of
+ * before at the time m->turn. */
 void mesh_motion_place(struct mesh *m, double t);
 /* Velocity of the block's material point that is at x now, m/s. */
 void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w);

@@ -15,6 +15,7 @@
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
+#include "moving.h"
 #include "newton.h"
 #include "relax.h"
 #include "steps.h"
@@ -175,6 +176,27 @@ void pressure_start(struct fv *s)
     s->totals.iterations = s->totals.viscous_iterations = 0;
 }
 
+/* Cells of water would lose or gain what the divergence says. In so short a time gravity does
+ * nothing. What a field's averages lack is no push. What comes next is a first step: the velocity
+ * of the step before says nothing about accelerations. */
+void push_start(struct fv *s)
+{
+    const size_t bytes = (size_t)s->size * sizeof(double);
+    if (!s->surface || !(flow_largest_divergence(s) > 0.05 * s->max.rate))
+        return;
+    const double tau = 1e-6 * fmin(limits_of(s).dt, s->run->scene.time.end);
+    s->step.dt = 0.0;
+    projection(s, s->t, 0, tau, 1e-3 * fmin(1.0, s->prm.tol_pressure));
+    surface_extend(s, LAYERS);
+    memset(s->stages.psi[0], 0, bytes);
+    if (s->stages.start[0])
+        memset(s->stages.start[0], 0, bytes);
+    measure(s);
+    s->speed.reference =
+        fmax(s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+    s->speed.limit = 10.0 * s->speed.reference;
+}
+
 /* Steps to the end of a window, of which sph makes some tens. */
 #define MOST_OF_A_WINDOW 1e5
 
@@ -195,6 +217,8 @@ static bool crawls(const struct fv *s, double n, const struct step_limit *most, 
 
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
+    if (s->surface && s->moving && moving_turns(s))
+        push_start(s);
     const struct step_limit most = limits_of(s);
     /* no step passes over the start or the end of a motion */
     const double to = fmin(t_stop, limits_next_motion(s)), left = to - s->t, before = s->max.rate;

@@ -258,6 +258,20 @@ static void fill_step(struct fv *s)
     fill_fluxes(s);
 }
 
+bool moving_turns(struct fv *s)
+{
+    const double instant = 1e-9 * fmax(1.0, fabs(s->t));
+    const bool now = grid_motion_event(&s->grid, s->t - 2.0 * instant) <= s->t + instant;
+    s->m->turn = grid_motion_event(&s->grid, s->t);
+    if (now) {
+        mesh_motion_place(s->m, s->t);
+        mesh_bc_time(s, s->t);
+        mesh_bc_velocity(s, BC_GIVEN, s->u);
+        mesh_bc_fluxes(s, s->U);
+    }
+    return now;
+}
+
 void moving_begin(struct fv *s)
 {
     cut_step(s);

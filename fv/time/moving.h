@@ -23,6 +23,9 @@ void moving_set_free(struct fv *s);
 void moving_begin(struct fv *s);
 /* The same with a free surface, before its first half step; dt, s, becomes s->step.dt_now. */
 void moving_begin_surface(struct fv *s, double dt);
+/* Begins a step: at its end motions have the velocity of before, if one starts or ends there.
+ * Whether one does at its start, where walls have the velocity of after now. */
+bool moving_turns(struct fv *s);
 /* With bdf2 and newton, whose surface goes ahead to where the step ends and blocks with it: makes
  * the matrix interpolate psi in the fringe by the donors of that time. */
 void moving_end_rows(struct fv *s);

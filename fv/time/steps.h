@@ -11,6 +11,9 @@ bool projection_step(struct fv *s, double dt);
 /* fv_step.c: finds the pressure that goes with the velocities of the start, by short steps from the
  * same state. */
 void pressure_start(struct fv *s);
+/* fv_step.c: under a surface, what pushes the water at once, walls that begin to move, an inflow,
+ * velocities of shapes, has done so: makes the velocities those that it leaves. */
+void push_start(struct fv *s);
 /* fv_step.c: one step towards t_stop, see program.step; d is filled when the state cannot be
  * trusted. */
 double integrate(struct fv *s, double t_stop, struct diagnosis *d);

@@ -241,3 +241,25 @@ TEST(water_falls_with_its_tank)
         mesh_case_end(&c, &s);
     }
 }
+
+/* A tank at rest that falls at 0.5 m/s from one instant to another: its water goes with it at once,
+ * and stays level. */
+TEST(water_starts_and_stops_with_its_tank)
+{
+    static const char falls[] =
+        "{ name = \"tank\"; cells = (20, 14); max = (1.0, 0.7); " SLIP
+        "motion = ( { kind = \"polynomial\"; axis = \"y\"; coefficients = (0.0, -0.5); from = 0.1; "
+        "until = 0.3; } ); }";
+    for (int q = 0; q < (SANITIZED ? 1 : 3); q++) {
+        struct mesh_case c;
+        struct fv *s = start(&c, MPI_COMM_WORLD, falls,
+                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363, NULL);
+        const double volume = surface_volume(s);
+        assert_true(mesh_case_run(s, 1000, 0.2));
+        assert_close(s->u[1][part_at(s->grid.part, 0, 0, 0)], -0.5, 0.005);
+        assert_true(mesh_case_run(s, 1000, 0.4));
+        assert_true(s->max.u[0] < 0.005);
+        assert_close((fabs(s->surface->lost) + fabs(s->surface->gained)) / volume, 0.0, 1e-3);
+        mesh_case_end(&c, &s);
+    }
+}
