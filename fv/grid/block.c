@@ -130,25 +130,25 @@ void block_cell(const struct block *b, int i, int j, int k, double *x, double *h
         h[a] = block_size(b, a, a == 1 ? j : 0);
 }
 
-/* Copies GHOSTS layers along axis a, from local index `first' on, to or from packed storage.
- * Tangential ghosts are copied along. Returns the number of values. */
-static int64_t layers(const struct block *b, double *f, int a, int first, double *packed, bool pack)
+/* Copies GHOSTS layers along axis a, from local index `first' on, to or from packed storage, of
+ * values of `item' bytes. Tangential ghosts are copied along. Returns the number of bytes. */
+static size_t layers(const struct block *b, char *f, size_t item, int a, int first, char *packed,
+                     bool pack)
 {
     int lo[3], hi[3];
-    int64_t m = 0;
+    size_t m = 0;
     for (int d = 0; d < 3; d++) {
         lo[d] = d == a ? first : -b->g[d];
         hi[d] = d == a ? first + GHOSTS : b->n[d] + b->g[d];
     }
+    const size_t bytes = (size_t)(hi[0] - lo[0]) * item;
     for (int k = lo[2]; k < hi[2]; k++)
-        for (int j = lo[1]; j < hi[1]; j++) {
-            double *row = f + block_at(b, lo[0], j, k);
-            const size_t bytes = (size_t)(hi[0] - lo[0]) * sizeof(double);
+        for (int j = lo[1]; j < hi[1]; j++, m += bytes) {
+            char *row = f + (size_t)block_at(b, lo[0], j, k) * item;
             if (pack)
                 memcpy(packed + m, row, bytes);
             else
                 memcpy(row, packed + m, bytes);
-            m += hi[0] - lo[0];
         }
     return m;
 }
@@ -156,36 +156,46 @@ static int64_t layers(const struct block *b, double *f, int a, int first, double
 /* One direction, one way: what leaves at `from' arrives in the ghosts at `to' of the other side.
  * Four fields a message. Where the neighbour is this rank itself (periodic, one rank) the packed
  * values are unpacked at once. */
-static void shift(const struct block *b, int nf, double *const *f, int a, int from, int to,
-                  int dest, int source)
+static void shift(const struct block *b, int nf, void *const *f, size_t item, int a, int from,
+                  int to, int dest, int source)
 {
+    char *const send = (char *)b->send, *got = send;
     int rank;
     MPI_Comm_rank(b->cart, &rank);
     for (int q = 0; q < nf; q += 4) {
         const int m = nf - q < 4 ? nf - q : 4;
-        int64_t count = 0;
+        size_t count = 0;
         for (int k = 0; k < m && dest != MPI_PROC_NULL; k++)
-            count += layers(b, f[q + k], a, from, b->send + count, true);
-        const double *got = b->send;
+            count += layers(b, f[q + k], item, a, from, send + count, true);
         if (dest != rank || source != rank) {
-            int64_t slab = b->size / (b->n[a] + 2 * b->g[a]) * GHOSTS * m;
-            MPI_Sendrecv(b->send, (int)count, MPI_DOUBLE, dest, 7, b->recv, (int)slab, MPI_DOUBLE,
-                         source, 7, b->cart, MPI_STATUS_IGNORE);
-            got = b->recv;
+            const size_t slab = (size_t)(b->size / (b->n[a] + 2 * b->g[a]) * GHOSTS * m) * item;
+            got = (char *)b->recv;
+            MPI_Sendrecv(send, (int)count, MPI_BYTE, dest, 7, got, (int)slab, MPI_BYTE, source, 7,
+                         b->cart, MPI_STATUS_IGNORE);
         }
         count = 0;
         for (int k = 0; k < m && source != MPI_PROC_NULL; k++)
-            count += layers(b, f[q + k], a, to, (double *)(uintptr_t)(got + count), false);
+            count += layers(b, f[q + k], item, a, to, got + count, false);
     }
 }
 
 /* Blocking; axis after axis in a fixed order, see the head of this file. */
-void block_halo(const struct block *b, int nf, double *const *f)
+static void halo(const struct block *b, int nf, void *const *f, size_t item)
 {
     for (int a = 0; a < b->dim; a++) {
-        shift(b, nf, f, a, 0, b->n[a], b->below[a], b->above[a]);
-        shift(b, nf, f, a, b->n[a] - GHOSTS, -GHOSTS, b->above[a], b->below[a]);
+        shift(b, nf, f, item, a, 0, b->n[a], b->below[a], b->above[a]);
+        shift(b, nf, f, item, a, b->n[a] - GHOSTS, -GHOSTS, b->above[a], b->below[a]);
     }
+}
+
+void block_halo(const struct block *b, int nf, double *const *f)
+{
+    halo(b, nf, (void *const *)f, sizeof **f);
+}
+
+void block_halo_single(const struct block *b, int nf, float *const *f)
+{
+    halo(b, nf, (void *const *)f, sizeof **f);
 }
 
 void block_pack_from(const struct block *b, int first, const double *f, double *packed)

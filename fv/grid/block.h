@@ -101,6 +101,8 @@ static inline double block_derivative(const struct block *b, const double *q, in
 /* Fills the ghosts of nf fields, corners included, one direction after the other; ghosts at closed
  * sides stay as they are. Collective. */
 void block_halo(const struct block *b, int nf, double *const *f);
+/* The same of fields in single precision. */
+void block_halo_single(const struct block *b, int nf, float *const *f);
 /* Copies a field without its ghosts, x fastest. */
 void block_pack(const struct block *b, const double *f, double *packed);
 /* The same of the local layers along y from `first' on. */

@@ -1,7 +1,7 @@
 /* viscous.c - nu Lap q of cell averages, fourth order: differences of the face gradient
- * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part (helmholtz.h) by conjugate gradients; walls
- * and layers of unequal height make it unsymmetric: Chebyshev's iteration there, and with a surface
- * BiCGStab. SPDX-License-Identifier: BSD-3-Clause */
+ * (15 (q_0 - q_-1) - (q_1 - q_-2))/12 h; implicit part (helmholtz.h) by conjugate gradients
+ * (viscous_single.h); walls and layers of unequal height make it unsymmetric: Chebyshev's iteration
+ * there, and with a surface BiCGStab. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
 #include <math.h>
@@ -12,6 +12,7 @@
 #include "blocked_cells.h"
 #include "helmholtz.h"
 #include "operators.h"
+#include "viscous_single.h"
 #include "viscous_solver.h"
 
 /* The weights (-1, 16, -30, 16, -1)/12 are the difference of the two face gradients. */
@@ -340,6 +341,18 @@ static void residual_row(const double *restrict d, const double *restrict L, dou
         sums[k] += (part[k][0] + part[k][1]) + (part[k][2] + part[k][3]);
 }
 
+/* Whether delta starts at 0, ghosts included: no cell is imposed, no side makes a change of its
+ * own, and no increment was kept. Then rhs is the residual. */
+static bool starts_at_zero(const struct fv *s)
+{
+    const struct forcing *f = s->forcing;
+    bool zero =
+        !(f && (f->imposed || f->from_partner)) && !s->blocked && !viscous_keeps_increment(s);
+    for (int k = 0; s->bc && k < 6; k++)
+        zero = zero && (!s->bc->wall[k] || s->bc->kind[k] == MESH_SLIP);
+    return zero;
+}
+
 /* rhs of component q becomes what the start leaves of it; zero in forced cells. sums[0]: squares of
  * the residual, sums[1]: of rhs as it came. */
 static void start_residual(const struct fv *s, int q, double c, const double *start, double *rhs,
@@ -349,6 +362,10 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
         forcing_zero(s->forcing, rhs);
     if (s->surface)
         surface_zero(s, rhs);
+    if (starts_at_zero(s)) {
+        sums[0] = sums[1] += helmholtz_dot(s, rhs, rhs);
+        return;
+    }
     if (s->blocked || s->surface || (s->forcing && s->forcing->nlocal > 0)) {
         helmholtz(s, q, c, start, s->faces[0]);
         if (s->blocked) { /* start - c L start */
@@ -367,13 +384,13 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
     }
 }
 
-/* Where nothing is imposed delta starts at 0: friction so weak that one term or two of Neumann's
- * series are the increment needs no residual of that start. */
+/* Friction so weak that one term or two of Neumann's series are the increment needs no residual of
+ * that start. */
 static bool solve_weak(const struct helmholtz *h, double tol, double *const delta[3],
                        double *const rhs[3])
 {
     struct fv *s = h->s;
-    if (!s->surface || s->forcing || s->blocked || !helmholtz_is_weak(h, tol))
+    if (!s->surface || !starts_at_zero(s) || !helmholtz_is_weak(h, tol))
         return false;
     for (int a = 0; a < s->dim; a++)
         surface_zero(s, rhs[a]);
@@ -394,14 +411,15 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
     double sums[2] = {0.0, 0.0}, *(*work)[3] = s->viscous->work;
     const struct helmholtz h = {.s = s,
                                 .c = c,
-                                .largest = walls || s->surface ? largest_eigenvalue(s) : 0.0,
+                                .largest = largest_eigenvalue(s),
                                 .apply = apply,
                                 .zero = s->surface ? surface_zero : NULL,
                                 .step = step,
                                 .work = {work[0], work[1], work[2], work[3]}};
     if (solve_weak(&h, tol, delta, rhs))
         return true;
-    block_halo(b, b->dim, delta);
+    if (!starts_at_zero(s))
+        block_halo(b, b->dim, delta);
     for (int a = 0; a < b->dim; a++)
         start_residual(s, a, c, delta[a], rhs[a], sums);
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, b->cart);
@@ -413,7 +431,7 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
         return rr == rr;
     }
     if (!walls && !s->surface)
-        return helmholtz_cg(&h, delta, rhs, rr, goal);
+        return viscous_single_cg(&h, delta, rhs, rr, goal);
     return (walls && !s->surface && rr < 1e300 &&
             helmholtz_chebyshev(&h, delta, rhs, rr, 0.1 * goal,
                                 goes_at_once(s) ? all_at_once : NULL)) ||

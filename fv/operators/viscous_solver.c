@@ -46,15 +46,17 @@ static double stiffest_of(const struct fv *s)
     return s->m && mesh_bc_has_walls(s->m) ? mesh_viscous_largest(s) : 0.0;
 }
 
-/* Between periodic sides of uniform cells conjugate gradients need but the first and the last. */
 static void make_work(const struct fv *s, struct viscous_solver *v)
 {
     const bool walls = s->bc || s->surface || s->blocked || s->b.rows;
-    const int sets = s->m ? 4 : walls ? 3 : 1;
+    const int sets = s->m ? 4 : walls ? 3 : 0;
+    for (int k = 0; sets == 0 && k < 3; k++)
+        for (int a = 0; a < s->dim; a++)
+            v->single[k][a] = NEW(float, s->size);
     for (int k = 0; k < sets; k++)
         for (int a = 0; a < s->dim; a++)
             v->work[k][a] = NEW(double, s->size);
-    if (s->m)
+    if (s->m || !walls)
         return;
     v->work[3][0] = s->faces[0];
     v->work[3][1] = s->flux;
@@ -86,6 +88,8 @@ void viscous_solver_free(struct fv *s)
         for (int a = 0; a < 3; a++)
             if (v->work[k][a] != s->faces[0] && v->work[k][a] != s->flux)
                 mem_free(v->work[k][a]);
+    for (int k = 0; k < 3; k++)
+        FREE(v->single[k][0], v->single[k][1], v->single[k][2]);
     FREE(v->scale, v);
     s->viscous = NULL;
 }

@@ -9,6 +9,7 @@
 struct viscous_solver {
     double *work[4][3];  /* as struct helmholtz wants them; on uniform cells the last one borrows
                           * s->faces[0] and s->flux */
+    float *single[3][3]; /* instead, on uniform cells between periodic sides: viscous_single.c */
     double *scale;       /* 1/s, blocks: the rows' diagonal, of a step of c: 1 + c scale */
     double stiffest;     /* 1/s, blocks: mesh_viscous_largest; 0 without walls, where little is left
                           * to solve for */

@@ -245,19 +245,21 @@ TEST(vortices_leave)
     }
 }
 
-/* (1 - c L) x = r between walls of all kinds, from a thousandth of a cell to fifty of them: to the
- * tolerance that is asked, in as many passes as the bounds of the spectrum say. */
+/* (1 - c L) x = r between walls of all kinds and between none, from a thousandth of a cell to fifty
+ * of them: to the tolerance that is asked, in as many passes as the bounds of the spectrum say. */
 TEST(viscous_solve_keeps_its_word)
 {
-    for (int k = 0; k < 6; k++) {
+    static const char *const periodic[] = {CLOSED, "domain.periodic=(true,false)",
+                                           "domain.periodic=(true,true)"};
+    static const int first[] = {SIDE_X_MIN, SIDE_Y_MIN, SIDE_Y_MAX + 1};
+    for (int k = 0; k < 18; k++) {
         struct fv_case c;
         double *out[2], sums[2] = {0.0, 0.0};
-        const double reach = 1e-3 * pow(10.0, k); /* c nu/h^2 */
+        const double reach = 1e-3 * pow(10.0, k / 3); /* c nu/h^2 */
         fv_case_set(&c, MPI_COMM_SELF,
-                    (const char *const[]){"initial.field=\"rest\"",
-                                          k % 2 ? "domain.periodic=(true,false)" : CLOSED,
-                                          "fluid.nu=0.1", "fv.cells=(24,36)", NULL});
-        for (int side = k % 2 ? SIDE_Y_MIN : SIDE_X_MIN; side <= SIDE_Y_MAX; side++)
+                    (const char *const[]){"initial.field=\"rest\"", periodic[k % 3], "fluid.nu=0.1",
+                                          "fv.cells=(24,36)", NULL});
+        for (int side = first[k % 3]; side <= SIDE_Y_MAX; side++)
             wall_add(&c, (enum scene_side)side, side == SIDE_X_MAX ? WALL_SLIP : WALL_NO_SLIP, 0.0);
         struct fv *s = fv_case_start(&c, NULL);
         const double h = s->b.h[1], cc = reach * h * h / s->nu;
@@ -281,11 +283,13 @@ TEST(viscous_solve_keeps_its_word)
             mem_free(out[a]);
         }
         const double kappa = 1.0 + reach * 7.8 * (1.0 + 24.0 * 24.0 / (36.0 * 36.0));
+        const int rounds = k % 3 == 2 ? 2 : 1; /* single precision cannot tell 1e-8 */
         print_message("c nu/h^2 = %g: residual %.2g, %d passes\n", reach, sqrt(sums[0] / sums[1]),
                       (int)s->totals.viscous_iterations);
         assert_true(sqrt(sums[0] / sums[1]) <= 1e-8);
         assert_true((double)s->totals.viscous_iterations <=
-                    4.0 + log(2e9) / acosh((kappa + 1.0) / (kappa - 1.0)));
+                    4.0 * rounds +
+                        (log(1e9) + rounds * log(2.0)) / acosh((kappa + 1.0) / (kappa - 1.0)));
         fv_free(&c.s);
     }
 }
