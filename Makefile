@@ -88,7 +88,7 @@ $(mocks): $(B)/tests/%: $(B)/o/tests/jobs/%.o $(B)/libcpl.a
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
 $(B)/o/coupler/examples/%.o: CFLAGS += -Icoupler
-examples = $(B)/examples/heat $(B)/examples/spring
+examples = $(B)/examples/heat $(B)/examples/plate $(B)/examples/spring
 examples: $(examples)
 $(examples): $(B)/examples/%: $(B)/o/coupler/examples/%.o $(B)/public/libcpl.a # as an outsider would
 	@mkdir -p $(@D)

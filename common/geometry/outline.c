@@ -390,8 +390,9 @@ static void thin_out(struct outline *is, int most, double share)
 }
 
 /* Chords of a drawing may be 5e-4 of its diagonal off, rows only by rounding: measured corners are
- * kept but for those on straight lines. */
-bool outline_read(const char *file, int most, struct outline *is, char *why, size_t size)
+ * kept but for those on straight lines, which bodies that bend want, too. */
+bool outline_read(const char *file, int most, bool whole, struct outline *is, char *why,
+                  size_t size)
 {
     char path[1200];
     snprintf(path, sizeof path, "%s", file);
@@ -406,14 +407,19 @@ bool outline_read(const char *file, int most, struct outline *is, char *why, siz
     }
     char what[128] = "";
     const bool drawing = strstr(text, "<svg") != NULL;
-    const bool good = drawing ? read_drawing(text, id ? id : "", is, what, sizeof what)
-                              : read_rows(text, is, what, sizeof what);
+    bool good = drawing ? read_drawing(text, id ? id : "", is, what, sizeof what)
+                        : read_rows(text, is, what, sizeof what);
     mem_free(text);
     if (good && is->n > 2) {
         const bool twice = is->x[0][0] == is->x[is->n - 1][0] && is->x[0][1] == is->x[is->n - 1][1];
-        thin_out(is, most, drawing ? 5e-4 : 1e-9);
+        if (!whole)
+            thin_out(is, most, drawing ? 5e-4 : 1e-9);
         is->closed = is->closed || twice;
         is->n -= twice;
+        good = is->n <= most;
+        if (!good)
+            snprintf(what, sizeof what, "%d corners, of which at most %d are possible", is->n,
+                     most);
     }
     if (good && is->n >= 2)
         return true;

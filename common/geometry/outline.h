@@ -18,8 +18,10 @@ struct outline {
 };
 
 /* Reads at most `most' corners into *is: chords of curves as short as that allows, and corners that
- * lie on the straight line between their neighbours are left out. is->x is owned by the caller
- * (mem_free). false: text[size] says what is wrong with the file. Local to a rank. */
-bool outline_read(const char *file, int most, struct outline *is, char *text, size_t size);
+ * lie on the straight line between their neighbours are left out; with `whole' none is. is->x is
+ * owned by the caller (mem_free). false: text[size] says what is wrong with the file. Local to a
+ * rank. */
+bool outline_read(const char *file, int most, bool whole, struct outline *is, char *text,
+                  size_t size);
 
 #endif

@@ -150,7 +150,7 @@ static void add_term(const struct body_drive *v, const struct body_term *term, d
                      double *dd, double *ddd)
 {
     double f[3], w[3];
-    if (term->is->kind == MOTION_PARTNER)
+    if (term->is->kind >= MOTION_PARTNER) /* says it by the course */
         return;
     ramp(term->is->ramp, t, w);
     for (int c = 1; c < v->columns; c++) {
@@ -185,12 +185,8 @@ void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], do
         dd[s->axis] += s->v + later * s->a;
         ddd[s->axis] += s->a;
     }
-    for (int a = 0; a < BODY_AXES && v->course; a++) {
-        const double *c = v->course->c[a], later = t - v->course->at;
-        d[a] += c[0] + later * (c[1] + later * (c[2] + later * c[3]));
-        dd[a] += c[1] + later * (2.0 * c[2] + later * 3.0 * c[3]);
-        ddd[a] += 2.0 * c[2] + later * 6.0 * c[3];
-    }
+    for (int a = 0; a < BODY_AXES && v->course; a++)
+        body_course_add(v->course, a, t, d + a, dd + a, ddd + a);
 }
 
 void body_drive_motion(const struct body_drive *v, double t, struct body_motion *m)

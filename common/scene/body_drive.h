@@ -36,12 +36,24 @@ struct body_steer {
     double d, v, a; /* m or rad, and its rates */
 };
 
-/* What another program says of the coupling step under way: displacement along or rotation about
- * axis a, the sum over k of c[a][k] (t - at)^k. */
+/* What another program says of the coupling step under way: of degree of freedom a, the sum over k
+ * of c[a][k] (t - at)^k. They are those of enum body_axis, or, of a body that bends, the
+ * displacements along x and y of each point of its outline. */
 struct body_course {
-    double at;              /* s */
-    double c[BODY_AXES][4]; /* m/s^k or rad/s^k */
+    double at;     /* s */
+    int n;         /* of degrees of freedom */
+    double c[][4]; /* m/s^k or rad/s^k */
 };
+
+/* Adds its value at t, s, and the first and second derivatives. */
+static inline void body_course_add(const struct body_course *c, int a, double t, double *d,
+                                   double *dd, double *ddd)
+{
+    const double *p = c->c[a], later = t - c->at;
+    *d += p[0] + later * (p[1] + later * (p[2] + later * p[3]));
+    *dd += p[1] + later * (2.0 * p[2] + later * 3.0 * p[3]);
+    *ddd += 2.0 * p[2] + later * 6.0 * p[3];
+}
 
 /* All terms of a body. Plain data, nothing to free. */
 struct body_drive {

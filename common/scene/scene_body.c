@@ -45,15 +45,17 @@ static bool is_first(const void *scene, const void *element)
     return element == (const void *)((const struct scene *)scene)->bodies;
 }
 
+#define BY_PARTNER (ONE(MOTION_PARTNER) | ONE(MOTION_BENDING))
+
 /* clang-format off */
 #define P struct scene_motion
 static const struct param motion_rows[] = {
-    CHOICE(P, kind, "file|harmonic|polynomial|waves|partner", "file", "kind of motion; waves: of a body as piston or flap, makes the waves of the group waves; partner: another program of the job moves the body (coupler/README.md)"),
+    CHOICE(P, kind, "file|harmonic|polynomial|waves|partner|bending", "file", "kind of motion; waves: of a body as piston or flap, makes the waves of the group waves; partner: another program of the job moves the body; bending: it moves each point of its outline, in 2D (coupler/README.md)"),
     PARAM(P, file,      "-",   "", 0, 0, "rows t, x, y, angle; in 3D t, x, y, z, rx, ry, rz (rotation vector): displacement from the start",
           USED(ONLY(kind, ONE(MOTION_FILE), "the kind of this term is not file"))),
     CHOICE(P, axis, AXES, "y", "displacement along it, or rotation about it, through the centre",
           USED(ONLY(kind, ~ONE(MOTION_FILE), "the columns of a file say what moves"),
-               ONLY(kind, ~ONE(MOTION_PARTNER), "a partner says what moves"))),
+               ONLY(kind, ~BY_PARTNER, "a partner says what moves"))),
     PARAM(P, amplitude, "m or rad", "0.0", -1e9, 1e9, "of A sin(2 pi t/period + phase)",
           USED(ONLY(kind, ONE(MOTION_HARMONIC), "only a harmonic term has it"))),
     PARAM(P, period,    "s",   "0.0", 0, 1e9, "of that",
@@ -67,7 +69,7 @@ static const struct param motion_rows[] = {
     PARAM(P, until,     "s",   "1e9", 0, 1e9, "its end",
           USED(ONLY(kind, ONE(MOTION_POLYNOMIAL), "only a polynomial has it"))),
     PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from zero within this time, with continuous velocity and acceleration",
-          USED(ONLY(kind, ~ONE(MOTION_PARTNER), "a partner says how its motion begins"))),
+          USED(ONLY(kind, ~BY_PARTNER, "a partner says how its motion begins"))),
     PARAM(P, absorb,    "-",   "false", 0, 0, "of kind waves: the paddle takes up the waves that come back to it, by a gauge of the level 2 sph.dx before its face",
           USED(ONLY(kind, ONE(MOTION_WAVES), "only what makes waves (kind = \"waves\") absorbs them"))),
 };
@@ -179,13 +181,17 @@ bool scene_body_moves(const struct scene_body *b)
     return any;
 }
 
-bool scene_body_partnered(const struct scene_body *b)
+static bool has_motion(const struct scene_body *b, unsigned kinds)
 {
     bool any = false;
     for (int i = 0; i < b->motion.n; i++)
-        any = any || b->motion.of[i].kind == MOTION_PARTNER;
+        any = any || kinds >> b->motion.of[i].kind & 1;
     return any;
 }
+
+bool scene_body_partnered(const struct scene_body *b) { return has_motion(b, BY_PARTNER); }
+
+bool scene_body_bends(const struct scene_body *b) { return has_motion(b, ONE(MOTION_BENDING)); }
 
 struct scene_contact scene_contact_of(const struct scene_body *b)
 {

@@ -12,8 +12,15 @@
 
 /* How a term of a motion is given (bodies.motion.kind): rows of a file over time, amplitude, period
  * and phase, coefficients of powers of time, the wave maker's motion for the group waves, or what
- * another program of the job says. */
-enum motion_kind { MOTION_FILE, MOTION_HARMONIC, MOTION_POLYNOMIAL, MOTION_WAVES, MOTION_PARTNER };
+ * another program of the job says of the body, or of each point of its outline. */
+enum motion_kind {
+    MOTION_FILE,
+    MOTION_HARMONIC,
+    MOTION_POLYNOMIAL,
+    MOTION_WAVES,
+    MOTION_PARTNER,
+    MOTION_BENDING
+};
 /* Degrees of freedom of a body: along x, y, z, then about them. In 2D x, y and RZ exist alone. */
 enum body_axis { AXIS_X, AXIS_Y, AXIS_Z, AXIS_RX, AXIS_RY, AXIS_RZ, BODY_AXES };
 /* How the fluid's force on a free body is measured: as the momentum that the particles lose to it,
@@ -124,8 +131,9 @@ extern const struct param_list scene_motion_list;
 
 /* Whether the body ever moves: it is free, or has a velocity or terms of motion. */
 bool scene_body_moves(const struct scene_body *b);
-/* Whether another program of the job moves the body. */
+/* Whether another program of the job moves the body; whether it moves each point of its outline. */
 bool scene_body_partnered(const struct scene_body *b);
+bool scene_body_bends(const struct scene_body *b);
 /* The contact as the case gives it, else with the defaults of the keys. */
 struct scene_contact scene_contact_of(const struct scene_body *b);
 /* Bits 1 << enum body_axis of the words in lock, separated by blanks or commas; -1: a word is none

@@ -21,9 +21,11 @@ void scene_outline_place(const struct scene_surface *is, int n, const double (*x
     }
 }
 
-/* Corners from a file, or those given, in their place. Whether the file's are closed. */
-static bool read_one(const char *dir, const char *group, int k, const struct scene_surface *is,
-                     struct param_points *to, const struct params *p, struct faults *f)
+/* Corners from a file, or those given, in their place. Whether the file's are closed. whole: its
+ * corners on straight lines stay. */
+static bool read_one(const char *dir, const char *group, int k, bool whole,
+                     const struct scene_surface *is, struct param_points *to,
+                     const struct params *p, struct faults *f)
 {
     char file[1024 + PARAM_TEXT_SIZE], text[1400];
     struct outline o;
@@ -37,7 +39,7 @@ static bool read_one(const char *dir, const char *group, int k, const struct sce
              *is->outline == '/' ? "" : "/", is->outline);
     if (to->n > 0)
         params_fault(p, f, key, "points are given, too: leave one of them out");
-    else if (!outline_read(file, PARAM_POINTS_MAX, &o, text, sizeof text))
+    else if (!outline_read(file, PARAM_POINTS_MAX, whole, &o, text, sizeof text))
         params_fault(p, f, key, "%s", text);
     else {
         const bool closed = o.closed;
@@ -53,13 +55,14 @@ void scene_outlines_read(struct scene *s, const char *dir, const struct params *
     scene_forms_make(s, p, f);
     for (int k = 0; k < s->nwalls; k++)
         s->walls[k].closed =
-            read_one(dir, "walls", k, &s->walls[k].surface, &s->walls[k].points, p, f) ||
+            read_one(dir, "walls", k, false, &s->walls[k].surface, &s->walls[k].points, p, f) ||
             s->walls[k].closed;
     for (int k = 0; k < s->nbodies; k++)
         if (scene_form_of(s->bodies + k) == FORM_NONE)
-            read_one(dir, "bodies", k, &s->bodies[k].surface, &s->bodies[k].points, p, f);
+            read_one(dir, "bodies", k, scene_body_bends(s->bodies + k), &s->bodies[k].surface,
+                     &s->bodies[k].points, p, f);
     for (int k = 0; k < s->nshapes; k++)
-        read_one(dir, "shapes", k, &s->shapes[k].surface, &s->shapes[k].points, p, f);
+        read_one(dir, "shapes", k, false, &s->shapes[k].surface, &s->shapes[k].points, p, f);
     for (int k = 0; k < s->nbodies; k++)
         s->bodies[k].tank = scene_body_is_tank(s, k);
 }

@@ -40,7 +40,7 @@ void scene_check_motion(const struct scene_motions *all, const char *list, int k
         const char *key = key_text("%s.[%d].motion.[%d].kind", list, k, i);
         if (all->of[i].kind == MOTION_WAVES)
             params_fault(p, f, key, "only the motion of a body makes waves");
-        if (all->of[i].kind == MOTION_PARTNER)
+        if (all->of[i].kind >= MOTION_PARTNER)
             params_fault(p, f, key, "a partner moves bodies alone: give another kind of motion");
     }
 }

@@ -221,13 +221,13 @@ static void say_out(const struct sph *s, const struct body *b, const double *x, 
  * pressed on it goes some thousandths of dx beyond, with others on its back some more. */
 static void judge(const struct sph *s, const struct body *b, struct diagnosis *d)
 {
-    const int n = b->mesh ? b->mesh->nvertices : b->is->points.n;
+    const int n = body_corners(b);
     const double small = (b->free ? 0.1 : 1e-6) * s->dx;
     double lo[3], hi[3];
     room_of(s, lo, hi);
     for (int k = 0; k < n && !d->bad; k++) {
         double x[3] = {0.0, 0.0, 0.0};
-        body_place(b, b->mesh ? b->mesh->x[k] : b->is->points.x[k], x);
+        body_corner(b, k, x);
         for (int a = 0; a < s->dim && !d->bad; a++)
             if (!(x[a] >= lo[a] - small && x[a] <= hi[a] + small))
                 say_out(s, b, x, a, d);

@@ -55,7 +55,7 @@ struct force body_average(struct sph *s, int k);
 struct force body_average_pushed(struct sph *s, int k, double *pushed, double *pressure);
 /* The force of the pressure reference alone, which the particles leave out, on the part of the
  * surface that the domain and other walls leave wet: zero, or the weight of what the body
- * displaces, unless they cut it. */
+ * displaces, unless they cut it. Sets the reference loads of one that bends. */
 struct force body_reference(const struct sph *s, int k);
 
 /* body_wedge.c: finds where bodies that stay where they are leave too little room for particles

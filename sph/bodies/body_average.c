@@ -200,12 +200,17 @@ struct force body_reference(const struct sph *s, int which)
     if (r->p == 0.0 && vec3_length(r->slope) == 0.0)
         return force;
     struct nodes nodes = body_nodes_lay(s, which);
+    const struct body_bend *bend = s->walls->bodies[which].bend;
+    if (bend)
+        memset(bend->reference, 0, (size_t)bend->n * sizeof *bend->reference);
     for (int k = 0; k < nodes.n; k++) {
         const struct average_node *d = nodes.node + k;
         double f[3] = {0.0, 0.0, 0.0};
         if (is_wet(s, d))
             vec3_add(f, d->area * scene_reference_at(r, s->dim, d->x), d->n);
         push(s->walls->bodies + which, d, f, &force);
+        if (bend)
+            body_bend_load(bend, d->x, f, bend->reference);
     }
     mem_free(nodes.node);
     return force;

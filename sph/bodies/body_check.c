@@ -96,6 +96,15 @@ static bool is_open(const struct scene_body *b, int dim, int axis)
     return b->free && (b->hinge.n > 0 || locked < 0 || !(locked >> axis & 1));
 }
 
+/* Whether it has a constant velocity or spin. */
+static bool drives(const struct body *b)
+{
+    bool any = false;
+    for (int a = 0; a < BODY_AXES; a++)
+        any = any || b->drive.constant[a] != 0.0;
+    return any;
+}
+
 static void check_term(const struct run *r, const struct sph_params *used, int k, int i,
                        const struct body *b, struct faults *f)
 {
@@ -106,7 +115,11 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
     char key[KEY], rest[32];
     snprintf(rest, sizeof rest, ".motion.[%d]", i);
     key_of(key, k, rest);
-    if (m->kind == MOTION_PARTNER) {
+    if (m->kind >= MOTION_PARTNER) {
+        if (m->kind == MOTION_BENDING && (dim == 3 || b->drive.nterms > 1 || drives(b)))
+            params_fault(r->params, f, key,
+                         "a partner that bends a body moves all of its outline, in 2D: give no "
+                         "other motion, velocity or spin; in 3D kind partner moves it whole");
         if (b->is->free)
             params_fault(r->params, f, key,
                          "a partner moves all of a body, forces move this one: leave out free and "

@@ -17,8 +17,14 @@ void body_courses_create(struct sph *s)
         struct body *b = s->walls->bodies + k;
         if (!scene_body_partnered(b->is))
             continue;
-        b->course = s->coarser ? s->coarser->walls->bodies[k].course : NEW(struct body_course, 1);
-        b->drive.course = b->course;
+        const int n = b->bend ? 2 * b->bend->n : BODY_AXES;
+        if (s->coarser) {
+            b->course = s->coarser->walls->bodies[k].course;
+        } else {
+            b->course = mem_new(1, sizeof *b->course + (size_t)n * sizeof b->course->c[0]);
+            b->course->n = n;
+        }
+        b->drive.course = b->bend ? NULL : b->course;
     }
 }
 
@@ -28,69 +34,70 @@ void body_courses_free(struct sph *s)
         mem_free(s->walls->bodies[k].course);
 }
 
-void body_course_at(const struct sph *s, int k, double t, double at[12])
+void body_course_set(struct body_course *c, double t0, double t1, const double *to)
 {
-    const struct body_course *c = s->walls->bodies[k].course;
-    for (int a = 0; a < BODY_AXES; a++) {
-        const double *p = c->c[a], later = t - c->at;
-        at[a] = p[0] + later * (p[1] + later * (p[2] + later * p[3]));
-        at[BODY_AXES + a] = p[1] + later * (2.0 * p[2] + later * 3.0 * p[3]);
-    }
-}
-
-void body_course_set(struct sph *s, int k, double t0, double t1, const double to[12])
-{
-    struct body_course *c = s->walls->bodies[k].course;
     const double h = t1 - t0;
-    double from[2 * BODY_AXES];
-    body_course_at(s, k, t0, from);
-    c->at = t0;
-    for (int a = 0; a < BODY_AXES; a++) {
-        const double mean = (to[a] - from[a]) / h, v0 = from[BODY_AXES + a], v1 = to[BODY_AXES + a];
-        c->c[a][0] = from[a];
+    for (int a = 0; a < c->n; a++) {
+        double x0 = 0.0, v0 = 0.0, unused = 0.0;
+        const double v1 = to[c->n + a];
+        body_course_add(c, a, t0, &x0, &v0, &unused);
+        const double mean = (to[a] - x0) / h;
+        c->c[a][0] = x0;
         c->c[a][1] = v0;
         c->c[a][2] = (3.0 * mean - 2.0 * v0 - v1) / h;
         c->c[a][3] = (v0 + v1 - 2.0 * mean) / (h * h);
     }
+    c->at = t0;
 }
 
 /* --- restart --- */
 
-enum { COURSE_ROW = 2 + 4 * BODY_AXES }; /* body, time, coefficients */
+enum { COURSE_ROW = 3 + 4 }; /* body, degree of freedom, time, coefficients */
+
+/* The degrees of freedom of all bodies that partners move. */
+static int degrees(const struct sph *s)
+{
+    int n = 0;
+    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
+        n += s->walls->bodies[k].course ? s->walls->bodies[k].course->n : 0;
+    return n;
+}
 
 void body_courses_save(const struct sph *s, struct h5 *f)
 {
-    double rows[BODIES_MAX][COURSE_ROW];
-    int n = 0;
-    for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
+    const int n = degrees(s);
+    if (n == 0)
+        return;
+    double(*const rows)[COURSE_ROW] = mem_new((size_t)n, sizeof *rows), (*row)[COURSE_ROW] = rows;
+    for (int k = 0; k < s->walls->nbodies; k++) {
         const struct body_course *c = s->walls->bodies[k].course;
-        if (!c)
-            continue;
-        rows[n][0] = k;
-        rows[n][1] = c->at;
-        memcpy(rows[n++] + 2, c->c, sizeof c->c);
+        for (int a = 0; c && a < c->n; a++, row++) {
+            (*row)[0] = k;
+            (*row)[1] = a;
+            (*row)[2] = c->at;
+            memcpy(*row + 3, c->c[a], sizeof c->c[a]);
+        }
     }
-    if (n > 0)
-        h5_write_real(f, "courses", "motion of bodies that partners move",
-                      s->run->rank == 0 ? n : 0, COURSE_ROW, rows[0], false);
+    h5_write_real(f, "courses", "motion of bodies that partners move", s->run->rank == 0 ? n : 0,
+                  COURSE_ROW, rows[0], false);
+    mem_free(rows);
 }
 
 bool body_courses_load(struct sph *s, struct h5 *f)
 {
     int64_t n = 0;
-    int wanted = 0, found = 0;
-    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
-        wanted += s->walls->bodies[k].course != NULL;
+    int found = 0;
+    const int wanted = degrees(s);
     if (wanted == 0)
         return true;
     double *rows = h5_read_all_real(f, "courses", COURSE_ROW, &n);
     for (int i = 0; rows && n == wanted && i < n; i++) {
         const double *row = rows + (ptrdiff_t)COURSE_ROW * i;
         struct body_course *c = s->walls->bodies[(int)row[0]].course;
-        if (!c)
+        if (!c || row[1] >= c->n)
             continue;
-        c->at = row[1];
-        memcpy(c->c, row + 2, sizeof c->c);
+        c->at = row[2];
+        memcpy(c->c[(int)row[1]], row + 3, sizeof c->c[0]);
         found++;
     }
     mem_free(rows);

@@ -5,6 +5,7 @@
 #ifndef SPH_BODY_COURSES_H
 #define SPH_BODY_COURSES_H
 
+#include "../../common/scene/scene.h"
 #include "../sph.h"
 
 struct h5;
@@ -13,11 +14,9 @@ struct h5;
  * those of the coarser one. body_courses_free frees them. */
 void body_courses_create(struct sph *s);
 void body_courses_free(struct sph *s);
-/* Lets body k go from where it is at t0 to the displacement and rotation vector to[0..5], m and
- * rad, with the velocities to[6..11], at t1, s: a cubic in each, so that nothing jumps. */
-void body_course_set(struct sph *s, int k, double t0, double t1, const double to[12]);
-/* Place and velocities of body k at t, s, as in body_course_set. */
-void body_course_at(const struct sph *s, int k, double t, double at[12]);
+/* Lets the degrees of freedom go from where they are at t0 to to[0..n-1], m and rad, with the
+ * velocities to[n..2n-1], at t1, s: a cubic in each, so that nothing jumps. */
+void body_course_set(struct body_course *c, double t0, double t1, const double *to);
 void body_courses_save(const struct sph *s, struct h5 *f);
 /* false: the file has none that fit. */
 bool body_courses_load(struct sph *s, struct h5 *f);

@@ -1,7 +1,8 @@
 /* body_coupling.h - bodies in a coupled job: what the fluid does to them goes to any program that
  * asks for it, and a program may move them (motion of kind partner). Fields of one point at the
- * origin each, of body b: sph.b.force, sph.b.motion out, b.motion in; coupler/README.md has their
- * components. SPDX-License-Identifier: BSD-3-Clause */
+ * origin each, of body b: sph.b.force, sph.b.motion out, b.motion in; of one that bends, on the
+ * points of its outline: sph.b.load out, b.outline in; coupler/README.md has their components.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_BODY_COUPLING_H
 #define SPH_BODY_COUPLING_H
 

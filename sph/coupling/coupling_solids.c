@@ -53,14 +53,14 @@ static double leaves(const struct run *r, const struct sph_params *prm, int k, d
     struct body b;
     double when = INFINITY;
     body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->motions);
-    const int corners = b.mesh ? b.mesh->nvertices : b.is->points.n;
+    const int corners = body_corners(&b);
     for (int t = 0; t <= (b.free || !b.moves ? 0 : TIMES) && when == INFINITY; t++) {
         const double now = c->time.end * t / TIMES;
         double way[3], at[3] = {0.0, 0.0, 0.0};
         body_move(&b, now);
         (void)box_motion_foretold(r, prm, now, way);
         for (int i = 0; i < corners && when == INFINITY; i++) {
-            body_place(&b, b.mesh ? b.mesh->x[i] : b.is->points.x[i], at);
+            body_corner(&b, i, at);
             if (is_beyond(dim, box, open, way, at))
                 when = now;
         }

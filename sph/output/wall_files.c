@@ -105,7 +105,7 @@ static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, con
         names[k] = w->bodies[k].is->name;
         n[k] = p->n;
         for (int i = 0; i < p->n; i++)
-            body_place(w->bodies + k, p->x[i], at[i]);
+            body_corner(w->bodies + k, i, at[i]);
         snprintf(name, sizeof name, "outline_%d", k + 1);
         h5_write_real(f, name, "m", s->run->rank == 0 ? p->n : 0, 2, &at[0][0], true);
     }

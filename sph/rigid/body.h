@@ -41,6 +41,17 @@ struct body_free {
     double size;          /* N s: integral of |F| over the run */
 };
 
+/* --- body_bend.c: a body in the plane whose outline another program bends --- */
+
+/* Its points where they are now, and what they bear. Loads are those of one level and rank, sums
+ * over the ranks since the start excepted; 2D: N/m and N s/m. */
+struct body_bend {
+    int n;
+    double (*x)[2], (*u)[2], (*du)[2];           /* m, m/s, m/s^2 */
+    double (*stage)[2], (*step)[2], (*total)[2]; /* N: in this stage; N s: this step, all before */
+    double (*reference)[2]; /* N: of the pressure that the particles leave out; all ranks */
+};
+
 /* One body. */
 struct body {
     const struct scene_body *is; /* its keys; borrowed */
@@ -58,6 +69,7 @@ struct body {
     struct body_free *free;     /* NULL: driven */
     struct paddle *paddle;      /* NULL: it does not absorb waves */
     struct body_course *course; /* that a partner gives; NULL: none moves it */
+    struct body_bend *bend;     /* NULL: it is rigid */
     struct body_motion now;     /* its motion at the time of the last body_move */
 };
 
@@ -82,7 +94,10 @@ void body_hold(struct body *b, double t);
 void body_move(struct body *b, double t);
 /* Where the point that is at `from' at the start is now, m. */
 void body_place(const struct body *b, const double *from, double *to);
-/* Velocity of its material point at `at' now, m/s. */
+/* Where corner i of its outline, in 3D vertex i of its mesh, is now, m. */
+void body_corner(const struct body *b, int i, double *to);
+int body_corners(const struct body *b);
+/* Velocity of its material point at `at' now, m/s; it is rigid. */
 void body_velocity(const struct body *b, const double *at, double *u);
 /* Largest speed of any of its points now, m/s. */
 double body_speed(const struct body *b);
@@ -98,5 +113,20 @@ double body_energy(const struct body *b, const double g[3], double *kinetic);
 /* Effective mass of a body against a force along the unit vector n at the arm r, m, from its
  * centre: 1/(n.M^-1 n), kg; INFINITY: it is not free. */
 double body_effective_mass(const struct body *b, const double *r, const double *n);
+
+/* At rest, as the case has it, with n points. body_bend_free frees it. */
+struct body_bend *body_bend_create(const struct scene_body *is);
+void body_bend_free(struct body_bend **bend);
+/* Sets its points to time t, s. */
+void body_bend_move(struct body *b, double t);
+/* Velocity and acceleration (NULL: not wanted), m/s and m/s^2, on the piece from point k to the
+ * next, `share' of the way. */
+void body_bend_velocity(const struct body_bend *bend, int k, double share, double *u, double *du);
+/* Adds the force f[2] at x, m, to the points of the piece that is nearest, so that the sum stays
+ * f; `to' is one of the bend's loads. */
+void body_bend_load(const struct body_bend *bend, const double *x, const double *f,
+                    double (*to)[2]);
+/* Power of the loads of the stage, W/m. */
+double body_bend_power(const struct body_bend *bend);
 
 #endif

@@ -159,10 +159,16 @@ void body_create(struct body *b, const struct scene_body *is, const struct trime
         vec3_add(d, 1.0, mesh->x[k]);
         b->reach = fmax(b->reach, vec3_length(d));
     }
+    if (scene_body_bends(is))
+        b->bend = body_bend_create(is);
     body_move(b, 0.0);
 }
 
-void body_destroy(struct body *b) { mem_free(b->free); }
+void body_destroy(struct body *b)
+{
+    mem_free(b->free);
+    body_bend_free(&b->bend);
+}
 
 /* --- where it is --- */
 
@@ -268,6 +274,8 @@ void body_move(struct body *b, double t)
     m->angle = m->r[2];
     m->spin = m->omega[2];
     m->dspin = m->domega[2];
+    if (b->bend)
+        body_bend_move(b, t);
 }
 
 void body_place(const struct body *b, const double *from, double *to)
@@ -278,6 +286,16 @@ void body_place(const struct body *b, const double *from, double *to)
     turn3((double(*)[3])b->now.Q, d, d);
     for (int a = 0; a < b->dim; a++)
         to[a] = b->centre[a] + b->now.x[a] + d[a];
+}
+
+int body_corners(const struct body *b) { return b->mesh ? b->mesh->nvertices : b->is->points.n; }
+
+void body_corner(const struct body *b, int i, double *to)
+{
+    if (b->bend)
+        memcpy(to, b->bend->x[i], sizeof b->bend->x[i]);
+    else
+        body_place(b, b->mesh ? b->mesh->x[i] : b->is->points.x[i], to);
 }
 
 void body_velocity(const struct body *b, const double *at, double *u)
@@ -292,7 +310,10 @@ void body_velocity(const struct body *b, const double *at, double *u)
 
 double body_speed(const struct body *b)
 {
-    return vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega);
+    double most = vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega);
+    for (int i = 0; b->bend && i < b->bend->n; i++)
+        most = fmax(most, hypot(b->bend->u[i][0], b->bend->u[i][1]));
+    return most;
 }
 
 /* --- rates --- */

@@ -15,19 +15,30 @@
 
 enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1, PARTS = sizeof(struct force) / sizeof(double) };
 
+/* to += factor f, of the n points of an outline. */
+static void add_loads(double (*to)[2], double factor, const double (*f)[2], int n)
+{
+    for (int i = 0; i < n; i++)
+        for (int a = 0; a < 2; a++)
+            to[i][a] += factor * f[i][a];
+}
+
 void forces_clear(struct walls *w)
 {
     memset(w->forces.stage, 0, sizeof w->forces.stage);
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].bend)
+            memset(w->bodies[k].bend->stage, 0,
+                   (size_t)w->bodies[k].bend->n * sizeof *w->bodies[k].bend->stage);
     w->forces.credited = true;
 }
 
-/* From a body's centre to x, which may lie beside the body's image across a period: x is taken
- * where it is nearest to the middle of the body itself. */
-static double arm_of(const struct sph *s, int body, const double *x, int axis)
+/* x, which may lie beside a body's image across a period, where it is nearest to the middle of the
+ * body itself. */
+static double beside_body(const struct sph *s, int body, const double *x, int axis)
 {
     const double middle = s->walls->middle[body][axis], L = s->hi[axis] - s->lo[axis];
-    const double off = s->periodic[axis] ? L * round((x[axis] - middle) / L) : 0.0;
-    return x[axis] - off - body_centre(s->walls->bodies + body, axis);
+    return x[axis] - (s->periodic[axis] ? L * round((x[axis] - middle) / L) : 0.0);
 }
 
 static void add(const struct sph *s, struct force to[SIDES], int body, const double *x,
@@ -37,7 +48,8 @@ static void add(const struct sph *s, struct force to[SIDES], int body, const dou
     double d[3] = {0.0, 0.0, 0.0}, F[3] = {0.0, 0.0, 0.0};
     for (int a = 0; a < s->dim; a++) {
         F[a] = f[a];
-        d[a] = body >= 0 ? arm_of(s, body, x, a) : x[a];
+        d[a] =
+            body < 0 ? x[a] : beside_body(s, body, x, a) - body_centre(s->walls->bodies + body, a);
     }
     for (int a = 0; a < 3; a++) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -46,15 +58,32 @@ static void add(const struct sph *s, struct force to[SIDES], int body, const dou
     }
 }
 
+/* The bend of a body, NULL: it is rigid, or at rest; *at: x beside it. */
+static struct body_bend *bend_of(const struct sph *s, int body, const double *x, double at[2])
+{
+    struct body_bend *bend = body < 0 ? NULL : s->walls->bodies[body].bend;
+    for (int a = 0; bend && a < 2; a++)
+        at[a] = beside_body(s, body, x, a);
+    return bend;
+}
+
 void forces_add(const struct sph *s, int body, const double *x, const double *f)
 {
+    double at[2];
+    const struct body_bend *bend = bend_of(s, body, x, at);
     add(s, s->walls->forces.stage, body, x, f);
+    if (bend)
+        body_bend_load(bend, at, f, bend->stage);
 }
 
 void forces_hit(const struct sph *s, int body, const double *x, const double *impulse)
 {
+    double at[2];
+    const struct body_bend *bend = bend_of(s, body, x, at);
     add(s, s->walls->forces.step, body, x, impulse);
     add(s, s->walls->forces.hit, body, x, impulse);
+    if (bend)
+        body_bend_load(bend, at, impulse, bend->step);
 }
 
 static void add_times(struct force *to, double factor, const struct force *f)
@@ -69,6 +98,11 @@ void forces_join_stage(struct walls *to, const struct walls *from)
 {
     for (int b = 0; b < SIDES; b++)
         add_times(to->forces.stage + b, 1.0, from->forces.stage + b);
+    for (int k = 0; k < to->nbodies; k++) {
+        const struct body_bend *own = to->bodies[k].bend, *other = from->bodies[k].bend;
+        if (own)
+            add_loads(own->stage, 1.0, (const double(*)[2])other->stage, own->n);
+    }
 }
 
 void forces_join_step(struct walls *to, struct walls *from)
@@ -80,6 +114,13 @@ void forces_join_step(struct walls *to, struct walls *from)
     }
     memset(f->step, 0, sizeof f->step);
     memset(f->hit, 0, sizeof f->hit);
+    for (int k = 0; k < to->nbodies; k++) {
+        const struct body_bend *own = to->bodies[k].bend, *other = from->bodies[k].bend;
+        if (!own)
+            continue;
+        add_loads(own->step, 1.0, (const double(*)[2])other->step, own->n);
+        memset(other->step, 0, (size_t)other->n * sizeof *other->step);
+    }
 }
 
 /* Morris's term is nu Lap u, whose traction on a wall is mu du/dn. The stress on a wall that turns
@@ -102,8 +143,16 @@ void forces_stage(struct sph *s, double dt)
     struct wall_forces *f = &s->walls->forces;
     for (int b = 0; b < SIDES; b++)
         add_times(f->step + b, dt, f->stage + b);
+    for (int k = 0; k < s->walls->nbodies; k++) {
+        const struct body_bend *bend = s->walls->bodies[k].bend;
+        if (bend)
+            add_loads(bend->step, dt, (const double(*)[2])bend->stage, bend->n);
+    }
     for (int k = 0; k < s->walls->nbodies && s->run->rank == 0 && s->level == 0; k++) {
         struct force besides = f->reference[k];
+        const struct body_bend *bend = s->walls->bodies[k].bend;
+        if (bend)
+            add_loads(bend->step, dt, (const double(*)[2])bend->reference, bend->n);
         forces_add_turning(s, k, besides.M);
         add_times(f->step + k, dt, &besides);
     }
@@ -121,6 +170,14 @@ static void sample(struct sph *s, double dt)
         s->total.mean_force.sum[a] += part * now[a];
         s->total.mean_force.sum2 += part * now[a] * now[a];
     }
+}
+
+/* Loads of the step on a body that bends, summed over the ranks, join those before. */
+static void close_bend(const struct sph *s, const struct body_bend *bend)
+{
+    MPI_Allreduce(MPI_IN_PLACE, bend->step, 2 * bend->n, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    add_loads(bend->total, 1.0, (const double(*)[2])bend->step, bend->n);
+    memset(bend->step, 0, (size_t)bend->n * sizeof *bend->step);
 }
 
 void forces_step(struct sph *s, double dt)
@@ -141,6 +198,9 @@ void forces_step(struct sph *s, double dt)
         add_times(f->now + b, 1.0 / dt, f->step + b);
     }
     memset(f->step, 0, sizeof f->step);
+    for (int k = 0; k < s->walls->nbodies; k++)
+        if (s->walls->bodies[k].bend)
+            close_bend(s, s->walls->bodies[k].bend);
     f->known = true;
     if (s->walls->nbodies > 0)
         sample(s, dt);

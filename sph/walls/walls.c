@@ -72,7 +72,8 @@ static void extend(const struct sph *s, double *end, const double *other)
         }
 }
 
-/* Whether a polyline goes straight on at b, so that how a straight wall is cut changes nothing. */
+/* Whether a polyline goes straight on at b, so that how a straight wall is cut changes nothing
+ * unless it bends. */
 static bool goes_on(const double *a, const double *b, const double *c)
 {
     const double d[2] = {b[0] - a[0], b[1] - a[1]}, e[2] = {c[0] - b[0], c[1] - b[1]};
@@ -84,19 +85,22 @@ static void add_polyline(struct sph *s, struct walls *w, const struct param_poin
                          const struct segment *like)
 {
     const int n = closed ? p->n : p->n - 1;
+    const bool bends = like->body >= 0 && w->bodies[like->body].bend;
+    struct segment piece = *like;
     double a[2], b[2];
     for (int k = 0; k < n; k++) {
         const double *from = p->x[k], *to = p->x[(k + 1) % p->n], *next = p->x[(k + 2) % p->n];
-        if (k == 0 || !goes_on(p->x[k - 1], from, to))
+        if (k == 0 || bends || !goes_on(p->x[k - 1], from, to))
             memcpy(a, from, sizeof a);
         memcpy(b, to, sizeof b);
-        if (k < n - 1 && goes_on(from, to, next))
+        if (k < n - 1 && !bends && goes_on(from, to, next))
             continue;
         if (!closed && a[0] == p->x[0][0] && a[1] == p->x[0][1])
             extend(s, a, p->x[1]);
         if (!closed && k == n - 1)
             extend(s, b, p->x[n - 1]);
-        add_segment(w, a, b, like);
+        piece.point = k;
+        add_segment(w, a, b, &piece);
     }
 }
 
@@ -164,6 +168,19 @@ static void follow(const struct walls *w, struct segment *image)
     set_frame(image);
 }
 
+/* Of a body. */
+static void place_segment(const struct body *b, const struct segment *start, struct segment *now)
+{
+    if (b->bend) {
+        body_corner(b, now->point, now->a);
+        body_corner(b, (now->point + 1) % b->bend->n, now->b);
+    } else {
+        body_place(b, start->a, now->a);
+        body_place(b, start->b, now->b);
+    }
+    set_frame(now);
+}
+
 void walls_move(struct sph *s, double t)
 {
     struct walls *w = s->walls;
@@ -176,11 +193,8 @@ void walls_move(struct sph *s, double t)
             continue;
         body_move(b, t);
         body_place(b, b->middle, w->middle[k]);
-        for (int i = b->first; i < b->first + b->n; i++) {
-            body_place(b, w->start[i].a, w->segments[i].a);
-            body_place(b, w->start[i].b, w->segments[i].b);
-            set_frame(w->segments + i);
-        }
+        for (int i = b->first; i < b->first + b->n; i++)
+            place_segment(b, w->start + i, w->segments + i);
     }
     for (int i = w->nsegments; i > 0 && w->segments[i - 1].of >= 0; i--)
         follow(w, w->segments + i - 1);
@@ -200,6 +214,11 @@ void walls_velocity(const struct walls *w, const struct segment *g, const double
     }
     const struct body *b = w->bodies + g->body;
     const struct body_motion *m = &b->now;
+    if (b->bend) {
+        const double along = (x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1];
+        body_bend_velocity(b->bend, g->point, along / g->length, u, du);
+        return;
+    }
     const double d[2] = {x[0] - g->shift[0] - body_centre(b, 0),
                          x[1] - g->shift[1] - body_centre(b, 1)};
     u[0] = m->u[0] - m->spin * d[1];

@@ -17,6 +17,7 @@ struct segment {
     double length;     /* m */
     double u[2];       /* m/s: of a wall that slides along itself (bodies: walls_velocity) */
     int body;          /* -1: at rest */
+    int point;         /* of a body that bends: the point of its outline at a */
     bool no_slip;      /* else a slip wall */
     double friction;   /* -: c_f of a slip wall's quadratic bed friction */
     bool open[2];      /* a, b: an end where no wall goes on, so that nothing is behind it there */

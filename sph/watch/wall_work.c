@@ -84,6 +84,10 @@ static double power_of_bodies(const struct walls *w)
     for (int k = 0; k < w->nbodies; k++) {
         const struct body_motion *m = &w->bodies[k].now;
         const struct force *f = w->forces.stage + k;
+        if (w->bodies[k].bend) {
+            sum -= body_bend_power(w->bodies[k].bend);
+            continue;
+        }
         for (int a = 0; a < 3; a++)
             sum -= f->F[a] * m->u[a] + f->M[a] * m->omega[a];
     }

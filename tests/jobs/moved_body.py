@@ -1,8 +1,10 @@
 """A program of its own moves a body of sph (motion of kind partner): coupler/examples/spring.c, a cylinder on a spring in a round tank
 of water. Its period is that of its mass and of the water's that theory adds, heavy or lighter than that water; beside fv it goes as
-the free body on the same spring that sph has itself. What cannot be is refused, and a program that never starts MPI ends the job.
+the free body on the same spring that sph has itself. An elastic plate (coupler/examples/plate.c) bends under water at rest as theory
+says and swings with its wet period. What cannot be is refused, and a program that never starts MPI ends the job.
 SPDX-License-Identifier: BSD-3-Clause"""
 import re
+from math import cos, cosh, pi, sin, sinh, sqrt, tanh
 import subprocess
 import time
 
@@ -23,9 +25,14 @@ def spring(folder, case, of, keys='', ranks='1', ends=(0,)):
     lib.ended(folder, run(*command(folder, case, of, keys, ranks), log=folder + '.txt'), ends)
 
 
+def places(log):
+    """Times and places of lines "t, x, v, force"."""
+    return [tuple(map(float, m.groups())) for m in re.finditer(r'^([\d.e-]+), ([\d.e-]+), [^,]+, [^,]+$', open(log).read(), re.M)]
+
+
 def crossings(log, middle):
-    """Times at which the body passes the middle, of lines "t, x, v, force"."""
-    rows = [tuple(map(float, m.groups())) for m in re.finditer(r'^([\d.e-]+), ([\d.e-]+), [^,]+, [^,]+$', open(log).read(), re.M)]
+    """Times at which the body passes the middle."""
+    rows = places(log)
     return [s + (t - s) * (x - middle) / (x - y) for (s, x), (t, y) in zip(rows, rows[1:]) if (x - middle) * (y - middle) < 0]
 
 
@@ -85,6 +92,58 @@ close('moved by a partner, or free: place', *(last(folder + '/sph-series.csv', '
 # coupling steps that another program shortens want more smoothing: told, with what it takes
 spring('short', case, of, 'time.end=0.05', '1:1:1', (0, 1))
 told('short', 'another program wishes coupling steps of .*coupling.memory = ')
+
+
+# --- an elastic plate ---
+
+plate_case, outline = (root + '/coupler/examples/plate.' + end for end in ('cfg', 'csv'))
+
+
+def plate(folder, of, keys='', ranks='1'):
+    """Deflection of the top over time beside water of depth 1 m in a tank of 1 m; `of': stiffness, mass, resistance, damping."""
+    lib.ended(folder, run(launcher, plate_case, '-n', ranks, '-o', folder, '--force', *settings(keys), '--with',
+                          '%s/examples/plate %s plate %s %s' % (build, folder, outline, of), log=folder + '.txt'), (0,))
+    return places(folder + '.txt')
+
+
+def top(D, l, H, L, load=9810.0):
+    """Of a cantilever of length l > H under the water's load: that of the depth H after the level has fallen by what the plate gives way."""
+    H -= load * H ** 5 / (72 * D * L)
+    return load * H ** 5 / (30 * D) + (l - H) * load * H ** 4 / (24 * D)
+
+
+def wet_period(D, m, l, H, L, rho, n=400):
+    """Of the first mode in air, of m kg/m^2 and the water's mass (potential flow to a wall at L, no pressure at the surface)."""
+    b = 1.8751040687 / l
+    s = (cosh(b * l) + cos(b * l)) / (sinh(b * l) + sin(b * l))
+
+    def shape(z):
+        return cosh(b * z) - cos(b * z) - s * (sinh(b * z) - sin(b * z))
+
+    def integral(f, to):
+        return sum(f((i + 0.5) * to / n) for i in range(n)) * to / n
+    dry = integral(lambda z: shape(z) ** 2, l)
+    water = sum(2 * rho / H * integral(lambda z, k=k: shape(z) * cos(k * z), H) ** 2 / (k * tanh(k * L))
+                for k in ((j + 0.5) * pi / H for j in range(40)))
+    return 2 * pi * sqrt((m * dry + water) / (D * b ** 4 * dry))
+
+
+rows = plate('bent', '65400 200 2e5 60', 'time.end=0.6')
+late = [w for t, w in rows if t > 0.4]
+close('plate: static deflection of its top', -sum(late) / len(late), top(65400, 1.2, 1, 1), 0.03)
+print('plate: static %.5g m of %.5g m' % (-sum(late) / len(late), top(65400, 1.2, 1, 1)))
+# released from rest: light enough that without resistance the loop would end (mass 200), 0 for a heavy one
+for of, mass in ('65400 200 2e5', 200), ('65400 400 0', 400):
+    folder = 'swing_of_%d' % mass
+    plate(folder, of, 'time.end=0.8')
+    was, wanted = period(folder + '.txt', -top(65400, 1.2, 1, 1)), wet_period(65400, mass, 1.2, 1, 1, 1000)
+    close(folder + ': period, wet', was, wanted, 0.05)
+    print('%s: period %.5g s of %.5g s' % (folder, was, wanted))
+# loads do not depend on the ranks
+a, b = plate('plate1', '65400 200 2e5', 'time.end=0.05'), plate('plate2', '65400 200 2e5', 'time.end=0.05', '2')
+close('plate on two ranks: deflection', b[-1][1], a[-1][1], 1e-6)
+refused_by('sph', beside, 'kind = "partner"', 'kind = "bending"; }, { kind = "harmonic"; amplitude = 0.1; period = 1.0',
+           'a partner that bends a body moves all of its outline')
 
 # refused
 if start('sph', tank, '-o', 'alone', '--force', log='alone.txt') == 0:

@@ -24,7 +24,7 @@ static bool read_text(const char *name, const char *id, const char *text, int mo
     fputs(text, f);
     fclose(f);
     snprintf(file, sizeof file, "%s%s", path, id);
-    return outline_read(file, most, is, why, sizeof why);
+    return outline_read(file, most, false, is, why, sizeof why);
 }
 
 static bool read_path(const char *d, struct outline *is)
@@ -66,7 +66,7 @@ TEST(rows_are_corners)
     assert_false(read_text("c.csv", "", "0,0\n1,0\none,1\n", 400, &is));
     assert_non_null(strstr(why, "line 3 is no row of x, y"));
     assert_false(read_text("d.csv", "", "x,y\n", 400, &is));
-    assert_false(outline_read("/nowhere/e.csv", 400, &is, why, sizeof why));
+    assert_false(outline_read("/nowhere/e.csv", 400, false, &is, why, sizeof why));
     assert_non_null(strstr(why, "cannot be read"));
 }
 

@@ -405,3 +405,35 @@ TEST(motion_files_are_read_once)
     assert_close(second.term[0].rows[5], 2.0, 0.0);
     motion_files_free(files);
 }
+
+/* The course of point 1 of a square, up by 0.1 m at 2 m/s at t = 0.5: the velocity of the pieces
+ * beside it is linear, and loads on the points have the force and the power of what they stand for.
+ */
+TEST(bent_square)
+{
+    static const double x[2] = {-0.4, 0.1}, f[2] = {3.0, 7.0};
+    struct scene_body is = square(0.0, 0.0);
+    struct body b = {.is = &is, .dim = 2, .bend = body_bend_create(&is)};
+    struct body_course *c = mem_new(1, sizeof *c + 8 * sizeof c->c[0]);
+    double u[2], sum[2] = {0.0, 0.0};
+    c->n = 8;
+    c->c[3][0] = -0.9;
+    c->c[3][1] = 2.0;
+    b.course = c;
+    body_bend_move(&b, 0.5);
+    assert_close(b.bend->x[1][1], 0.6, 1e-14);
+    body_bend_velocity(b.bend, 0, 0.25, u, NULL);
+    assert_close(u[1], 0.5, 1e-14);
+    body_bend_velocity(b.bend, 1, 0.25, u, NULL);
+    assert_close(u[1], 1.5, 1e-14);
+    body_bend_load(b.bend, x, f, b.bend->stage);
+    for (int i = 0; i < 4; i++)
+        for (int a = 0; a < 2; a++)
+            sum[a] += b.bend->stage[i][a];
+    assert_close(sum[0], f[0], 1e-14);
+    assert_close(sum[1], f[1], 1e-14);
+    /* the nearest piece is the left side, from -0.5 to 0.6 now, 0.6 m of 1.1 m up */
+    assert_close(body_bend_power(b.bend), f[1] * 2.0 * 0.6 / 1.1, 1e-13);
+    body_bend_free(&b.bend);
+    mem_free(c);
+}

@@ -1,0 +1,89 @@
+/* body_bend.c - a body in the plane each point of whose outline another program moves: an elastic
+ * plate. Between two points the outline is straight and its velocity linear, so that the work of
+ * the loads on the points is that of the forces on the pieces. Points are those of the case, in its
+ * order. SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+
+#include "../../common/base/base.h"
+#include "body.h"
+
+struct body_bend *body_bend_create(const struct scene_body *is)
+{
+    struct body_bend *b = NEW(struct body_bend, 1);
+    const int n = b->n = is->points.n;
+    double(**const all[])[2] = {&b->x,    &b->u,     &b->du,       &b->stage,
+                                &b->step, &b->total, &b->reference};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        *all[k] = mem_new((size_t)n, sizeof **all[k]);
+    for (int i = 0; i < n; i++)
+        for (int a = 0; a < 2; a++)
+            b->x[i][a] = is->points.x[i][a];
+    return b;
+}
+
+void body_bend_free(struct body_bend **bend)
+{
+    struct body_bend *b = *bend;
+    if (b)
+        FREE(b->x, b->u, b->du, b->stage, b->step, b->total, b->reference, b);
+    *bend = NULL;
+}
+
+void body_bend_move(struct body *b, double t)
+{
+    struct body_bend *to = b->bend;
+    for (int i = 0; b->course && i < to->n; i++)
+        for (int a = 0; a < 2; a++) {
+            to->x[i][a] = b->is->points.x[i][a];
+            to->u[i][a] = to->du[i][a] = 0.0;
+            body_course_add(b->course, 2 * i + a, t, to->x[i] + a, to->u[i] + a, to->du[i] + a);
+        }
+}
+
+void body_bend_velocity(const struct body_bend *bend, int k, double share, double *u, double *du)
+{
+    const int next = (k + 1) % bend->n;
+    const double part = fmin(fmax(share, 0.0), 1.0);
+    for (int a = 0; a < 2; a++) {
+        u[a] = (1.0 - part) * bend->u[k][a] + part * bend->u[next][a];
+        if (du)
+            du[a] = (1.0 - part) * bend->du[k][a] + part * bend->du[next][a];
+    }
+}
+
+/* Squared distance of x from the piece behind point k; *share: where it is nearest. */
+static double distance2(const struct body_bend *bend, int k, const double *x, double *share)
+{
+    const double *p = bend->x[k], *q = bend->x[(k + 1) % bend->n];
+    const double e[2] = {q[0] - p[0], q[1] - p[1]}, d[2] = {x[0] - p[0], x[1] - p[1]};
+    *share = fmin(fmax((d[0] * e[0] + d[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]), 0.0), 1.0);
+    return (d[0] - *share * e[0]) * (d[0] - *share * e[0]) +
+           (d[1] - *share * e[1]) * (d[1] - *share * e[1]);
+}
+
+void body_bend_load(const struct body_bend *bend, const double *x, const double *f, double (*to)[2])
+{
+    double least = INFINITY, at = 0.0;
+    int on = 0;
+    for (int k = 0; k < bend->n; k++) {
+        double share;
+        const double d2 = distance2(bend, k, x, &share);
+        if (d2 < least) {
+            least = d2;
+            at = share;
+            on = k;
+        }
+    }
+    for (int a = 0; a < 2; a++) {
+        to[on][a] += (1.0 - at) * f[a];
+        to[(on + 1) % bend->n][a] += at * f[a];
+    }
+}
+
+double body_bend_power(const struct body_bend *bend)
+{
+    double sum = 0.0;
+    for (int i = 0; i < bend->n; i++)
+        sum += bend->stage[i][0] * bend->u[i][0] + bend->stage[i][1] * bend->u[i][1];
+    return sum;
+}
