@@ -38,7 +38,7 @@ static const struct param rows[] = {
           USED(NEED(VISCOUS, "fluid.nu is 0: nothing viscous is computed")), .comparison = true),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)",
           USED(NEED(RIEMANN, "schemes delta and standard solve no Riemann problem")), .comparison = true),
-    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "share of the Riemann dissipation between states of third order that low_dissipation leaves where nothing hits; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
           USED(NEED(BOUNDED, "it is the floor of low_dissipation, which is off or has no Riemann scheme")), .comparison = true),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure",
           USED(NEED(RIEMANN, "schemes delta and standard have no pair pressure that it could damp")), .comparison = true),

@@ -58,6 +58,7 @@ struct riemann_batch {
     vec rho[BATCH];                      /* of j; then the mean of both states */
     vec D[3][BATCH];                     /* u_j - u_i as friction takes it */
     vec parting[BATCH];                  /* (u_j - u_i).(x_j - x_i) */
+    vec bent[BATCH];                     /* that less the mean of both slopes along x_j - x_i */
     vec u[2][3][BATCH], p[2][BATCH];     /* states at the middle: i's side, j's side */
     vec Q[BATCH], m[2][BATCH], w[BATCH]; /* fluxes of momentum, of mass, of volume */
     vec rub[BATCH];                      /* times D: momentum that goes to i */
@@ -79,7 +80,8 @@ static struct riemann_constants constants_of(const struct sph *s)
     return (struct riemann_constants){
         .eos = tait_of(s),
         .dissipation = {.factor = 3.0 / s->c0,
-                        .least = s->prm.low_dissipation ? s->prm.dissipation : 1.0},
+                        .least = s->prm.low_dissipation ? 0.0 : 1.0,
+                        .even = s->prm.dissipation},
         .limiter = s->prm.limiter,
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / s->R,
@@ -180,11 +182,12 @@ INLINE void velocities(const struct riemann_constants *c, const struct riemann_o
         }
         const vec divergence = dim == 2 ? gu[0][0] + gu[1][1] : gu[0][0] + gu[1][1] + gu[2][2];
         t->p[1][k] -= c->damper * divergence;
-        vec parting = vec_all(0.0);
+        vec parting = vec_all(0.0), slopes = vec_all(0.0);
         for (int a = 0; a < dim; a++) {
             const vec step[2] = {vec_dot(i->gu[a], d, dim), vec_dot(gu[a], d, dim)};
             vec left = i->u[a], right = u[a], D = right - left;
             parting += D * d[a];
+            slopes += (step[0] + step[1]) * d[a];
             if (v.viscosity == VISCOSITY_MORRIS)
                 D = c->sharp[0] * D + c->sharp[1] * (step[0] + step[1]);
             t->D[a][k] = D;
@@ -193,6 +196,7 @@ INLINE void velocities(const struct riemann_constants *c, const struct riemann_o
             t->u[1][a][k] = right;
         }
         t->parting[k] = parting;
+        t->bent[k] = parting - 0.5 * slopes;
     }
 }
 
@@ -239,7 +243,7 @@ INLINE void solve(const struct riemann_constants *c, const struct riemann_own *i
             uJ[a] = t->u[1][a][k];
         }
         const vec V[2] = {vec_dot(uI, d, dim), vec_dot(uJ, d, dim)};
-        star(&c->dissipation, z, p, V, &vE, &pE);
+        star(&c->dissipation, z, p, V, t->bent[k], &vE, &pE);
         if (v.exact)
             add_exact(&c->eos, z, (vec[2]){t->x[0][k], t->x[1][k]}, V, c->gamma, &vE, &pE);
         vec Q = f * pE;                        /* times d: what acts along the line of centres */

@@ -102,32 +102,22 @@ static void moments(struct sph *s, struct free_surface *f)
  * is far below any determinant of particles with two neighbours. */
 static bool find_normal(const double *M, const double *g, double *N, int dim)
 {
-    double v[3] = {0.0}, size = 0.0;
-    if (dim == 2) {
-        const double det = M[0] * M[3] - M[1] * M[2];
-        if (!(fabs(det) > 1e-12))
-            return false;
-        v[0] = -(M[3] * g[0] - M[2] * g[1]) / det;
-        v[1] = -(M[0] * g[1] - M[1] * g[0]) / det;
-    } else {
-        const double c[3] = {M[4] * M[8] - M[5] * M[7], M[5] * M[6] - M[3] * M[8],
-                             M[3] * M[7] - M[4] * M[6]};
-        const double det = M[0] * c[0] + M[1] * c[1] + M[2] * c[2];
-        if (!(fabs(det) > 1e-12))
-            return false;
-        v[0] = -(c[0] * g[0] + c[1] * g[1] + c[2] * g[2]) / det; /* rows of the cofactors: B^T */
-        v[1] = -((M[2] * M[7] - M[1] * M[8]) * g[0] + (M[0] * M[8] - M[2] * M[6]) * g[1] +
-                 (M[1] * M[6] - M[0] * M[7]) * g[2]) /
-               det;
-        v[2] = -((M[1] * M[5] - M[2] * M[4]) * g[0] + (M[2] * M[3] - M[0] * M[5]) * g[1] +
-                 (M[0] * M[4] - M[1] * M[3]) * g[2]) /
-               det;
+    double row[3][3] = {{0.0}, {0.0}, {0.0, 0.0, 1.0}}, crowding[3] = {0.0}, normal[3] = {0.0};
+    double c[3]; /* rows of the cofactors */
+    for (int a = 0; a < dim; a++) {
+        crowding[a] = g[a];
+        memcpy(row[a], M + (size_t)dim * a, (size_t)dim * sizeof *M);
     }
-    for (int a = 0; a < dim; a++)
-        size += v[a] * v[a];
-    size = sqrt(size);
-    for (int a = 0; a < dim; a++)
-        N[a] = size > 0.0 ? v[a] / size : 0.0;
+    vec3_cross(row[1], row[2], c);
+    const double det = vec3_dot(row[0], c);
+    if (!(fabs(det) > 1e-12))
+        return false;
+    for (int a = 0; a < dim; a++) {
+        vec3_cross(row[(a + 1) % 3], row[(a + 2) % 3], c);
+        normal[a] = -vec3_dot(crowding, c) / det;
+    }
+    const double size = vec3_unit(normal);
+    memcpy(N, normal, (size_t)dim * sizeof *N);
     return size > 0.0;
 }
 

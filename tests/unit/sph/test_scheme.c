@@ -67,6 +67,19 @@ static double parting(const struct sph *s, int i, int j, const double *d, int a)
     return s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MORRIS ? (4.0 * D - 0.5 * slopes) / 3.0 : D;
 }
 
+/* What u_j - u_i along n exceeds the mean of both slopes by. */
+static double bent(const struct sph *s, int i, int j, const double *d, const double *n)
+{
+    const int dim = s->dim;
+    double sum = 0.0;
+    for (int a = 0; a < dim; a++) {
+        const double mean = 0.5 * (dot(slope_of(s, i) + dim + dim * a, d, dim) +
+                                   dot(slope_of(s, j) + dim + dim * a, d, dim));
+        sum += n[a] * (prim_of(s, j)[dim + a] - prim_of(s, i)[dim + a] - mean);
+    }
+    return sum;
+}
+
 /* Viscous force on i over w_i w_j mu [2.31, 2.32], area = |W'|. */
 static void add_viscous(const struct sph *s, int i, int j, const double *n, double r, double area,
                         double *force)
@@ -99,7 +112,8 @@ static void add_pair(const struct sph *s, int i, int j, double *rate)
     const double ui = dot(I.u, n, dim), uj = dot(J.u, n, dim);
     const double bound = s->prm.low_dissipation ? fmin(1.0, 3.0 * fmax(ui - uj, 0.0) / s->c0) : 1.0;
     const double uE = (I.Z * ui + J.Z * uj + I.p - J.p) / Z; /* [2.100] */
-    const double pE = (J.Z * I.p + I.Z * J.p + I.Z * J.Z * bound * (ui - uj)) / Z;
+    const double even = (1.0 - bound) * 2.0 / 3.0 * s->prm.dissipation * bent(s, i, j, d, n);
+    const double pE = (J.Z * I.p + I.Z * J.p + I.Z * J.Z * (bound * (ui - uj) - even)) / Z;
     if (s->nu > 0.0)
         add_viscous(s, i, j, n, r, area, viscous);
     for (int a = 0; a < dim; a++) {
@@ -156,6 +170,7 @@ static void choose(struct sph *s, int scheme, int limiter, int viscosity, double
     s->nu = viscosity == OFF ? 0.0 : 0.05;
     s->gamma = s->prm.gamma = gamma;
     s->prm.low_dissipation = low;
+    s->prm.dissipation = low ? 0.1 : 0.0;
     s->passes = scheme_pick(s);
     particles_lines(s);
 }
