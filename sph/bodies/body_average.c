@@ -5,7 +5,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bins.h"
 #include "bodies.h"
-#include "body_nodes.h"
+#include "body_seal.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,20 +133,19 @@ static void push(const struct body *b, const struct average_node *d, const doubl
     vec3_add(to->M, 1.0, moment);
 }
 
-/* A wet plane has W = 1/2; of few particles the sum is theirs. */
 static void add_force(const struct sph *s, const struct body *b, const struct average_node *d,
                       struct force *to)
 {
     double f[3] = {0.0};
     for (int a = 0; a < s->dim; a++)
-        f[a] = d->area * (d->said.P * d->n[a] + d->said.shear[a]) / fmax(d->said.W, 0.4);
+        f[a] = d->area * (d->said.P * d->n[a] + d->said.shear[a]) / fmax(d->said.W, AVERAGE_WET);
     push(b, d, f, to);
 }
 
 /* Of a point of the surface: its |p| times area by sides, down and up each axis, and area. */
 static void add_pushed(const struct average_node *d, double to[3][2], double sums[2])
 {
-    const double P = fabs(d->said.P) / fmax(d->said.W, 0.4);
+    const double P = fabs(d->said.P) / fmax(d->said.W, AVERAGE_WET);
     for (int a = 0; a < 3; a++)
         to[a][d->n[a] > 0.0] += d->area * P * fabs(d->n[a]);
     sums[0] += d->area * P;
@@ -160,6 +159,7 @@ struct force body_average_pushed(struct sph *s, int which, double *pushed, doubl
     struct force force = {0};
     double sides[3][2] = {{0.0}}, sums[2] = {0.0, 0.0};
     body_nodes_ask(s, &nodes);
+    seal_nodes_fill(s, which, &nodes);
     for (int k = 0; k < nodes.n; k++) {
         add_force(s, w->bodies + which, nodes.node + k, &force);
         add_pushed(nodes.node + k, sides, sums);

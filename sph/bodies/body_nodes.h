@@ -10,6 +10,8 @@ struct said {
     double W, P, shear[3];
 };
 enum { SAID = sizeof(struct said) / sizeof(double) };
+/* Least W that sums are divided by: a wet plane has 1/2; of few particles the sum is theirs. */
+#define AVERAGE_WET 0.4
 
 /* A point of the surface, dx/2 of the finest level apart from the next or closer: position, m,
  * normal out of the fluid, velocity, m/s, acceleration, m/s^2, and the area that it stands for, m^2

@@ -34,9 +34,9 @@ const struct sph *seal_level(const struct sph *s, const double *x)
     return at;
 }
 
-/* Shares of the kernel at a node, a little way into the fluid. false: the others are out of reach.
- */
-static bool measure(const struct sph *s, int body, struct seal_point *to)
+/* Shares of the kernel at a node, a little way into the fluid; of two bodies for the first alone,
+ * or for all of them. false: the others are out of reach. */
+static bool measure(const struct sph *s, int body, bool all, struct seal_point *to)
 {
     const struct walls *w = s->walls;
     const struct sph *at = seal_level(s, to->is.x);
@@ -48,13 +48,14 @@ static bool measure(const struct sph *s, int body, struct seal_point *to)
     to->dry = false;
     for (int k = -1; k < w->nbodies; k++) {
         const double share = k == body ? 0.0 : wall_share(at, k, x);
+        const bool seals = k != body && walls_sealed(s, body, k) && (all || k < 0 || k > body);
         to->room -= share;
-        if (share > 0.0 && walls_sealed(s, body, k) && (k < 0 || k > body))
-            wall_share_weight(at, k, to->is.x, to->is.n, to->weight);
-        if (k == body || !walls_sealed(s, body, k) || (k >= 0 && k < body)) {
+        if (!seals) {
             to->lack -= share;
             continue;
         }
+        if (share > 0.0)
+            wall_share_weight(at, k, to->is.x, to->is.n, to->weight);
         if (share > most) {
             most = share;
             to->other = k;
@@ -92,7 +93,7 @@ int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n
     for (int k = 0; k < nodes.n; k++) {
         to[n] = (struct seal_point){.is = nodes.node[k], .body = body};
         to[n].is.around = true;
-        n += measure(s, body, to + n);
+        n += measure(s, body, false, to + n);
     }
     find_far(s, to + first, n - first);
     mem_free(nodes.node);
@@ -157,23 +158,30 @@ static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int
     return weight > 0.0 ? (struct seep){sum.p / weight, sum.wet / weight} : sum;
 }
 
-static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
-                  const struct rim *rim, int nrim)
+/* The water at a point of the surface with these particles around, or what of it seeps in. */
+static struct seep water_at(const struct sph *s, const struct seal_point *p,
+                            const struct average_node *d, const struct rim *rim, int nrim)
 {
     const double own = p->dry   ? 0.0
                        : p->rim ? 1.0
                                 : p->far,
                  wet = wetness(p, d), dry = 1.0 - own * wet;
     struct seep is = {own * pressure_at(p, d), own * wet};
-    double f[3], back[3];
     if (dry > 0.0 && !p->rim) {
         const struct seep seeps = seep_from_rim(s, rim, nrim, d->x);
         is.p += dry * seeps.p;
         is.wet += dry * seeps.wet;
     }
+    return is;
+}
+
+static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
+                  const struct seep *is)
+{
+    double f[3], back[3];
     for (int a = 0; a < 3; a++) {
-        const double q = 2.0 * p->lack * is.p - (p->dry ? is.p : 2.0 * d->said.P);
-        f[a] = d->area * (q * d->n[a] + is.wet * s->rho0 * p->weight[a]);
+        const double q = 2.0 * p->lack * is->p - (p->dry ? is->p : 2.0 * d->said.P);
+        f[a] = d->area * (q * d->n[a] + is->wet * s->rho0 * p->weight[a]);
         back[a] = -f[a];
     }
     forces_add(s, p->body, d->x, f);
@@ -196,22 +204,60 @@ static const struct wall_joint *joint_at(const struct sph *s, const double *x)
     return nearest;
 }
 
+/* Asks the points [n] of one body what is around them, into *at, and finds the water there; both
+ * are the caller's. Collective. */
+static struct seep *find_water(const struct sph *s, const struct seal_point *of, int n,
+                               struct nodes *at)
+{
+    struct seep *is = NEW(struct seep, n);
+    struct rim *rim = NEW(struct rim, n);
+    *at = (struct nodes){.n = n, .node = NEW(struct average_node, n)};
+    for (int k = 0; k < n; k++) {
+        at->node[k] = of[k].is;
+        at->node[k].joint = joint_at(s, of[k].is.x);
+    }
+    body_nodes_ask(s, at);
+    const int nrim = find_rim(of, at, rim);
+    for (int k = 0; k < n; k++)
+        is[k] = water_at(s, of + k, at->node + k, rim, nrim);
+    mem_free(rim);
+    return is;
+}
+
 void seal_points_press(struct sph *s, const struct seal_point *of, int n)
 {
-    struct nodes at = {.n = n, .node = NEW(struct average_node, n)};
+    struct nodes at;
+    struct seep *is = find_water(s, of, n, &at);
+    for (int k = 0; k < n && s->run->rank == 0; k++)
+        press(s, of + k, at.node + k, is + k);
+    FREE(is, at.node);
+}
+
+void seal_nodes_fill(const struct sph *s, int body, struct nodes *nodes)
+{
+    bool any = false;
+    for (int k = 0; k <= BODIES_MAX; k++)
+        any = any || s->walls->sealed[body][k];
+    if (!any)
+        return;
+    struct seal_point *of = NEW(struct seal_point, nodes->n);
+    int n = 0, *node = NEW(int, nodes->n);
+    for (int k = 0; k < nodes->n; k++) {
+        of[n] = (struct seal_point){.is = nodes->node[k], .body = body};
+        of[n].is.said = (struct said){.W = 0.0};
+        of[n].is.around = true;
+        node[n] = k;
+        n += measure(s, body, true, of + n);
+    }
+    find_far(s, of, n);
+    struct nodes at;
+    struct seep *is = find_water(s, of, n, &at);
     for (int k = 0; k < n; k++) {
-        at.node[k] = of[k].is;
-        at.node[k].joint = joint_at(s, of[k].is.x);
+        struct said *said = &nodes->node[node[k]].said;
+        said->W = fmax(said->W, AVERAGE_WET);
+        said->P = of[k].dry ? 0.0 : said->W * is[k].p;
     }
-    body_nodes_ask(s, &at);
-    if (s->run->rank == 0) {
-        struct rim *rim = NEW(struct rim, n);
-        const int nrim = find_rim(of, &at, rim);
-        for (int k = 0; k < n; k++)
-            press(s, of + k, at.node + k, rim, nrim);
-        mem_free(rim);
-    }
-    mem_free(at.node);
+    FREE(of, node, is, at.node);
 }
 
 bool seals_mark(struct walls *w, int body)

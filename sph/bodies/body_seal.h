@@ -29,6 +29,10 @@ int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n
 /* Presses the points [n] of one body, and their others with the opposite. Collective. */
 void seal_points_press(struct sph *s, const struct seal_point *of, int n);
 
+/* Gives the asked points of a body the pressure of the water that seeps in between it and what it
+ * is sealed with, where no particle comes; none where they lie on each other. Collective. */
+void seal_nodes_fill(const struct sph *s, int body, struct nodes *nodes);
+
 /* body_wedge.c: what body_seals_add has to add in a stage for bodies that stay where they are.
  * Needs prim. Collective. */
 void body_wedges_add(struct sph *s);

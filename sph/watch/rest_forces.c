@@ -22,22 +22,13 @@ bool sph_watch_has_forces(const struct run *r, const struct sph_params *prm)
     return r->scene.nbodies > 0 && prm->walls == WALLS_NFM;
 }
 
-/* Whether it touches something where no particle fits: the average knows of no water there. */
-static bool is_sealed(const struct sph *s, int k)
-{
-    bool any = false;
-    for (int m = -1; m < s->walls->nbodies; m++)
-        any = any || walls_sealed(s, k, m);
-    return any;
-}
-
 /* Adds a sample of body k, or forgets those before where it is not at rest in water at rest. */
 static void add_sample(struct sph *s, int k, double U)
 {
     struct rest_forces *r = s->watch.still + k;
     struct force lost;
     double pushed;
-    if (is_sealed(s, k) || !forces_of(s, k, &lost))
+    if (!forces_of(s, k, &lost))
         return;
     const struct force average = body_average_pushed(s, k, &pushed, &r->pressure);
     if (!(s->rho0 * U * U < at_rest * r->pressure)) {

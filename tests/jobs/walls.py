@@ -3,7 +3,7 @@ SPDX-License-Identifier: BSD-3-Clause"""
 import math
 
 import lib
-from lib import TANK, changed, check, column, held, last, number, run_case, sides
+from lib import TANK, changed, check, close, column, held, last, number, run_case, sides
 
 lib.scratch()
 FLOOR = 'x_min x_max y_min'
@@ -52,6 +52,14 @@ for name, wanted, points in ('block on the floor', (0, -588.6), '(0.4, 0), (0.4,
     force = resting(points, low=0.2, end=0.8)
     check(math.dist(force, wanted) < 0.03 * math.hypot(*wanted),
           'corner, %s: (%g, %g) N/m instead of (%g, %g), wanted 3 %%' % (name, *force, *wanted))
+
+# on a point, where no particle comes near it, the average of the pressure, too, is Archimedes' (5 %, as the watch has it)
+for name, wanted, form in ('disc', 308.2, 'radius = 0.1; centre = (0.6, 0.1);'), \
+        ('triangle', 679.6, 'points = ((0.6, 0), (0.8, 0.34641), (0.4, 0.34641));'):
+    run_case('tip', changed(TANK, time='end = 0.8;', domain='min = (0.2, 0); max = (1, 0.8);', bodies='{ name = "b"; %s }' % form,
+                            output='series = 5; snapshots = false;'))
+    for rule in 'y', 'average_y':
+        close('%s on the floor, force.%s' % (name, rule), number('tip', 'force.' + rule), wanted, 0.05)
 
 
 # walls that stand on a point between waters of different depth let nothing pass: once the first particles have found
