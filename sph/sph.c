@@ -233,6 +233,30 @@ static void warn_of_lift(const struct run *r, const struct sph_params *prm)
                  prm->R_dx, flat ? "6" : "3 to 14", flat ? "0.5" : "0.3 to 1.6");
 }
 
+/* An inflow into fluid at rest that has no surface: fv has the flow at once, particles after its
+ * sound, rho c0 U, has run to and fro. */
+static void warn_of_start(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene *c = &r->scene;
+    bool rests = c->initial.field == FIELD_REST && !scene_has_surface(c);
+    double U = 0.0;
+    for (int k = 0; k < c->nshapes; k++)
+        rests = rests && vec3_length(c->shapes[k].velocity) == 0.0;
+    for (int k = 0; k < c->nwalls && rests; k++)
+        if (c->walls[k].kind == WALL_INFLOW)
+            U = fmax(U, vec3_length(c->walls[k].velocity));
+    if (U > 0.0)
+        log_warn("initial.field: the fluid rests, and an inflow of %.3g m/s begins at once: %s; "
+                 "start with field = \"uniform\" and that velocity",
+                 U,
+                 has_partner_flow(r)
+                     ? "in fv everywhere, in sph by its sound, so the programs part, "
+                       "and may end"
+                     : key_text("its sound, rho c0 U = %.3g Pa, runs to and fro for "
+                                "long, and what refines or moves may not bear it",
+                                c->fluid.rho * prm->c0 * U));
+}
+
 static void warn_of(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -240,6 +264,7 @@ static void warn_of(const struct run *r)
     const double bound = sph_params_cfl_bound(prm, r->scene.domain.dim);
     warn_narrow(r, prm);
     warn_of_lift(r, prm);
+    warn_of_start(r, prm);
     if (prm->outer == OUTER_SIDES && prm->surface == SURFACE_YES &&
         prm->scheme != SCHEME_RIEMANN_ALE)
         log_warn(

@@ -290,22 +290,10 @@ static double room_of_overlap(const struct run *r, const struct sph_params *prm)
     return room > 0.2 * zones_overlap(r, prm) ? room : 0.0;
 }
 
-/* m/s: what an inflow brings into fluid at rest that has no surface; 0: nothing does. */
-static double sudden_inflow(const struct scene *c)
-{
-    double U = 0.0;
-    const bool rests = c->initial.field == FIELD_REST && !scene_has_surface(c);
-    for (int k = 0; k < c->nwalls && rests; k++)
-        if (c->walls[k].kind == WALL_INFLOW)
-            U = fmax(U, vec3_length(c->walls[k].velocity));
-    return U;
-}
-
 /* What runs, but not as well as it could. */
 static void advise(const struct run *r, const struct sph_params *prm, const struct windows *w)
 {
     const double h = least_cell(r), room = room_of_overlap(r, prm),
-                 sudden = sudden_inflow(&r->scene),
                  c0 = w->gain > gain_most ? lowest_c0(r, prm) : 0.0;
     char mend[160] = "a wider coupling.overlap, or a box whose open sides lie nearer to walls";
     if (h < cells_least * prm->dx * (1.0 - 1e-9))
@@ -315,11 +303,6 @@ static void advise(const struct run *r, const struct sph_params *prm, const stru
     if (c0 > 0.0)
         snprintf(mend, sizeof mend, "sph.c0 = %.3g m/s lowers it to 1, at %.1f times the steps", c0,
                  c0 / prm->c0);
-    if (sudden > 0.0)
-        log_warn("initial.field: the fluid rests, and an inflow of %.3g m/s begins at once, in fv "
-                 "everywhere, in sph by its sound: the programs part, and may end; start with "
-                 "field = \"uniform\" and that velocity",
-                 sudden);
     if (room > 0.0)
         log_say("coupling.overlap: %.3g m would still leave fv six cells across of what sph gives, "
                 "and errors of a smooth flow half those of %.3g m",

@@ -322,6 +322,9 @@ walls:   ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); },
            { side = "y_min"; }, { side = "y_max"; } );
 sph:     { dx = 0.05; R_dx = 2.0; };
 ''')
+tells('channel', 's/^initial.*//', 'the fluid rests, and an inflow of 1 m/s begins at once: its sound, rho c0 U = 15 Pa')
+edit('channel.cfg', 's/^$//')
+holds(start('sph', 'case.cfg', '--check') == 0 and not told('the fluid rests'), 'a flow that starts as it enters')
 # keys without use
 faulty('tank', 's/U = 3.0/U = 3.0; velocity = (1, 0)/', 'case.cfg:5: initial.velocity: is not used: ', 'sph')
 faulty('tank', 's/U = 3.0/U = 3.0; L = 2.0/', 'case.cfg:5: initial.L: is not used: ', 'sph')
