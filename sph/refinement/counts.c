@@ -57,12 +57,6 @@ struct population {
     struct found found; /* a list to reuse */
 };
 
-/* Role of a local or a ghost. */
-static int role_of(const struct sph *s, int i)
-{
-    return i < s->p.n ? s->p.role[i] : s->guards->ghost[i - s->p.n];
-}
-
 /* Distance of two positions, m. */
 static double distance(int dim, const double *x, const double *y)
 {
@@ -105,7 +99,7 @@ static double gap_at(struct population *c, const double *x)
     double gap = 0.0;
     look_around(s, x, fine->R + 0.5 * s->dx, &c->found);
     for (int k = 0; k < c->found.n; k++)
-        if (role_of(s, c->found.j[k]) & ROLE_PARENT)
+        if (guards_role(s, c->found.j[k]) & ROLE_PARENT)
             gap += family(s, x, prim_line(&s->p, c->found.j[k]), fine->R);
     look_around(fine, x, fine->R, &c->found);
     for (int k = 0; k < c->found.n; k++)
@@ -300,12 +294,6 @@ static void look_at_flowing(struct population *c)
     mem_free(wish);
 }
 
-/* Whether i is a guard of its level because another one, coarser, flows there. */
-static bool is_outside(const struct sph *s, int i)
-{
-    return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
-}
-
 /* It is removed at the end of the step (life.c). */
 static void mark_surplus(struct population *c, int i) { c->fine->p.role[i] |= ROLE_SURPLUS; }
 
@@ -318,7 +306,8 @@ static void look_at_children(struct population *c)
     for (int i = 0; i < fine->p.n; i++) {
         const double *x = prim_line(&fine->p, i);
         wish[i] = 0.0;
-        if (is_outside(fine, i) && regions_distance(c->regions, fine->level, x) >= 0.5 * c->s->dx)
+        if (guards_is_outside(fine, i) &&
+            regions_distance(c->regions, fine->level, x) >= 0.5 * c->s->dx)
             wish[i] = fmax(0.0, -gap_at(c, x) - many * (1.0 - 0.4 * c->off));
     }
     grant(c, fine, wish, mark_surplus);

@@ -71,7 +71,7 @@ static void share_roles(struct sph *s)
     for (int k = s->p.nhalo; k < s->p.nghost && s->walls; k++) {
         const int from = walls_mirrored(s, s->p.n + k);
         if (from >= 0)
-            g->ghost[k] = from < s->p.n ? s->p.role[from] : g->ghost[from - s->p.n];
+            g->ghost[k] = (unsigned short)guards_role(s, from);
     }
     FREE(own, ghosts);
 }
@@ -95,7 +95,7 @@ static int kind_of(const struct sph *s, int i)
 {
     if (s->p.role[i] & ROLE_DEEP)
         return 2;
-    return s->p.role[i] >> ROLE_SOURCE == s->level ? 0 : 1;
+    return guards_is_outside(s, i) ? 0 : 1;
 }
 
 /* Lists the guards of a level by kind, with their sources. */
@@ -147,10 +147,8 @@ static int find_group(const struct sph *s, int k, double *lo, double *hi)
 static bool any_on_surface(const struct sph *from, const int *j, int n)
 {
     bool any = false;
-    for (int k = 0; k < n && !any; k++) {
-        const int ghost = j[k] - from->p.n;
-        any = (ghost < 0 ? from->p.role[j[k]] : from->guards->ghost[ghost]) & ROLE_SURFACE;
-    }
+    for (int k = 0; k < n && !any; k++)
+        any = guards_role(from, j[k]) & ROLE_SURFACE;
     return any;
 }
 
@@ -501,25 +499,23 @@ static void share_levels(struct sph *s, struct sph **all)
     }
 }
 
-void guards_update(struct sph *s)
+/* Sets the guards of all levels, or of these what is about to flow (waking). */
+static void set_all(struct sph *s, bool waking)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
     share_levels(s, all);
     timer_start(&s->run->timers, "guards");
     for (struct sph *q = s; q; q = q->finer)
-        update_level(all, q);
+        if (waking)
+            give(all, q, q->guards->nshallow, true);
+        else
+            update_level(all, q);
     timer_stop(&s->run->timers, "guards");
 }
 
-void guards_wake(struct sph *s)
-{
-    struct sph *all[APR_LEVELS_MAX + 1];
-    share_levels(s, all);
-    timer_start(&s->run->timers, "guards");
-    for (struct sph *q = s; q; q = q->finer)
-        give(all, q, q->guards->nshallow, true);
-    timer_stop(&s->run->timers, "guards");
-}
+void guards_update(struct sph *s) { set_all(s, false); }
+
+void guards_wake(struct sph *s) { set_all(s, true); }
 
 void guards_update_edge(struct sph *s)
 {

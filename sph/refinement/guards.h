@@ -42,6 +42,17 @@ struct guards {
     bool own_rates;          /* with local steps: a guard's fields continue by its own rates */
 };
 
+/* Role of a local or a ghost; after guards_list. */
+static inline int guards_role(const struct sph *s, int i)
+{
+    return i < s->p.n ? s->p.role[i] : s->guards->ghost[i - s->p.n];
+}
+/* Whether particle i is a guard because a coarser level than its own flows there. */
+static inline bool guards_is_outside(const struct sph *s, int i)
+{
+    return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
+}
+
 /* The empty list of one level; freed by guards_free. */
 struct guards *guards_create(const struct run *r);
 void guards_free(struct guards **g);

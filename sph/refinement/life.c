@@ -92,19 +92,20 @@ static bool flows_at(const struct sph *s, const double *x)
            !(s->finer && regions_distance(g, s->level + 1, x) >= s->R);
 }
 
-/* Sum over particles that flow, s and finer levels, of member `at' of the state; this rank. */
-static double sum_of(const struct sph *s, int at)
+/* Sum over particles that flow, s and finer levels, of member `at' of the state, or of its rate;
+ * this rank. */
+static double sum_of(const struct sph *s, int at, bool of_rates)
 {
     double sum = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             if (!particles_is_guard(&q->p, i))
-                sum += state_row(&q->p, q->p.y, i)[at];
+                sum += state_row(&q->p, of_rates ? q->p.rate : q->p.y, i)[at];
     return sum;
 }
 
 /* Mass of what flows, kg; this rank. */
-static double flowing(const struct sph *s) { return sum_of(s, at_mass(s->dim)); }
+static double flowing(const struct sph *s) { return sum_of(s, at_mass(s->dim), false); }
 
 /* Share of a particle's mass that counts: 1 where its level flows, 0 where another does. Ramps one
  * spacing of the coarser level wide make the sum continuous as a layer of particles crosses the
@@ -254,12 +255,6 @@ static void leave(struct sph *s, struct depths *is)
         }
 }
 
-/* Whether i is a guard because its own level does not flow there. */
-static bool is_outside(const struct sph *s, int i)
-{
-    return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
-}
-
 /* Adds energy to the watch's account that the flow has gained without work, J: guards that begin to
  * flow bring theirs along. */
 static void book_energy(struct sph *s, double gained)
@@ -277,7 +272,7 @@ static void give_roles(const struct regions *g, struct sph *s, const struct dept
     double woken = 0.0, kinetic;
     for (int i = 0; i < s->p.n; i++) {
         const int before = s->p.role[i];
-        if (held && is_outside(s, i))
+        if (held && guards_is_outside(s, i))
             continue;
         s->p.role[i] = (unsigned short)((before & kept) | role_of(g, s, is, i));
         if ((before ^ s->p.role[i]) & ROLE_GUARD)
@@ -396,48 +391,45 @@ void refinement_adapt_finer(struct sph *s, struct sph *outside)
 {
     struct refinement *r = s->refinement;
     timer_start(&s->run->timers, "levels");
-    const double before = flowing(outside), room = sum_of(outside, at_volume(s->dim));
+    const double before = flowing(outside), room = sum_of(outside, at_volume(s->dim), false);
     refinement_follow(s, outside);
     regions_move(r->regions, outside->t);
     for (struct sph *q = outside; q; q = q->finer)
         adapt_level(r->regions, q, q == outside);
     r->added += flowing(outside) - before;
-    r->grown += sum_of(outside, at_volume(s->dim)) - room;
+    r->grown += sum_of(outside, at_volume(s->dim), false) - room;
     timer_stop(&s->run->timers, "levels");
 }
 
 /* Only ALE has mass fluxes; with zones the room is open and its mass not conserved anyway. */
-void refinement_spread_mass(struct sph *s, double gained)
+static bool keeps_mass(const struct sph *s)
+{
+    return s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones;
+}
+
+/* Takes `gained', kg on this rank, out of all that flows, or kg/s out of its rates. */
+static void take_back(struct sph *s, double gained, bool of_rates)
 {
     double sums[2] = {gained, flowing(s)};
-    if (s->prm.scheme != SCHEME_RIEMANN_ALE || s->zones)
-        return;
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             if (!particles_is_guard(&q->p, i))
-                particles_give_back(&q->p, q->p.y, i, share);
+                particles_give_back(&q->p, of_rates ? q->p.rate : q->p.y, i, share);
+}
+
+void refinement_spread_mass(struct sph *s, double gained)
+{
+    if (keeps_mass(s))
+        take_back(s, gained, false);
 }
 
 /* Each stage; one reduction. */
 void refinement_keep_mass(struct sph *s)
 {
-    double sums[2] = {0.0, 0.0};
-    if (s->prm.scheme != SCHEME_RIEMANN_ALE || s->zones)
-        return;
-    for (const struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++)
-            if (!particles_is_guard(&q->p, i)) {
-                sums[0] += state_row(&q->p, q->p.rate, i)[at_mass(q->dim)];
-                sums[1] += state_row(&q->p, q->p.y, i)[at_mass(q->dim)];
-            }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
-    for (struct sph *q = s; q; q = q->finer)
-        for (int i = 0; i < q->p.n; i++)
-            if (!particles_is_guard(&q->p, i))
-                particles_give_back(&q->p, q->p.rate, i, share);
+    if (keeps_mass(s))
+        take_back(s, sum_of(s, at_mass(s->dim), true), true);
 }
 
 void refinement_free(struct sph *s)
