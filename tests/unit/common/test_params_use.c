@@ -43,7 +43,7 @@ static const struct param rows[] = {
     PARAM(P, radius, "m", "1.0", 0, 9, "of it", USED(ONLY(form, ONE(FORM_ROUND), "it is not round"))),
     PARAM(P, edge, "m", "1.0", 0, 9, "of it",
           USED(ONLY(form, ~ONE(FORM_ROUND), "it is round"), WITHOUT(hollow, "it is hollow"))),
-    PARAM(P, at, "m", "(0.0, 0.0)", -9, 9, "place", USED(WITH_ANY(file, other, "no file"))),
+    PARAM(P, at, "m", "(0.0, 0.0)", -9, 9, "place", USED(WITH(file, "no file"))),
     PARAM(P, pair, "-", "(0.0, 0.0)", -9, 9, "two numbers", .numbers = 2),
     PARAM(P, draught, "m", "0.0", 0, 9, "of it",
           USED(NEED_ANY(WET, DEEP, "it is dry"), NEED_OR_ONLY(DEEP, form, ONE(FORM_FLAT), "shallow"))),
@@ -88,7 +88,7 @@ TEST(choices_and_keys_of_the_group)
     faulty("edge = 2; hollow = true;", 0, 1, "thing.edge: is not used: it is round");
     faulty("form = \"flat\"; edge = 2; hollow = true;", 0, 1, "is not used: it is hollow");
     faulty("at = (1, 1);", 0, 1, "thing.at: is not used: no file");
-    faulty("at = (1, 1); other = \"b\";", 0, 1, "thing.other: is not used: no first file");
+    faulty("other = \"b\";", 0, 1, "thing.other: is not used: no first file");
 }
 
 TEST(facts_of_the_run)
@@ -121,7 +121,7 @@ TEST(the_manual_has_them_in_words)
     assert_string_equal(words("form"), "");
     assert_string_equal(words("radius"), "form = round");
     assert_string_equal(words("edge"), "form other than round; without hollow");
-    assert_string_equal(words("at"), "with file or other");
+    assert_string_equal(words("at"), "with file");
     assert_string_equal(words("draught"), "water or depth; depth or form = flat");
 }
 
