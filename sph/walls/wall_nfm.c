@@ -684,6 +684,21 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     stop_before_walls(s, l, k, rate);
 }
 
+/* Mass that walls have made or lost is given back with its momentum, which the walls gave or took
+ * with it: what particles so lose is theirs. */
+static void give_mass_back(struct sph *s, const struct nfm *m)
+{
+    const struct wall_list *l = &m->list;
+    const double share = walls_keep_mass(s, l->n, l->who);
+    for (int k = 0; k < l->n; k++) {
+        const double *y = state_row(&s->p, s->p.y, l->who[k]);
+        double lost[3] = {0.0};
+        for (int a = 0; a < s->dim; a++)
+            lost[a] = share * y[s->dim + a];
+        share_by_gamma(s, m, k, prim_line(&s->p, l->who[k]), lost, s->dim);
+    }
+}
+
 static void rates(struct sph *s)
 {
     struct nfm *m = s->walls->state;
@@ -696,7 +711,7 @@ static void rates(struct sph *s)
     for (int k = 0; k < m->list.n && s->dim == 3; k++)
         add_walls(s, m, k, 3);
     if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones && !s->guards) /* else of all levels */
-        walls_keep_mass(s, m->list.n, m->list.who);
+        give_mass_back(s, m);
 }
 
 static void add_moments(const struct wall_list *l, int k, double *M, double *g, int dim)

@@ -431,7 +431,7 @@ double *walls_rooms(struct sph *s)
     return room;
 }
 
-void walls_keep_mass(struct sph *s, int n, const int *who)
+double walls_keep_mass(struct sph *s, int n, const int *who)
 {
     const int at = at_mass(s->dim);
     double sums[2] = {0.0, 0.0};
@@ -441,8 +441,10 @@ void walls_keep_mass(struct sph *s, int n, const int *who)
     for (int k = 0; k < n; k++)
         sums[1] += state_row(&s->p, s->p.y, who ? who[k] : k)[at];
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int k = 0; k < n && sums[1] > 0.0; k++)
-        particles_give_back(&s->p, s->p.rate, who ? who[k] : k, sums[0] / sums[1]);
+    const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+    for (int k = 0; k < n; k++)
+        particles_give_back(&s->p, s->p.rate, who ? who[k] : k, share);
+    return share;
 }
 
 /* The end of a part of a wall, which is the wall's own if it is that near. */

@@ -219,9 +219,9 @@ void walls_put_back_inside(struct sph *s);
 double *walls_rooms(struct sph *s);
 /* Riemann-ALE near walls: dividing pair fluxes by gamma, or ghosts with the weight of a hydrostatic
  * column, destroys their antisymmetry. The mass that is so created or lost is given back to the
- * particles who[n] (NULL: all locals) in proportion to their masses, with its momentum.
- * Collective. */
-void walls_keep_mass(struct sph *s, int n, const int *who);
+ * particles who[n] (NULL: all locals) in proportion to their masses, with its momentum. Returns
+ * what share of theirs they give back, 1/s. Collective. */
+double walls_keep_mass(struct sph *s, int n, const int *who);
 /* wall_ghost.c: the packed record that was mirrored to make record i, an earlier one; -1: i is no
  * mirror image. */
 int walls_mirrored(const struct sph *s, int i);
