@@ -269,32 +269,10 @@ static double lowest_c0(const struct run *r, const struct sph_params *prm)
     return 0.0;
 }
 
-/* How much wider the overlap of a box in the midst of the flow, without solids, may be, m, and
- * leave fv six cells across of what sph gives; 0: not by a fifth, or not known. Taylor-Green with
- * 0.07, 0.1, 0.14 L: velocity error 0.034, 0.017, 0.008 %. */
-static double room_of_overlap(const struct run *r, const struct sph_params *prm)
-{
-    const struct scene *c = &r->scene;
-    double given[2][3], lo, room = INFINITY;
-    bool open[6], solid = c->nbodies > 0 || scene_has_surface(c);
-    for (int k = 0; k < c->nwalls; k++)
-        solid = solid || c->walls[k].side == SIDE_NONE;
-    if (solid || !r->params)
-        return 0.0;
-    zones_given_box(r, prm, given[0], given[1]);
-    sph_params_open(r, prm, open);
-    for (int a = 0; a < c->domain.dim; a++) {
-        const double h = zones_cell(r, a, &lo), rest = given[1][a] - given[0][a] - 6.0 * h;
-        room = h > 0.0 && open[2 * a] && open[2 * a + 1] ? fmin(room, 0.5 * rest) : 0.0;
-    }
-    return room > 0.2 * zones_overlap(r, prm) ? room : 0.0;
-}
-
 /* What runs, but not as well as it could. */
 static void advise(const struct run *r, const struct sph_params *prm, const struct windows *w)
 {
-    const double h = least_cell(r), room = room_of_overlap(r, prm),
-                 c0 = w->gain > gain_most ? lowest_c0(r, prm) : 0.0;
+    const double h = least_cell(r), c0 = w->gain > gain_most ? lowest_c0(r, prm) : 0.0;
     char mend[160] = "a wider coupling.overlap, or a box whose open sides lie nearer to walls";
     if (h < cells_least * prm->dx * (1.0 - 1e-9))
         log_warn("fv.cells: cells of %.3g m are %.3g times sph.dx; below %g the programs' errors "
@@ -303,10 +281,6 @@ static void advise(const struct run *r, const struct sph_params *prm, const stru
     if (c0 > 0.0)
         snprintf(mend, sizeof mend, "sph.c0 = %.3g m/s lowers it to 1, at %.1f times the steps", c0,
                  c0 / prm->c0);
-    if (room > 0.0)
-        log_say("coupling.overlap: %.3g m would still leave fv six cells across of what sph gives, "
-                "and errors of a smooth flow half those of %.3g m",
-                zones_overlap(r, prm) + room, zones_overlap(r, prm));
     if (w->gain > gain_most)
         log_warn("gain of the coupling loop %.2g, above %g: smoothing alone keeps the programs "
                  "together, and forces may be noisy; %s",
@@ -321,6 +295,7 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
     log_say(
         "coupling steps of %d steps, %.3g s, limited by %s: U T/L = %.3f (U %.3g m/s, L %.3g m)",
         w.steps, w.T, w.limit, w.U * w.T / w.L, w.U, w.L);
+    log_say("overlap %.3g m wide (coupling.overlap)", zones_overlap(r, prm));
     if (w.memory > 1)
         log_say("gain of the coupling loop %.2g: fv's pressure smoothed over %d coupling steps, "
                 "%.2g is left",
