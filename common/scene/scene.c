@@ -267,7 +267,7 @@ static const struct param coupling_rows[] = {
     PARAM(P, buffer,     "m", "0.0", 0, 1e6, "width of the zone where SPH takes FV's fields; 0: 1.25 R",
           USED(NEED(SPH, "this is no coupled job: it has no group sph"),
                NEED(ZONES, "no side of the particles' region is open")), .comparison = true),
-    PARAM(P, overlap,    "m", "0.0", 0, 1e6, "width of the border of SPH's free zone where FV is free, too; 0: 1.25 R, and as wide as leaves FV six cells across of what SPH gives where all sides of the box are open and there is no surface, body or wall in it",
+    PARAM(P, overlap,    "m", "0.0", 0, 1e6, "width of the border of SPH's free zone where FV is free, too; 0: 1.25 R, and as wide as leaves FV four cells across of what SPH gives where all sides of the box are open and there is no surface, body or wall in it",
           USED(NEED(COUPLED, NO_PARTNER))),
     PARAM(P, memory,     "-", "0",   0, 1000, "coupling steps over which FV's pressure is smoothed (level and trend); 1: none; 0: as many as the gain of the coupling loop requires",
           USED(NEED(COUPLED, NO_PARTNER)), .comparison = true),

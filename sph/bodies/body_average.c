@@ -202,7 +202,7 @@ struct force body_reference(const struct sph *s, int which)
     struct nodes nodes = body_nodes_lay(s, which);
     const struct body_bend *bend = s->walls->bodies[which].bend;
     if (bend)
-        memset(bend->reference, 0, (size_t)bend->n * sizeof *bend->reference);
+        body_bend_clear(bend, BEND_REFERENCE);
     for (int k = 0; k < nodes.n; k++) {
         const struct average_node *d = nodes.node + k;
         double f[3] = {0.0, 0.0, 0.0};
@@ -210,7 +210,7 @@ struct force body_reference(const struct sph *s, int which)
             vec3_add(f, d->area * scene_reference_at(r, s->dim, d->x), d->n);
         push(s->walls->bodies + which, d, f, &force);
         if (bend)
-            body_bend_load(bend, d->x, f, bend->reference);
+            body_bend_load(bend, d->x, f, BEND_REFERENCE);
     }
     mem_free(nodes.node);
     return force;

@@ -207,7 +207,8 @@ void body_coupling_begin(struct sph *s, double t0, double t1)
         if (k->moved[b] >= 0)
             take_motion(s, b, t0, t1);
         if (bend)
-            memcpy(k->before_load[b], bend->total, (size_t)bend->n * sizeof *bend->total);
+            memcpy(k->before_load[b], bend->load[BEND_TOTAL],
+                   (size_t)bend->n * sizeof *k->before_load[b]);
     }
 }
 
@@ -218,7 +219,7 @@ static void put_loads(struct body_coupling *k, int b, const struct body_bend *be
     double(*const mean)[2] = k->before_load[b];
     for (int i = 0; i < bend->n; i++)
         for (int a = 0; a < 2; a++)
-            mean[i][a] = (bend->total[i][a] - mean[i][a]) / (t1 - k->t0);
+            mean[i][a] = (bend->load[BEND_TOTAL][i][a] - mean[i][a]) / (t1 - k->t0);
     partner_check(k->c, cpl_put(k->c, k->load[b], t1, rank ? 0 : bend->n, *mean, NULL));
 }
 

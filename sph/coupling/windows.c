@@ -292,10 +292,14 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
 {
     const struct windows w = windows_choose(r, prm);
     const double left = w.memory > 1 ? w.gain * windows_smoothed(w.memory) : w.gain;
+    double overlap[3];
     log_say(
         "coupling steps of %d steps, %.3g s, limited by %s: U T/L = %.3f (U %.3g m/s, L %.3g m)",
         w.steps, w.T, w.limit, w.U * w.T / w.L, w.U, w.L);
-    log_say("overlap %.3g m wide (coupling.overlap)", zones_overlap(r, prm));
+    zones_overlap(r, prm, overlap);
+    log_say(r->scene.domain.dim == 3 ? "overlap (%.3g, %.3g, %.3g) m wide (coupling.overlap)"
+                                     : "overlap (%.3g, %.3g) m wide (coupling.overlap)",
+            overlap[0], overlap[1], overlap[2]);
     if (w.memory > 1)
         log_say("gain of the coupling loop %.2g: fv's pressure smoothed over %d coupling steps, "
                 "%.2g is left",

@@ -82,6 +82,7 @@ static bool has_excess(const struct sph *s, const struct zones *z)
 struct zones *zones_create(struct sph *s)
 {
     bool open = false;
+    double overlap[3];
     for (int side = 0; side < 6; side++)
         open = open || s->open[side];
     if (!open)
@@ -97,7 +98,8 @@ struct zones *zones_create(struct sph *s)
     z->fastest = box_motion_speed(s->run, &s->prm);
     for (int a = 0; a < s->dim; a++)
         z->along[a] = box_motion_along(s->run, &s->prm, a);
-    z->overlap = zones_overlap(s->run, &s->prm);
+    zones_overlap(s->run, &s->prm, overlap);
+    z->overlap = fmin(overlap[0], fmin(overlap[1], s->dim == 3 ? overlap[2] : INFINITY));
     z->openings = openings_create(s);
     z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
     z->gap = s->run->crossed ? level_gap_create(s, false) : NULL;

@@ -66,46 +66,47 @@ double zones_cell(const struct run *r, int a, double *lo)
     return n > 0.0 ? (d->max[a] - *lo) / n : 0.0;
 }
 
-/* Half of what the free zone of a box in the midst of the flow, without solids, has across beyond
- * six cells of fv, m; 0: not known, or the box is another. */
-static double widest_overlap(const struct run *r, const struct sph_params *prm)
+/* Whether sph has a box in the midst of the flow, without solids in it. */
+static bool is_confined(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;
-    double lo[3], hi[3], corner, most = INFINITY;
-    bool open[6], alone = r->params && c->nbodies == 0 && !scene_has_surface(c);
-    for (int k = 0; k < c->nwalls; k++)
-        alone = alone && c->walls[k].side != SIDE_NONE;
-    if (!alone)
-        return 0.0;
-    zones_free_box(r, prm, lo, hi);
+    bool open[6], confined = r->params && prm->outer == OUTER_PARTNER && c->nbodies == 0;
     sph_params_open(r, prm, open);
-    for (int a = 0; a < c->domain.dim; a++) {
-        const double h = zones_cell(r, a, &corner), half = 0.5 * (hi[a] - lo[a]) - 3.0 * h;
-        most = fmin(most, h > 0.0 && open[2 * a] && open[2 * a + 1] ? half : 0.0);
-    }
-    return most;
+    for (int side = 0; side < 2 * c->domain.dim; side++)
+        confined = confined && open[side];
+    for (int k = 0; k < c->nwalls; k++)
+        confined = confined && c->walls[k].side != SIDE_NONE;
+    return confined && !scene_has_surface(c);
 }
 
 /* Where nothing but water is around, fv knows as much of a smooth flow as sph: what sph errs by
  * comes back through fv the less, the farther its imposed cells are from the open sides (of
- * Taylor-Green with 0.07, 0.1, 0.14 L: 0.034, 0.017, 0.008 % of the velocity). */
-double zones_overlap(const struct run *r, const struct sph_params *prm)
+ * Taylor-Green with 0.07, 0.1, 0.14 L: 0.034, 0.017, 0.008 % of the velocity). Four cells are left,
+ * where fv's width is known. */
+void zones_overlap(const struct run *r, const struct sph_params *prm, double width[3])
 {
     const double given = r->scene.coupling.overlap, least = 1.25 * prm->R_dx * prm->dx;
-    if (given > 0.0)
-        return given;
-    return prm->outer == OUTER_PARTNER ? fmax(least, widest_overlap(r, prm)) : least;
+    const bool confined = given == 0.0 && is_confined(r, prm);
+    double lo[3], hi[3], corner;
+    zones_free_box(r, prm, lo, hi);
+    for (int a = 0; a < 3; a++) {
+        const double h = confined ? zones_cell(r, a, &corner) : 0.0;
+        width[a] = given > 0.0 ? given : least;
+        if (h > 0.0)
+            width[a] = fmax(least, 0.5 * (hi[a] - lo[a]) - (2.0 + 1e-6) * h);
+    }
 }
 
 void zones_given_box(const struct run *r, const struct sph_params *prm, double lo[3], double hi[3])
 {
-    const double overlap = zones_overlap(r, prm);
+    double width[3];
     bool open[6];
+    zones_overlap(r, prm, width);
     zones_free_box(r, prm, lo, hi);
     sph_params_open(r, prm, open);
     for (int a = 0; a < r->scene.domain.dim; a++) {
-        lo[a] += open[2 * a] ? overlap : 0.0;
-        hi[a] -= open[2 * a + 1] ? overlap : 0.0;
+        lo[a] += open[2 * a] ? width[a] : 0.0;
+        hi[a] -= open[2 * a + 1] ? width[a] : 0.0;
     }
 }
 

@@ -72,9 +72,10 @@ void zones_widths(const struct run *r, const struct sph_params *prm, double *tra
  * makes it a whole number of particles. */
 void zones_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
                   double *from, double *to);
-/* Width of the overlap with a partner, m: as given, else 1.25 R, and in the midst of a flow without
- * surface and solids what leaves fv six cells across. Collective over r->comm. */
-double zones_overlap(const struct run *r, const struct sph_params *prm);
+/* Width of the overlap with a partner along each axis, m: as given, else 1.25 R, and in the midst
+ * of a flow without surface and solids what leaves fv four cells across. Collective over r->comm.
+ */
+void zones_overlap(const struct run *r, const struct sph_params *prm, double width[3]);
 /* "(0, 0) to (1, 1)": corners of a box for messages; valid until the next call. */
 const char *zones_extent(int dim, double box[2][3]);
 /* The box that a partner leaves to SPH, i.e. the free zone less the overlap; zones_free_box: the

@@ -43,13 +43,16 @@ struct body_free {
 
 /* --- body_bend.c: a body in the plane whose outline another program bends --- */
 
-/* Its points where they are now, and what they bear. Loads are those of one level and rank, sums
- * over the ranks since the start excepted; 2D: N/m and N s/m. */
+/* What the points of an outline bear, per metre: N in the stage under way and N s in the step, of
+ * this level and rank; N s since the start and N of the pressure that the particles leave out, of
+ * all ranks. */
+enum bend_load { BEND_STAGE, BEND_STEP, BEND_TOTAL, BEND_REFERENCE, BEND_LOADS };
+
+/* Its n points where they are now, and their loads. */
 struct body_bend {
     int n;
-    double (*x)[2], (*u)[2], (*du)[2];           /* m, m/s, m/s^2 */
-    double (*stage)[2], (*step)[2], (*total)[2]; /* N: in this stage; N s: this step, all before */
-    double (*reference)[2]; /* N: of the pressure that the particles leave out; all ranks */
+    double (*x)[2], (*u)[2], (*du)[2]; /* m, m/s, m/s^2 */
+    double (*load[BEND_LOADS])[2];
 };
 
 /* One body. */
@@ -122,10 +125,14 @@ void body_bend_move(struct body *b, double t);
 /* Velocity and acceleration (NULL: not wanted), m/s and m/s^2, on the piece from point k to the
  * next, `share' of the way. */
 void body_bend_velocity(const struct body_bend *bend, int k, double share, double *u, double *du);
-/* Adds the force f[2] at x, m, to the points of the piece that is nearest, so that the sum stays
- * f; `to' is one of the bend's loads. */
+/* Adds the force f[2] at x, m, to a load of the points of the piece that is nearest, so that the
+ * sum stays f. */
 void body_bend_load(const struct body_bend *bend, const double *x, const double *f,
-                    double (*to)[2]);
+                    enum bend_load which);
+/* Zeroes a load; adds `factor' times a load `of' another bend (or the same) with as many points. */
+void body_bend_clear(const struct body_bend *bend, enum bend_load which);
+void body_bend_add(const struct body_bend *bend, enum bend_load to, double factor,
+                   const struct body_bend *from, enum bend_load of);
 /* Power of the loads of the stage, W/m. */
 double body_bend_power(const struct body_bend *bend);
 

@@ -3,6 +3,7 @@
  * the loads on the points is that of the forces on the pieces. Points are those of the case, in its
  * order. SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <string.h>
 
 #include "../../common/base/base.h"
 #include "body.h"
@@ -11,10 +12,11 @@ struct body_bend *body_bend_create(const struct scene_body *is)
 {
     struct body_bend *b = NEW(struct body_bend, 1);
     const int n = b->n = is->points.n;
-    double(**const all[])[2] = {&b->x,    &b->u,     &b->du,       &b->stage,
-                                &b->step, &b->total, &b->reference};
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+    double(**const all[])[2] = {&b->x, &b->u, &b->du};
+    for (int k = 0; k < 3; k++)
         *all[k] = mem_new((size_t)n, sizeof **all[k]);
+    for (int k = 0; k < BEND_LOADS; k++)
+        b->load[k] = mem_new((size_t)n, sizeof *b->load[k]);
     for (int i = 0; i < n; i++)
         for (int a = 0; a < 2; a++)
             b->x[i][a] = is->points.x[i][a];
@@ -24,9 +26,24 @@ struct body_bend *body_bend_create(const struct scene_body *is)
 void body_bend_free(struct body_bend **bend)
 {
     struct body_bend *b = *bend;
+    for (int k = 0; b && k < BEND_LOADS; k++)
+        mem_free(b->load[k]);
     if (b)
-        FREE(b->x, b->u, b->du, b->stage, b->step, b->total, b->reference, b);
+        FREE(b->x, b->u, b->du, b);
     *bend = NULL;
+}
+
+void body_bend_clear(const struct body_bend *bend, enum bend_load which)
+{
+    memset(bend->load[which], 0, (size_t)bend->n * sizeof *bend->load[which]);
+}
+
+void body_bend_add(const struct body_bend *bend, enum bend_load to, double factor,
+                   const struct body_bend *from, enum bend_load of)
+{
+    for (int i = 0; i < bend->n; i++)
+        for (int a = 0; a < 2; a++)
+            bend->load[to][i][a] += factor * from->load[of][i][a];
 }
 
 void body_bend_move(struct body *b, double t)
@@ -61,9 +78,10 @@ static double distance2(const struct body_bend *bend, int k, const double *x, do
            (d[1] - *share * e[1]) * (d[1] - *share * e[1]);
 }
 
-void body_bend_load(const struct body_bend *bend, const double *x, const double *f, double (*to)[2])
+void body_bend_load(const struct body_bend *bend, const double *x, const double *f,
+                    enum bend_load which)
 {
-    double least = INFINITY, at = 0.0;
+    double(*const to)[2] = bend->load[which], least = INFINITY, at = 0.0;
     int on = 0;
     for (int k = 0; k < bend->n; k++) {
         double share;
@@ -84,6 +102,7 @@ double body_bend_power(const struct body_bend *bend)
 {
     double sum = 0.0;
     for (int i = 0; i < bend->n; i++)
-        sum += bend->stage[i][0] * bend->u[i][0] + bend->stage[i][1] * bend->u[i][1];
+        sum += bend->load[BEND_STAGE][i][0] * bend->u[i][0] +
+               bend->load[BEND_STAGE][i][1] * bend->u[i][1];
     return sum;
 }

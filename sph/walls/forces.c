@@ -15,21 +15,27 @@
 
 enum { REST = BODIES_MAX, SIDES = BODIES_MAX + 1, PARTS = sizeof(struct force) / sizeof(double) };
 
-/* to += factor f, of the n points of an outline. */
-static void add_loads(double (*to)[2], double factor, const double (*f)[2], int n)
+/* Of all bodies that bend: zeroes a load; adds a load of the walls `from', of another level or the
+ * same, to one. */
+static void clear_bends(struct walls *w, enum bend_load which)
 {
-    for (int i = 0; i < n; i++)
-        for (int a = 0; a < 2; a++)
-            to[i][a] += factor * f[i][a];
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].bend)
+            body_bend_clear(w->bodies[k].bend, which);
+}
+
+static void add_bends(struct walls *w, enum bend_load to, double factor, const struct walls *from,
+                      enum bend_load of)
+{
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].bend)
+            body_bend_add(w->bodies[k].bend, to, factor, from->bodies[k].bend, of);
 }
 
 void forces_clear(struct walls *w)
 {
     memset(w->forces.stage, 0, sizeof w->forces.stage);
-    for (int k = 0; k < w->nbodies; k++)
-        if (w->bodies[k].bend)
-            memset(w->bodies[k].bend->stage, 0,
-                   (size_t)w->bodies[k].bend->n * sizeof *w->bodies[k].bend->stage);
+    clear_bends(w, BEND_STAGE);
     w->forces.credited = true;
 }
 
@@ -73,7 +79,7 @@ void forces_add(const struct sph *s, int body, const double *x, const double *f)
     const struct body_bend *bend = bend_of(s, body, x, at);
     add(s, s->walls->forces.stage, body, x, f);
     if (bend)
-        body_bend_load(bend, at, f, bend->stage);
+        body_bend_load(bend, at, f, BEND_STAGE);
 }
 
 void forces_hit(const struct sph *s, int body, const double *x, const double *impulse)
@@ -83,7 +89,7 @@ void forces_hit(const struct sph *s, int body, const double *x, const double *im
     add(s, s->walls->forces.step, body, x, impulse);
     add(s, s->walls->forces.hit, body, x, impulse);
     if (bend)
-        body_bend_load(bend, at, impulse, bend->step);
+        body_bend_load(bend, at, impulse, BEND_STEP);
 }
 
 static void add_times(struct force *to, double factor, const struct force *f)
@@ -98,11 +104,7 @@ void forces_join_stage(struct walls *to, const struct walls *from)
 {
     for (int b = 0; b < SIDES; b++)
         add_times(to->forces.stage + b, 1.0, from->forces.stage + b);
-    for (int k = 0; k < to->nbodies; k++) {
-        const struct body_bend *own = to->bodies[k].bend, *other = from->bodies[k].bend;
-        if (own)
-            add_loads(own->stage, 1.0, (const double(*)[2])other->stage, own->n);
-    }
+    add_bends(to, BEND_STAGE, 1.0, from, BEND_STAGE);
 }
 
 void forces_join_step(struct walls *to, struct walls *from)
@@ -114,13 +116,8 @@ void forces_join_step(struct walls *to, struct walls *from)
     }
     memset(f->step, 0, sizeof f->step);
     memset(f->hit, 0, sizeof f->hit);
-    for (int k = 0; k < to->nbodies; k++) {
-        const struct body_bend *own = to->bodies[k].bend, *other = from->bodies[k].bend;
-        if (!own)
-            continue;
-        add_loads(own->step, 1.0, (const double(*)[2])other->step, own->n);
-        memset(other->step, 0, (size_t)other->n * sizeof *other->step);
-    }
+    add_bends(to, BEND_STEP, 1.0, from, BEND_STEP);
+    clear_bends(from, BEND_STEP);
 }
 
 /* Morris's term is nu Lap u, whose traction on a wall is mu du/dn. The stress on a wall that turns
@@ -143,16 +140,11 @@ void forces_stage(struct sph *s, double dt)
     struct wall_forces *f = &s->walls->forces;
     for (int b = 0; b < SIDES; b++)
         add_times(f->step + b, dt, f->stage + b);
-    for (int k = 0; k < s->walls->nbodies; k++) {
-        const struct body_bend *bend = s->walls->bodies[k].bend;
-        if (bend)
-            add_loads(bend->step, dt, (const double(*)[2])bend->stage, bend->n);
-    }
+    add_bends(s->walls, BEND_STEP, dt, s->walls, BEND_STAGE);
+    if (s->run->rank == 0 && s->level == 0)
+        add_bends(s->walls, BEND_STEP, dt, s->walls, BEND_REFERENCE);
     for (int k = 0; k < s->walls->nbodies && s->run->rank == 0 && s->level == 0; k++) {
         struct force besides = f->reference[k];
-        const struct body_bend *bend = s->walls->bodies[k].bend;
-        if (bend)
-            add_loads(bend->step, dt, (const double(*)[2])bend->reference, bend->n);
         forces_add_turning(s, k, besides.M);
         add_times(f->step + k, dt, &besides);
     }
@@ -170,14 +162,6 @@ static void sample(struct sph *s, double dt)
         s->total.mean_force.sum[a] += part * now[a];
         s->total.mean_force.sum2 += part * now[a] * now[a];
     }
-}
-
-/* Loads of the step on a body that bends, summed over the ranks, join those before. */
-static void close_bend(const struct sph *s, const struct body_bend *bend)
-{
-    MPI_Allreduce(MPI_IN_PLACE, bend->step, 2 * bend->n, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    add_loads(bend->total, 1.0, (const double(*)[2])bend->step, bend->n);
-    memset(bend->step, 0, (size_t)bend->n * sizeof *bend->step);
 }
 
 void forces_step(struct sph *s, double dt)
@@ -198,9 +182,14 @@ void forces_step(struct sph *s, double dt)
         add_times(f->now + b, 1.0 / dt, f->step + b);
     }
     memset(f->step, 0, sizeof f->step);
-    for (int k = 0; k < s->walls->nbodies; k++)
-        if (s->walls->bodies[k].bend)
-            close_bend(s, s->walls->bodies[k].bend);
+    for (int k = 0; k < s->walls->nbodies; k++) {
+        const struct body_bend *bend = s->walls->bodies[k].bend;
+        if (bend)
+            MPI_Allreduce(MPI_IN_PLACE, bend->load[BEND_STEP], 2 * bend->n, MPI_DOUBLE, MPI_SUM,
+                          s->run->comm);
+    }
+    add_bends(s->walls, BEND_TOTAL, 1.0, s->walls, BEND_STEP);
+    clear_bends(s->walls, BEND_STEP);
     f->known = true;
     if (s->walls->nbodies > 0)
         sample(s, dt);

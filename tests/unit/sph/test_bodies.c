@@ -426,10 +426,10 @@ TEST(bent_square)
     assert_close(u[1], 0.5, 1e-14);
     body_bend_velocity(b.bend, 1, 0.25, u, NULL);
     assert_close(u[1], 1.5, 1e-14);
-    body_bend_load(b.bend, x, f, b.bend->stage);
+    body_bend_load(b.bend, x, f, BEND_STAGE);
     for (int i = 0; i < 4; i++)
         for (int a = 0; a < 2; a++)
-            sum[a] += b.bend->stage[i][a];
+            sum[a] += b.bend->load[BEND_STAGE][i][a];
     assert_close(sum[0], f[0], 1e-14);
     assert_close(sum[1], f[1], 1e-14);
     /* the nearest piece is the left side, from -0.5 to 0.6 now, 0.6 m of 1.1 m up */
