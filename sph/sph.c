@@ -135,7 +135,7 @@ static void say_turned(const struct scene *c)
                     c->bodies[k].name);
     for (int k = 0; k < c->nbodies; k++)
         if (c->bodies[k].cut)
-            log_say("body %d (%s): what of it is beyond closed sides of the domain is left out",
+            log_say("body %d (%s): what of it is beyond closed sides or behind lines is left out",
                     k + 1, c->bodies[k].name);
 }
 

@@ -6,72 +6,133 @@
 
 #include "scene_geometry.h"
 
-/* A half plane: the side of the domain, m, on its axis, and which way it is outside. */
-struct half {
-    int axis;
-    double at, out;
+/* Where an outline crosses a wall: between its corner i and the next, in a segment of the wall. */
+struct crossing {
+    int corner, segment;
+    double x[2]; /* m */
 };
 
-static double depth(const struct half *h, const double *x) { return h->out * (x[h->axis] - h->at); }
-
-/* Where the way from x to y crosses. */
-static void cross(const struct half *h, const double *x, const double *y, double *to)
+/* How far x lies on the right of the segment from a to b, m, where no fluid is. */
+static double behind(const double *a, const double *b, const double *x)
 {
-    const int along = 1 - h->axis;
-    const double part = depth(h, x) / (depth(h, x) - depth(h, y));
-    to[along] = x[along] + part * (y[along] - x[along]);
-    to[h->axis] = h->at;
+    const double d[2] = {b[0] - a[0], b[1] - a[1]};
+    return (d[1] * (x[0] - a[0]) - d[0] * (x[1] - a[1])) / hypot(d[0], d[1]);
 }
 
-/* Corners inside, and where edges cross (Sutherland & Hodgman, Commun. ACM 17, 1974). Returns
- * whether they are a polygon, cut in one piece. */
-static bool keep_inside(const struct half *h, double near, const struct param_points *from,
+/* Place between x and y, of which the one is p, the other q behind a wall, that is on it. */
+static void meet(const double *x, double p, const double *y, double q, double *at)
+{
+    for (int a = 0; a < 2; a++)
+        at[a] = x[a] + p / (p - q) * (y[a] - x[a]);
+}
+
+/* Where the body goes behind the wall (0) and comes back (1); whether it does so once. A corner
+ * nearer than `near', m, is on the wall, and so before it. */
+static bool find_crossings(const struct line *wall, double near, const struct param_points *p,
+                           struct crossing found[2])
+{
+    int n[2] = {0, 0};
+    for (int i = 0; i < p->n * (wall->n - 1); i++) {
+        struct crossing c = {.corner = i % p->n, .segment = i / p->n};
+        const double *x = p->x[c.corner], *y = p->x[(c.corner + 1) % p->n];
+        const double *a = wall->x[c.segment], *b = wall->x[c.segment + 1];
+        const double from = behind(a, b, x), to = behind(a, b, y);
+        if ((from > near) == (to > near))
+            continue;
+        meet(x, from, y, to, c.x);
+        if (fabs(from) <= near || fabs(to) <= near)
+            memcpy(c.x, fabs(from) <= near ? x : y, sizeof c.x);
+        const double d[2] = {b[0] - a[0], b[1] - a[1]};
+        const double along = d[0] * (c.x[0] - a[0]) + d[1] * (c.x[1] - a[1]);
+        if (along < 0.0 || along >= d[0] * d[0] + d[1] * d[1])
+            continue;
+        const int back = from > near;
+        found[back] = c;
+        n[back]++;
+    }
+    return n[0] == 1 && n[1] == 1;
+}
+
+static void add_corner(struct param_points *to, const double *x, double near)
+{
+    const double *last = to->x[to->n > 0 ? to->n - 1 : 0];
+    if (to->n > 0 && hypot(x[0] - last[0], x[1] - last[1]) <= near)
+        return;
+    memcpy(to->x[to->n++], x, sizeof to->x[0]);
+}
+
+/* Whether the outline, on its way from its corner x, goes behind before it comes back. */
+static bool is_first(const double *x, const struct crossing c[2])
+{
+    return hypot(c[0].x[0] - x[0], c[0].x[1] - x[1]) < hypot(c[1].x[0] - x[0], c[1].x[1] - x[1]);
+}
+
+/* What of an outline is before a wall that cuts it once: its corners there, then the way back along
+ * the wall. Whether it does, and some is left. */
+static bool keep_before(const struct line *wall, double near, const struct param_points *p,
                         struct param_points *to)
 {
-    int crossings = 0;
+    struct crossing c[2];
+    if (wall->n + p->n + 2 > PARAM_POINTS_MAX || !find_crossings(wall, near, p, c))
+        return false;
     to->n = 0;
-    for (int i = 0; i < from->n; i++) {
-        const double *x = from->x[i], *y = from->x[(i + 1) % from->n];
-        const double a = depth(h, x), b = depth(h, y);
-        const bool crosses = (a > near) != (b > near);
-        if (to->n + 2 > PARAM_POINTS_MAX)
-            return false;
-        if (a <= near) {
-            memcpy(to->x[to->n], x, sizeof to->x[0]);
-            to->x[to->n++][h->axis] = a > -near ? h->at : x[h->axis];
-        }
-        crossings += crosses;
-        if (!crosses || fabs(a) <= near || fabs(b) <= near)
-            continue;
-        cross(h, x, y, to->x[to->n++]);
-    }
-    return crossings == 2 && to->n >= 3;
+    add_corner(to, c[1].x, near);
+    int before = (c[0].corner - c[1].corner + p->n) % p->n;
+    if (before == 0 && is_first(p->x[c[0].corner], c)) /* a kink of the wall in one edge */
+        before = p->n;
+    for (int k = 1; k <= before; k++)
+        add_corner(to, p->x[(c[1].corner + k) % p->n], near);
+    add_corner(to, c[0].x, near);
+    for (int k = c[0].segment; k < c[1].segment; k++)
+        add_corner(to, wall->x[k + 1], near);
+    for (int k = c[0].segment; k > c[1].segment; k--)
+        add_corner(to, wall->x[k], near);
+    return to->n >= 3;
 }
 
-void scene_cut_at_sides(const struct scene *s, struct scene_body *b)
+static void cut_at(const struct line *wall, double near, struct scene_body *b)
 {
     struct param_points kept;
-    for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 4; side++) {
-        const int a = (side - SIDE_X_MIN) / 2;
-        const bool high = (side - SIDE_X_MIN) % 2;
-        const struct scene_wall *w = scene_wall_of(s, (enum scene_side)side);
-        const struct half h = {a, high ? s->domain.max[a] : s->domain.min[a], high ? 1.0 : -1.0};
-        const double near = 1e-9 * (s->domain.max[a] - s->domain.min[a]);
-        if (s->domain.dim > 2 || !w || w->kind >= WALL_INFLOW || scene_body_moves(b) ||
-            !keep_inside(&h, near, &b->points, &kept))
-            continue;
-        b->points = kept;
-        b->cut = true;
+    if (!keep_before(wall, near, &b->points, &kept))
+        return;
+    b->points = kept;
+    b->cut = true;
+}
+
+void scene_cut_at_walls(const struct scene *s, struct scene_body *b)
+{
+    if (s->domain.dim > 2 || scene_body_moves(b) || b->points.n < 3)
+        return;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct line l = line_of(&s->walls[k].points, false);
+        if (l.n > 1 && !s->walls[k].closed)
+            cut_at(&l, 1e-9 * line_size(&l), b);
+    }
+    for (int side = 0; side < 4; side++) {
+        const int a = side / 2;
+        const bool high = side % 2, forward = (a == 1) != high;
+        const double *lo = s->domain.min, *hi = s->domain.max, L = hi[1 - a] - lo[1 - a];
+        const struct scene_wall *w = scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + side));
+        double x[2][2];
+        x[0][a] = x[1][a] = high ? hi[a] : lo[a];
+        x[!forward][1 - a] = lo[1 - a] - L;
+        x[forward][1 - a] = hi[1 - a] + L;
+        if (w && w->kind < WALL_INFLOW)
+            cut_at(&(struct line){2, (const double(*)[2])x, false}, 1e-9 * (hi[a] - lo[a]), b);
     }
 }
 
 /* Leaves out the end of an open line that is outside: its last points. */
-static void cut_end(const struct half *h, struct param_points *p)
+static void cut_end(int axis, double at, double out, struct param_points *p)
 {
-    while (p->n > 2 && depth(h, p->x[p->n - 2]) >= 0.0)
+#define DEPTH(k) (out * (p->x[p->n - (k)][axis] - at))
+    while (p->n > 2 && DEPTH(2) >= 0.0)
         p->n--;
-    if (depth(h, p->x[p->n - 1]) > 0.0 && depth(h, p->x[p->n - 2]) < 0.0)
-        cross(h, p->x[p->n - 2], p->x[p->n - 1], p->x[p->n - 1]);
+    if (DEPTH(1) <= 0.0 || DEPTH(2) >= 0.0)
+        return;
+    meet(p->x[p->n - 1], DEPTH(1), p->x[p->n - 2], DEPTH(2), p->x[p->n - 1]);
+    p->x[p->n - 1][axis] = at;
+#undef DEPTH
 }
 
 void scene_cut_at_periods(const struct scene *s, struct scene_wall *w)
@@ -85,7 +146,7 @@ void scene_cut_at_periods(const struct scene *s, struct scene_wall *w)
             continue;
         for (int end = 0; end < 2; end++) {
             const bool high = (first < last) != (end == 1);
-            cut_end(&(struct half){a, high ? *hi : *lo, high ? 1.0 : -1.0}, &kept);
+            cut_end(a, high ? *hi : *lo, high ? 1.0 : -1.0, &kept);
             points_reverse(&kept);
         }
         bool is_inside = true;

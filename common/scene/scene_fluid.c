@@ -270,7 +270,6 @@ void scene_orient(struct scene *s)
         b->turned = l.n > 2 && (line_area(&l) > 0.0) != b->tank;
         if (b->turned)
             points_reverse(&b->points);
-        scene_cut_at_sides(s, b);
     }
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;
@@ -282,4 +281,6 @@ void scene_orient(struct scene *s)
         if (w->turned)
             points_reverse(&w->points);
     }
+    for (int k = 0; k < s->nbodies; k++)
+        scene_cut_at_walls(s, s->bodies + k);
 }

@@ -82,7 +82,7 @@ static bool is_wet(const struct scene *c, const struct bound *A, const struct bo
     const double mid[3] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.0};
     foot_of(&A->line, mid, p, left);
     foot_of(&B->line, mid, q, left + 1);
-    bool in = scene_is_room(c, mid);
+    bool in = scene_is_room(c, mid) && !scene_is_behind_lines(c, mid);
     for (int a = 0; a < 2; a++)
         in = in && mid[a] > c->domain.min[a] && mid[a] < c->domain.max[a];
     return in && (is_side(A) || left[0] >= 0.0) && (is_side(B) || left[1] >= 0.0);

@@ -240,7 +240,7 @@ void wall_side_add(struct wall_side *to, const struct segment *g, const double *
     along = along < 0.0 ? -along : along > g->length ? along - g->length : 0.0;
     const double r = sqrt(along * along + height * height);
     if (r < to->least * (1.0 + 1e-12) &&
-        (r < to->least * (1.0 - 1e-12) || fabs(height) > to->sure)) {
+        (r < to->least * (1.0 - 1e-12) || fabs(height) > to->sure * (1.0 + 1e-9))) {
         to->least = r;
         to->sure = fabs(height);
         to->distance = height < 0.0 && !round ? -r : r;

@@ -311,7 +311,9 @@ slab = 'bodies: ( { box = ((0.2, 0), (0.3, 0.2)); }, { box = ((0.6, 0), (0.7, 0.
 edit('tank.cfg', 's/^bodies.*/' + slab + '/')
 holds(start('sph', 'case.cfg', '-o', 'shut', '-p', 'time.end=1e-3', '-p', 'sph.dx=0.025') == 0 and told('particle(s) of water are shut in .* at (0.* seeps in from outside'), 'water shut in')
 edit('tank.cfg', 's/^bodies.*/bodies: ( { radius = 0.2; translate = (0.5, 0); } );/')
-holds(start('sph', 'case.cfg', '--check') == 0 and told('body 1 .*: what of it is beyond closed sides of the domain is left out'), 'half a disc on the floor')
+holds(start('sph', 'case.cfg', '--check') == 0 and told('body 1 .*: what of it is beyond closed sides or behind lines is left out'), 'half a disc on the floor')
+edit('tank.cfg', 's/^bodies.*/bodies: ( { radius = 0.2; translate = (1, 0.15); } );/; s/{ side = "y_min"; } )/{ side = "y_min"; }, { points = ((0.3, 0), (1, 0.1), (2, 0.4)); } )/; s/^probes.*//')
+holds(start('sph', 'case.cfg', '--check') == 0 and told('body 1 .*: what of it is beyond closed sides or behind lines is left out'), 'a disc in a bed')
 write('channel.cfg', '''format = 1;
 time:    { end = 0.01; };
 fluid:   { rho = 1.0; nu = 0.01; };

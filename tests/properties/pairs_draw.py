@@ -175,11 +175,11 @@ def wedge_body(rng):
     return s
 
 
-def kept(points, axis, at, way):
-    """The part of a polygon with way (x - at) >= 0."""
+def kept(points, before):
+    """The part of a polygon where a linear function of the place is not negative."""
     out = []
     for (p, q) in zip(points, points[1:] + points[:1]):
-        a, b = way * (p[axis] - at), way * (q[axis] - at)
+        a, b = before(p), before(q)
         if a >= 0:
             out.append(p)
         if a * b < 0:
@@ -188,23 +188,28 @@ def kept(points, axis, at, way):
 
 
 def body_sunk(rng):
-    """A body that stands in the floor or in a side: its wet faces have the buoyancy of what is inside the tank, less
-    what water would push on the cut."""
+    """A body that stands in the floor, a side or a sloping bed: its wet faces have the buoyancy of what is inside the tank,
+    less what water would push on the cut."""
     s = tank2(rng, "sides", wide=(30, 40), deep=(18, 26))
-    n, r, floor = rng.choice([4, 40]), rng.uniform(4.5, 6) * s.dx, rng.random() < 0.6
+    n, r, where = rng.choice([4, 40]), rng.uniform(4.5, 6) * s.dx, rng.choice(["floor", "side", "bed"])
     deep, angle = rng.uniform(-0.4, 0.4) * r, rng.uniform(0, 6.28)
-    centre = (0.5 * s.hi[0], deep) if floor else (deep, 0.45 * s.depth)
-    points = s.polygon("b", centre, r, n, angle)
+    slope = rng.uniform(0.2, 0.6) if where == "bed" else 0.0
+    x, y = (deep, 0.45 * s.depth) if where == "side" else (0.5 * s.hi[0], deep)
+    if where == "bed":
+        s.lines.append({"points": [(0.35 * s.hi[0], 0.0), (s.hi[0], 0.65 * slope * s.hi[0])]})
+        y += slope * (x - 0.35 * s.hi[0])
+    points = s.polygon("b", (x, y), r, n, angle)
     s.laws.pop("solids")
-    axis = 1 if floor else 0
-    inside = kept(points, axis, 0.0, 1.0)
-    cut = sorted(p[1 - axis] for p in inside if p[axis] < 1e-12)
+    before = (lambda p: p[0]) if where == "side" else (lambda p: p[1] - slope * (p[0] - 0.35 * s.hi[0]))
+    inside = kept(points, before)
+    cut = sorted(p for p in inside if abs(before(p)) < 1e-12 * s.hi[0])
     area = abs(0.5 * sum(p[0] * q[1] - q[0] * p[1] for p, q in zip(inside, inside[1:] + inside[:1])))
-    wide, middle = cut[-1] - cut[0], 0.5 * (cut[-1] + cut[0])
-    push = 1000 * G * wide * (s.depth if floor else s.depth - middle)  # of water on the cut, into the tank
-    force = [0.0, 1000 * G * area - push] if floor else [-push, 1000 * G * area]
-    s.laws["pushed"] = [("b", force, max(push, 1000 * G * area))]
-    s.gauges([s.hi[0] - 5 * s.dx])
+    (x0, y0), (x1, y1) = cut[0], cut[-1]
+    p = 1000 * G * (s.depth - 0.5 * (y0 + y1))  # of water on the cut, pushed into the tank
+    push = (p * abs(y1 - y0), 0.0) if where == "side" else (-p * (y1 - y0), p * (x1 - x0))
+    force = [-push[0], 1000 * G * area - push[1]]
+    s.laws["pushed"] = [("b", force, max(math.hypot(*push), 1000 * G * area))]
+    s.gauges([s.hi[0] - 5 * s.dx if where != "bed" else 3 * s.dx])
     return s
 
 
