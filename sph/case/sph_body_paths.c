@@ -93,14 +93,23 @@ static bool is_free(const struct scene *c, const struct bound *b)
     return b->body >= 0 && c->bodies[b->body].free;
 }
 
-/* What to do with body k, which is beyond a side that is not periodic. */
-static const char *beyond_remedy(const struct run *r, int k)
+/* What to do with body k, which is beyond a side along an axis. */
+static const char *beyond_remedy(const struct run *r, int k, int axis)
 {
-    return scene_body_moves(r->scene.bodies + k) ? "make the domain larger, or the motion smaller"
+    return r->scene.domain.periodic[axis]
+               ? "a body may come up to it, not through it; shift the domain, or make it larger"
+           : scene_body_moves(r->scene.bodies + k) ? "make the domain larger, or the motion smaller"
            : r->scene.domain.dim == 3
                ? "end it on the side, or make the domain larger"
                : "make the domain larger, or end it on the side: one that crosses "
                  "a closed side once is cut there";
+}
+
+/* How it goes beyond that side. */
+static const char *beyond_word(const struct run *r, int axis)
+{
+    return r->scene.domain.periodic[axis] ? "crosses the periodic side"
+                                          : "leaves the domain across";
 }
 
 /* Whether x is so near to the axis of a free body's hinge that contact leaves it alone: see
@@ -257,15 +266,9 @@ static bool check_domain(const struct run *r, int k, const double *x, const char
         const double small = 1e-9 * (d->max[a] - d->min[a]); /* a rotation's last digits */
         if (x[a] >= d->min[a] - small && x[a] <= d->max[a] + small)
             continue;
-        params_fault(
-            r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g, %g) m, %s: %s",
-            r->scene.bodies[k].name,
-            d->periodic[a] ? "crosses the periodic side" : "leaves the domain across", "xyz"[a],
-            x[0], x[1], x[2], when,
-            d
-            -> periodic[a]
-                   ? "a body may come up to it, not through it; shift the domain, or make it larger"
-                   : beyond_remedy(r, k));
+        params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g, %g) m, %s: %s",
+                     r->scene.bodies[k].name, beyond_word(r, a), "xyz"[a], x[0], x[1], x[2], when,
+                     beyond_remedy(r, k, a));
         return true;
     }
     return false;
@@ -428,15 +431,12 @@ static bool check_room(const struct run *r, const struct sph_params *used, const
                 continue;
             params_fault(r->params, f, key_text("bodies.[%d]", b->body),
                          "%s %s %c at (%g, %g) m, %s: %s", b->name,
-                         !leaves          ? "leaves the free zone of the particles across"
-                         : d->periodic[a] ? "crosses the periodic side"
-                                          : "leaves the domain across",
+                         leaves ? beyond_word(r, a)
+                                : "leaves the free zone of the particles across",
                          "xy"[a], l -> x[i][0], l -> x[i][1], when,
-                         !leaves          ? "only there it is known; keep it 2.5 R from "
-                                            "openings, or make sph.box larger"
-                         : d->periodic[a] ? "a body may come up to it, not through it; shift the "
-                                            "domain, or make it larger"
-                                          : beyond_remedy(r, b->body));
+                         leaves ? beyond_remedy(r, b->body, a)
+                                : "only there it is known; keep it 2.5 R from openings, or make "
+                                  "sph.box larger");
             return false;
         }
     return true;

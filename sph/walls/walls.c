@@ -255,11 +255,14 @@ double walls_distance(const struct walls *w, const double *x, double reach)
     return side.distance;
 }
 
-static double segment_distance(const struct segment *g, const double *x)
+/* The point of a segment that is nearest to x; returns its distance, m. */
+static double segment_foot(const struct segment *g, const double *x, double *foot)
 {
     const double along =
         fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
-    return hypot(x[0] - g->a[0] - along * g->t[0], x[1] - g->a[1] - along * g->t[1]);
+    foot[0] = g->a[0] + along * g->t[0];
+    foot[1] = g->a[1] + along * g->t[1];
+    return hypot(x[0] - foot[0], x[1] - foot[1]);
 }
 
 int walls_nearest(const struct walls *w, const double *x, double *foot)
@@ -267,11 +270,8 @@ int walls_nearest(const struct walls *w, const double *x, double *foot)
     double least = INFINITY;
     int found = 0;
     for (int k = 0; k < w->nsegments; k++) {
-        const struct segment *g = w->segments + k;
-        const double along =
-            fmax(0.0, fmin((x[0] - g->a[0]) * g->t[0] + (x[1] - g->a[1]) * g->t[1], g->length));
-        const double p[2] = {g->a[0] + along * g->t[0], g->a[1] + along * g->t[1]};
-        const double r = hypot(x[0] - p[0], x[1] - p[1]);
+        double p[2];
+        const double r = segment_foot(w->segments + k, x, p);
         if (r < least) {
             least = r;
             found = k;
@@ -514,10 +514,11 @@ static void find_open_ends(const struct sph *s, struct walls *w)
             struct segment *g = w->segments + k;
             const double *x = end ? g->b : g->a;
             bool meets = g->body >= 0;
+            double foot[2];
             for (int a = 0; a < 2; a++)
                 meets = meets || x[a] < d->min[a] + near || x[a] > d->max[a] - near;
             for (int j = 0; j < w->nsegments && !meets; j++)
-                meets = j != k && segment_distance(w->segments + j, x) < near;
+                meets = j != k && segment_foot(w->segments + j, x, foot) < near;
             g->open[end] = !meets;
             w->any_open = w->any_open || !meets;
         }
