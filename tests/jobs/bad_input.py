@@ -611,6 +611,9 @@ apr:     { levels = 2; regions = (
   { level = 1; min = (0.2, -0.1); max = (1.2, 0.6); },
   { level = 2; min = (0.5, -0.1); max = (0.9, 0.3); } ); };
 ''')
+tells('apr', 's/{ side = "y_min"; } )/{ side = "y_min"; }, { side = "y_max"; } )/; s/^shapes.*//', 'warning: apr: under weight, without air, fluid at rest is stirred')
+tells('apr', 's/^$//', 'level 2')
+holds(not told('is stirred'), 'levels under air')
 edit('apr.cfg', 's/domain:.*/domain: { min = (0, 0); max = (2, 1); periodic = (false, true); };/; s/"x_min"/"x_min"; kind = "inflow"; velocity = (1, 0)/; '
      's/"x_max"/"x_max"; kind = "outflow"/; s/, { side = "y_min"; }//; /^shapes/d; s/, gravity.*/;/; s/gravity[^;]*;//', 'apr_open.cfg')
 holds(start('sph', 'apr.cfg', '--check') == 0, 'regions in order are refused')
