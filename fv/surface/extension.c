@@ -245,6 +245,15 @@ static void list_carry(struct surface *f, int layer, const struct carry *x)
     f->carry[layer][f->ncarry[layer]++] = *x;
 }
 
+/* Whether there is little water in the window, and cells behind a side: on lines of cells that bend
+ * it follows them. Drops in flight go straight on. */
+static bool is_film_on_wall(const struct fv *s, const struct place *p, int layer)
+{
+    const int wide = 2 * window_reach(s, layer) + 1;
+    return p->part->kind == PART_CURVED && 2 * p->known < p->room &&
+           p->room < (s->dim == 3 ? wide * wide * wide : wide * wide);
+}
+
 static void add_carry(struct fv *s, const struct part *part, int64_t c, int row, int layer)
 {
     struct surface *f = s->surface;
@@ -280,6 +289,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
         x.has_slope = true;
     }
     x.slows = layer == 2 && may_slow(s, p.spacing);
+    x.turns = is_film_on_wall(s, &p, layer);
     list_carry(f, layer, &x);
 }
 

@@ -26,6 +26,37 @@ static void look(const struct surface *f, const struct carry *x, int dim, double
     }
 }
 
+/* Unit vectors across the lower face of cell c along its first index, and along the others. */
+static void frame_of(const struct fv *s, int64_t c, double e[3][3])
+{
+    for (int a = 0; a < s->dim; a++) {
+        grid_face_vector(&s->grid, c, a, e[a]);
+        for (int b = 0; b < a; b++)
+            vec3_add(e[a], -vec3_dot(e[a], e[b]), e[b]);
+        const double size = vec3_length(e[a]);
+        for (int q = 0; q < 3; q++)
+            e[a][q] /= size > 0.0 ? size : 1.0;
+    }
+}
+
+/* Velocities of a stencil as if they had turned with the lines of cells on the way to its cell: so
+ * does thin water that runs along a wall. */
+static void turn_values(const struct fv *s, const struct carry *x, struct stencil_values *r)
+{
+    double here[3][3] = {{0.0}}, there[3][3] = {{0.0}};
+    frame_of(s, x->cell, here);
+    for (int k = 0; k < x->n; k++) {
+        double u[3] = {0.0, 0.0, 0.0}, v[3] = {0.0, 0.0, 0.0};
+        frame_of(s, x->cell + s->surface->at[x->first + k], there);
+        for (int q = 0; q < s->dim; q++)
+            u[q] = r->v[q][k];
+        for (int a = 0; a < s->dim; a++)
+            vec3_add(v, vec3_dot(u, there[a]), here[a]);
+        for (int q = 0; q < s->dim; q++)
+            r->v[q][k] = v[q];
+    }
+}
+
 enum { SAMPLES = 4 };
 
 /* Of a stencil's n cells one that stands for others: what is within the bounds of a few is within
@@ -173,6 +204,8 @@ static void carry_velocity(const struct fv *s, const struct carry *x, int layer,
     double slope[3] = {0.0, 0.0, 0.0}, own[3] = {0.0, 0.0, 0.0};
     struct stencil_values r;
     look(f, x, dim, u, &r);
+    if (x->turns)
+        turn_values(s, x, &r);
     if (x->has_slope)
         normal_slopes(s, x, &r, how, slope);
     else if (layer == 1 && how == EXTEND_SHEAR)

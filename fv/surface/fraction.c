@@ -23,30 +23,6 @@ static bool any_curved(const struct mesh *m)
     return curved;
 }
 
-/* Whether the lower face of cell c along a leans by more than 0.01 against that of the first. */
-static bool is_bent(const struct mesh *m, int a, int64_t first, int64_t c)
-{
-    double s[3] = {0.0, 0.0, 0.0}, t[3] = {0.0, 0.0, 0.0};
-    for (int k = 0; k < m->dim; k++) {
-        s[k] = m->S[a][k][first];
-        t[k] = m->S[a][k][c];
-    }
-    return vec3_dot(s, t) < (1.0 - 0.5e-4) * vec3_length(s) * vec3_length(t);
-}
-
-/* Whether index lines of some part of any rank are not straight and parallel. Collective. */
-static bool any_bent(const struct mesh *m)
-{
-    bool bent = false;
-    for (const struct part *p = m->part; p < m->part + m->nparts; p++)
-        PART_ROWS (p, no_layers, no_layers, c, n)
-            for (int64_t i = c; i < c + n && p->kind == PART_CURVED && !bent; i++)
-                for (int a = 0; a < m->dim; a++)
-                    bent = bent || is_bent(m, a, part_at(p, 0, 0, 0), i);
-    MPI_Allreduce(MPI_IN_PLACE, &bent, 1, MPI_C_BOOL, MPI_LOR, m->comm);
-    return bent;
-}
-
 /* Whether indices change where blocks join: planes of a neighbour's cells stand in its own. */
 static bool any_turned(const struct mesh *m)
 {
@@ -61,9 +37,8 @@ static bool any_turned(const struct mesh *m)
 }
 
 /* Why a scene cannot have shares, for the log; NULL: it can. m: blocks, NULL: uniform cells; least:
- * smallest size of a cell, m. Where index lines are bent, a film one cell thick along a wall gains
- * energy without end. Creeping water breaks nothing off, and what the shares make rough in phi
- * grows at steps of its viscosity. Collective. */
+ * smallest size of a cell, m. Creeping water breaks nothing off, and what the shares make rough in
+ * phi grows at steps of its viscosity. Collective. */
 static const char *obstacle(const struct run *r, const struct mesh *m, double least)
 {
     const struct gravity split = still_split(&r->scene);
@@ -72,8 +47,6 @@ static const char *obstacle(const struct run *r, const struct mesh *m, double le
         return "a partner has part of the water";
     if (m && m->has_fringe)
         return "blocks overlap";
-    if (m && any_bent(m))
-        return "lines of cells are bent";
     if (m && any_turned(m))
         return "blocks are joined whose indices run different ways";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;

@@ -2,7 +2,7 @@
  * projection's own fluxes, so that water is conserved; phi, which is smooth, is corrected towards C
  * instead of being shifted as a whole. Calm water, all of whose surface phi resolves, needs no
  * shares: there phi is the better one, and loses little. On uniform cells, layers of unequal
- * height, and joined blocks whose lines of cells are straight, which may lean and move: shares and
+ * height, and joined blocks, whose lines of cells may lean, bend and move: shares and
  * planes are those of a cube in the indices of the cell, volumes are its own.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_FRACTION_H

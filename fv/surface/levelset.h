@@ -37,6 +37,7 @@ struct carry {
     bool has_slope; /* layer 1, unless the water is thin */
     double slope;   /* weight of the normal derivative */
     bool slows;     /* layer 2: it may be much slower than its stencil, as films are */
+    bool turns; /* its values turn with the lines of cells */
 };
 
 struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted as a whole */
