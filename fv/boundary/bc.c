@@ -26,13 +26,6 @@ struct bc_side {
     int64_t in; /* step inwards */
 };
 
-/* Whether side k of the domain is one of this rank's and not periodic. */
-static bool has_side(const struct block *b, int k)
-{
-    const int a = k / 2;
-    return a < b->dim && !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
-}
-
 /* Tangents of an axis filled before have their ghosts by then: sides are filled axis by axis.
  * corners: with these ghosts. */
 static struct bc_side side_of(const struct bc *bc, const struct block *b, int k, bool corners)
@@ -45,8 +38,8 @@ static struct bc_side side_of(const struct bc *bc, const struct block *b, int k,
     for (int m = 0; m < 2; m++) {
         const int t = d.t[m];
         const bool more = corners && bc->turn[t] < bc->turn[d.a];
-        d.lo[m] = more && has_side(b, 2 * t) ? -b->g[t] : 0;
-        d.hi[m] = b->n[t] + (more && has_side(b, 2 * t + 1) ? b->g[t] : 0);
+        d.lo[m] = more && block_has_side(b, 2 * t) ? -b->g[t] : 0;
+        d.hi[m] = b->n[t] + (more && block_has_side(b, 2 * t + 1) ? b->g[t] : 0);
     }
     d.width = b->n[d.t[0]] + 2 * b->g[d.t[0]];
     d.first = k % 2 ? b->n[d.a] - 1 : 0;
@@ -162,7 +155,7 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     }
     for (int q = 0; q < b->dim; q++)
         bc->speed = fmax(bc->speed, bc->speed_along[q]);
-    if (!has_side(b, k))
+    if (!block_has_side(b, k))
         return;
     const struct bc_side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);
     bc->n[k] = (int64_t)d.width * (b->n[d.t[1]] + 2 * b->g[d.t[1]]);
@@ -385,7 +378,7 @@ void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void 
 {
     const struct block *b = &s->b;
     for (int k = 0; k < 2 * b->dim; k++) {
-        if (!has_side(b, k))
+        if (!block_has_side(b, k))
             continue;
         const struct bc_side d = side_of(s->bc, b, k, false);
         struct side_face f = {.once = 1.0,
@@ -435,9 +428,9 @@ static void slip_row(const struct fv *s, const struct bc_side *d, int m, double 
         at[i] = (7.0 * q[0] - q[d->in]) / 6.0;
     }
     for (int i = 0; i < g; i++) {
-        if (has_side(b, 2 * t))
+        if (block_has_side(b, 2 * t))
             at[-1 - i] = at[i];
-        if (has_side(b, 2 * t + 1))
+        if (block_has_side(b, 2 * t + 1))
             at[n + i] = at[n - 1 - i];
     }
     const struct block line_of = {

@@ -14,9 +14,7 @@
 static void slip(const struct mesh *m, const struct side *d, int64_t c, double wS,
                  double *const u[3])
 {
-    double S2 = 0.0;
-    for (int q = 0; q < m->dim; q++)
-        S2 += m->S[d->a][q][c + d->face] * m->S[d->a][q][c + d->face];
+    const double S2 = mesh_area2(m, d->a, c + d->face);
     for (int l = 0; l < MESH_GHOSTS; l++) {
         double un = -wS;
         for (int q = 0; q < m->dim; q++)
@@ -56,15 +54,6 @@ static double gain(const struct fv *s, const struct side *d, int64_t at, int64_t
     return share * sum + (d->turn ? d->turn[at] : 0.0);
 }
 
-/* |S|^2 of the face beside cell c. */
-static double area2(const struct mesh *m, const struct side *d, int64_t c)
-{
-    double S2 = 0.0;
-    for (int q = 0; q < m->dim; q++)
-        S2 += m->S[d->a][q][c + d->face] * m->S[d->a][q][c + d->face];
-    return S2;
-}
-
 /* psi gets the slope rise per cell that balances the wall's acceleration, in ghosts l = 1, 2, .. (2
  * l - 1) times. */
 void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
@@ -76,7 +65,7 @@ void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
             continue;
         SIDE_PLACES (d, 1, i, j, at, c) {
             /* a cell's way across the wall, by its volume */
-            const double S2 = area2(m, d, c), step = m->V[c] / S2;
+            const double S2 = mesh_area2(m, d->a, c + d->face), step = m->V[c] / S2;
             const double rise = gain(s, d, at, c) * step * (d->k % 2 ? -1.0 : 1.0) / tau;
             for (int l = 1; l <= MESH_GHOSTS; l++)
                 psi[c - l * d->in] += (2 * l - 1) * rise;
@@ -126,9 +115,9 @@ void mesh_bc_velocity(const struct fv *s, enum bc_value what, double *const u[3]
                     else
                         ghosts_given(u[q] + c, d->in,
                                      wanted(d, q, at, what) -
-                                         (late != 0.0
-                                              ? late / area2(m, d, c) * m->S[d->a][q][c + d->face]
-                                              : 0.0));
+                                         (late != 0.0 ? late / mesh_area2(m, d->a, c + d->face) *
+                                                            m->S[d->a][q][c + d->face]
+                                                      : 0.0));
                 }
         }
     }
@@ -151,14 +140,9 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
 static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
 {
     const double *g = s->run->scene.fluid.gravity;
-    double gS = 0.0, S2 = 0.0, g2 = 0.0;
-    for (int q = 0; q < s->m->dim; q++) {
-        const double S = s->m->S[d->a][q][c + d->face];
-        gS += g[q] * S;
-        S2 += S * S;
-        g2 += g[q] * g[q];
-    }
-    const double cosine2 = gS * gS / (S2 * g2);
+    double S[3];
+    grid_face_vector(&s->grid, c + d->face, d->a, S);
+    const double gS = vec3_dot(g, S), cosine2 = gS * gS / (vec3_dot(S, S) * vec3_dot(g, g));
     return cosine2 > 1e-8 && cosine2 < 1.0 - 1e-8;
 }
 

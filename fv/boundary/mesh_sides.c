@@ -358,7 +358,7 @@ void mesh_bc_meet_water(struct fv *s)
 static void slip_at(const struct fv *s, const struct side *d, int64_t at, int64_t c, double tau,
                     const double *psi)
 {
-    double g[3] = {0.0, 0.0, 0.0}, gS = 0.0, S2 = 0.0;
+    double g[3] = {0.0, 0.0, 0.0}, S[3];
     for (int n = 0; n < 2 && d->t[n] < s->m->dim; n++) {
         double f[5];
         for (int l = 0; l < 5; l++) {
@@ -369,13 +369,9 @@ static void slip_at(const struct fv *s, const struct side *d, int64_t at, int64_
         for (int e = 0; e < s->m->dim; e++)
             g[e] += slope * d->grad_xi[n][e][at];
     }
-    for (int e = 0; e < s->m->dim; e++) {
-        const double S = s->m->S[d->a][e][c + d->face];
-        gS += g[e] * S;
-        S2 += S * S;
-    }
+    grid_face_vector(&s->grid, c + d->face, d->a, S);
     for (int e = 0; e < s->m->dim; e++)
-        d->slip[e][at] = tau * (g[e] - gS / S2 * s->m->S[d->a][e][c + d->face]);
+        d->slip[e][at] = tau * (g[e] - vec3_dot(g, S) / vec3_dot(S, S) * S[e]);
 }
 
 /* Beyond a part's side, where stencils along the wall have no more psi, the neighbour's slip, by

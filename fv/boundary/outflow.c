@@ -11,6 +11,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "bc.h"
 #include "carried.h"
@@ -21,7 +22,7 @@
 
 /* Depths that a wave travels while the mean velocity returns to what the level asks for: k h of
  * waves that feel it is below 1, where shallow water is right. */
-#define RETURN 2.0 /* depths: kh of waves that feel it is below 1, where it is right */
+#define RETURN 2.0
 
 /* Sums what flows out through these faces of this rank, and with the other sides' given fluxes; the
  * side's own sum is kept for the balance of imposed cells. */
@@ -178,9 +179,7 @@ void outflow_meet_level(struct fv *s)
 static void find_pull(const struct fv *s, int k, double mean)
 {
     struct outflows *all = s->outflows;
-    const double c = all->waves[k],
-                 g = hypot(hypot(s->gravity.hydrostatic[0], s->gravity.hydrostatic[1]),
-                           s->gravity.hydrostatic[2]);
+    const double c = all->waves[k], g = vec3_length(s->gravity.hydrostatic);
     all->pull[k] = all->hurry[k] = 0.0;
     if (!(c > 0.0))
         return;

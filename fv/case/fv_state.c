@@ -278,8 +278,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     if (!f) {
         if (s->moving)
             mesh_bc_meet_water(s);
-        if (!s->run->coupled && (!s->newton || s->moving)) /* newton's steps at rest are longer than
-                                                              what such a flow lasts */
+        /* newton's steps in blocks at rest are longer than what such a flow lasts */
+        if (!s->run->coupled && (!s->newton || s->moving))
             push_start(s);
         s->totals.start_iterations += s->totals.iterations;
         s->totals.iterations = 0;

@@ -204,8 +204,3 @@ void block_pack_from(const struct block *b, int first, const double *f, double *
         for (int j = first; j < b->n[1]; j++, packed += b->n[0])
             memcpy(packed, f + block_at(b, 0, j, k), (size_t)b->n[0] * sizeof(double));
 }
-
-void block_pack(const struct block *b, const double *f, double *packed)
-{
-    block_pack_from(b, 0, f, packed);
-}

@@ -50,6 +50,14 @@ static inline int64_t block_at(const struct block *b, int i, int j, int k)
 {
     return (i + b->g[0]) + b->stride[1] * (j + b->g[1]) + b->stride[2] * (k + b->g[2]);
 }
+/* Whether side k of the domain (2 a: lower, 2 a + 1: upper) is one of this rank's and not
+ * periodic. */
+static inline bool block_has_side(const struct block *b, int k)
+{
+    const int a = k / 2;
+    return a < b->dim && !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
+}
+
 /* Local cell (i, j, k) of an index in a field. */
 static inline void block_place(const struct block *b, int64_t c, int at[3])
 {
@@ -103,9 +111,7 @@ static inline double block_derivative(const struct block *b, const double *q, in
 void block_halo(const struct block *b, int nf, double *const *f);
 /* The same of fields in single precision. */
 void block_halo_single(const struct block *b, int nf, float *const *f);
-/* Copies a field without its ghosts, x fastest. */
-void block_pack(const struct block *b, const double *f, double *packed);
-/* The same of the local layers along y from `first' on. */
+/* Copies a field without its ghosts, x fastest: the local layers along y from `first' on. */
 void block_pack_from(const struct block *b, int first, const double *f, double *packed);
 
 /* Visits the local cells: (i, j, k) has index c. */

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "mesh_motion.h"
 
 /* Indices in the whole block. */
@@ -95,7 +96,7 @@ void grid_lengths(const struct grid *g, const struct part *p, const int *at, dou
     cell_of(p, at, cell);
     mesh_map_point(g->mesh->block + p->block, g->dim, cell, (double[3]){0.5, 0.5, 0.5}, x, dx);
     for (int a = 0; a < g->dim; a++)
-        length[a] = sqrt(dx[a][0] * dx[a][0] + dx[a][1] * dx[a][1] + dx[a][2] * dx[a][2]);
+        length[a] = vec3_length(dx[a]);
 }
 
 void grid_box(const struct grid *g, const struct part *p, const int *at, double h[3])
@@ -215,14 +216,10 @@ double grid_motion_event(const struct grid *g, double t)
 double grid_face_area(const struct grid *g, int64_t c, int a)
 {
     int at[3];
-    double S2 = 0.0;
-    if (g->even) {
-        block_place(g->even, c, at);
-        return block_volume(g->even, at[1]) / block_size(g->even, a, at[1]);
-    }
-    for (int k = 0; k < g->dim; k++)
-        S2 += g->mesh->S[a][k][c] * g->mesh->S[a][k][c];
-    return sqrt(S2);
+    if (!g->even)
+        return sqrt(mesh_area2(g->mesh, a, c));
+    block_place(g->even, c, at);
+    return block_volume(g->even, at[1]) / block_size(g->even, a, at[1]);
 }
 
 void grid_face_vector(const struct grid *g, int64_t c, int a, double S[3])

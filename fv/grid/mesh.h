@@ -123,6 +123,15 @@ struct mesh {
     char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };
 
+/* m^(2 dim - 2): |S|^2 of the lower face of cell c along index a. */
+static inline double mesh_area2(const struct mesh *m, int a, int64_t c)
+{
+    double sum = 0.0;
+    for (int q = 0; q < m->dim; q++)
+        sum += m->S[a][q][c] * m->S[a][q][c];
+    return sum;
+}
+
 /* Number of the real cell of indices i[3] in the lists of a block, x fastest. */
 static inline int64_t mesh_cell(const struct mesh_block *b, const int *i)
 {

@@ -309,12 +309,8 @@ double mesh_least_height(const struct mesh *m, enum mesh_status status)
     for (int q = 0; q < m->nparts; q++)
         PART_ROWS (m->part + q, no_layers, no_layers, c, n)
             for (int64_t i = c; i < c + n; i++)
-                for (int a = 0; a < m->dim && m->status[i] == status; a++) {
-                    double S2 = 0.0;
-                    for (int k = 0; k < m->dim; k++)
-                        S2 += m->S[a][k][i] * m->S[a][k][i];
-                    least = fmin(least, m->V[i] / sqrt(S2));
-                }
+                for (int a = 0; a < m->dim && m->status[i] == status; a++)
+                    least = fmin(least, m->V[i] / sqrt(mesh_area2(m, a, i)));
     MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
     return least;
 }

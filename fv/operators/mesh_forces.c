@@ -167,14 +167,11 @@ static double pressure_slope(const struct fv *s, const struct side_face *d, int6
 /* On a slip wall there is no friction: keeps the component of the force along S. */
 static void keep_normal(const struct fv *s, const struct side_face *d, double *force)
 {
-    const int64_t f = d->face;
-    double along = 0.0, S2 = 0.0;
-    for (int q = 0; q < s->m->dim; q++) {
-        along += force[q] * s->m->S[d->a][q][f];
-        S2 += s->m->S[d->a][q][f] * s->m->S[d->a][q][f];
-    }
+    double S[3];
+    grid_face_vector(&s->grid, d->face, d->a, S);
+    const double along = vec3_dot(force, S) / vec3_dot(S, S);
     for (int q = 0; q < s->m->dim; q++)
-        force[q] = along / S2 * s->m->S[d->a][q][f];
+        force[q] = along * S[q];
 }
 
 /* -p S + mu (grad u + grad u^T) S on one face, outwards of the fluid. p S and grad u S are the
@@ -188,15 +185,14 @@ void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4
     const double rho = s->run->scene.fluid.rho, out = d->side % 2 ? 1.0 : -1.0;
     const int64_t f = d->face;
     double x[3], xi[3] = {0.5, 0.5, 0.5}, edge[3] = {0.5, 0.5, 0.5}, pf, g[3][3] = {{0.0}};
-    double S2 = 0.0, force[4] = {0.0};
+    double force[4] = {0.0};
     const double share = wet_share(s, d, xi, edge);
     if (!(s->surface ? m->status[d->cell] == CELL_COMPUTED : s->free[d->cell] > 0.0) ||
         !(share > 0.0))
         return;
     face_state(s, d, x, &pf, g);
     pf = whole_pressure(s, d, share, pf, xi, edge);
-    for (int e = 0; e < m->dim; e++)
-        S2 += m->S[d->a][e][f] * m->S[d->a][e][f];
+    const double S2 = mesh_area2(m, d->a, f);
     for (int q = 0; q < m->dim; q++) {
         force[q] = rho * viscous_flux(s, d, s->u[q]) - pf * m->S[d->a][q][f];
         for (int n = 0; n < m->dim; n++) {

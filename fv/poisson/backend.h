@@ -13,7 +13,6 @@ struct fv;
 
 /* A solver as functions; `of' is the state that create made. */
 struct backend {
-    const char *name;
     /* NULL: it cannot take these cells. */
     void *(*create)(struct fv *s);
     void (*free)(void **of);

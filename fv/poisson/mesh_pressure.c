@@ -473,8 +473,7 @@ static void cycle(struct fv *s, void *of, double *b, double *x)
     cycle_rows(of, b, x);
 }
 
-const struct backend backend_boomeramg = {.name = "BoomerAMG",
-                                          .stage = 0.1,
+const struct backend backend_boomeramg = {.stage = 0.1,
                                           .last = 0.02,
                                           .create = create,
                                           .free = free_matrices,

@@ -66,8 +66,6 @@ void poisson_free(struct poisson **pp)
     *pp = NULL;
 }
 
-const char *poisson_name(const struct poisson *p) { return p->by->name; }
-
 /* Sum of f q^2; sums side by side, or each addition waits for the one before. */
 static double squares(const double *restrict f, const double *restrict q, int64_t n)
 {

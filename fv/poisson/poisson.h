@@ -11,8 +11,6 @@
  * have changed. poisson_free frees it. */
 void poisson_create(struct fv *s);
 void poisson_free(struct poisson **p);
-/* Name of the backend, for the log. Static memory. */
-const char *poisson_name(const struct poisson *p);
 /* Solves A psi = -div/tau, on uniform cells Lap psi = div, 1/s^2, to the relative residual tol. div
  * is that of flow_ops and is overwritten; where no side gives the pressure its compatibility defect
  * is removed uniformly. psi: start and result, with its ghosts; on blocks without a surface the

@@ -429,8 +429,7 @@ static void set_shift(struct fv *s, void *of, double given)
     make_matrix(s, p);
 }
 
-const struct backend backend_even = {.name = "PFMG, even cells",
-                                     .create = create,
+const struct backend backend_even = {.create = create,
                                      .free = free_pressure,
                                      .solve_field = solve,
                                      .cycle_field = cycle_field,

@@ -511,8 +511,7 @@ static void set_shift(struct fv *s, void *of, double shift)
     set_matrix(t);
 }
 
-const struct backend backend_pfmg = {.name = "PFMG",
-                                     .stage = 1.0,
+const struct backend backend_pfmg = {.stage = 1.0,
                                      .last = 1.0,
                                      .create = create,
                                      .free = free_tiles,

@@ -469,8 +469,7 @@ static void cycle(struct fv *s, double *div, double *psi)
     put_rows(s, p, psi);
 }
 
-const struct backend backend_wet = {.name = "BoomerAMG, under a surface",
-                                    .create = create,
+const struct backend backend_wet = {.create = create,
                                     .free = free_wet,
                                     .solve_field = solve,
                                     .cycle_field = cycle,

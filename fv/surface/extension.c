@@ -139,16 +139,10 @@ static void make_frame(const struct fv *s, int64_t c, int row, struct place *p)
     int least = 0;
     for (int a = 1; a < 3; a++)
         least = fabs(p->e[0][a]) < fabs(p->e[0][least]) ? a : least;
-    double norm = 0.0;
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3; a++)
         p->e[1][a] = (a == least) - p->e[0][least] * p->e[0][a];
-        norm += p->e[1][a] * p->e[1][a];
-    }
-    for (int a = 0; a < 3; a++)
-        p->e[1][a] /= sqrt(norm);
-    for (int a = 0; a < 3; a++)
-        p->e[2][a] = p->e[0][(a + 1) % 3] * p->e[1][(a + 2) % 3] -
-                     p->e[0][(a + 2) % 3] * p->e[1][(a + 1) % 3];
+    vec3_unit(p->e[1]);
+    vec3_cross(p->e[0], p->e[1], p->e[2]);
 }
 
 /* The best fit that the cells allow, of at most this order; the order done. */

@@ -33,9 +33,7 @@ static void frame_of(const struct fv *s, int64_t c, double e[3][3])
         grid_face_vector(&s->grid, c, a, e[a]);
         for (int b = 0; b < a; b++)
             vec3_add(e[a], -vec3_dot(e[a], e[b]), e[b]);
-        const double size = vec3_length(e[a]);
-        for (int q = 0; q < 3; q++)
-            e[a][q] /= size > 0.0 ? size : 1.0;
+        vec3_unit(e[a]);
     }
 }
 

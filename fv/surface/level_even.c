@@ -10,11 +10,6 @@
 
 /* --- ghosts --- */
 
-static bool side_here(const struct block *b, int a, bool upper)
-{
-    return !b->periodic[a] && (upper ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
-}
-
 /* How phi goes on behind a side. */
 enum beyond { MIRRORED, LINEAR };
 
@@ -30,7 +25,7 @@ static void ghosts(const struct fv *s, enum beyond walls, double *phi)
     block_halo(b, 1, &phi);
     for (int a = 0; a < b->dim; a++)
         for (int upper = 0; upper < 2; upper++) {
-            if (!side_here(b, a, upper))
+            if (!block_has_side(b, 2 * a + upper))
                 continue;
             const bool linear = beyond_side(s, 2 * a + upper, walls) == LINEAR;
             const int64_t out = upper ? b->stride[a] : -b->stride[a];

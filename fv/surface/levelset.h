@@ -37,7 +37,7 @@ struct carry {
     bool has_slope; /* layer 1, unless the water is thin */
     double slope;   /* weight of the normal derivative */
     bool slows;     /* layer 2: it may be much slower than its stencil, as films are */
-    bool turns; /* its values turn with the lines of cells */
+    bool turns;     /* its values turn with the lines of cells */
 };
 
 struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted as a whole */
@@ -168,8 +168,6 @@ void surface_reinit(struct fv *s, int steps);
 /* The same after a small change: exact beside the surface, one pseudo-time step elsewhere near
  * it. */
 void surface_redistance(struct fv *s);
-/* Largest | |grad phi| - 1 | within two cells of the surface, over all ranks. Collective. */
-double surface_distortion(const struct fv *s);
 
 /* extension.c: finds the layers and stencils of the present phi. */
 void extension_build(struct fv *s);

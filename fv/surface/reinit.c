@@ -256,15 +256,3 @@ void surface_reinit(struct fv *s, int steps)
 }
 
 void surface_redistance(struct fv *s) { redistance(s, NARROW, 1); }
-
-double surface_distortion(const struct fv *s)
-{
-    const double *phi = s->surface->phi, h = s->surface->largest;
-    double most = 0.0;
-    FLOW_NEAR_AT (s, part, j, c, len)
-        for (int64_t i = c; i < c + len; i++)
-            if (fabs(phi[i]) < 2.0 * h && !is_left_out(s, i))
-                most = fmax(most, fabs(slope_of(s, part, phi, i, j) - 1.0));
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return most;
-}

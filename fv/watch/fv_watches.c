@@ -81,13 +81,6 @@ struct watches *fv_watches_create(const struct fv *s)
 
 /* --- energy --- */
 
-/* Whether side k of the domain is this rank's and not periodic. */
-static bool closed_here(const struct block *b, int k)
-{
-    const int a = k / 2;
-    return !b->periodic[a] && (k % 2 ? b->hi[a] == b->cells[a] : b->lo[a] == 0);
-}
-
 /* Sums of a row of cells: velocity and its square, times the weights (NULL: 1). sums[0 .. 2]: u,
  * [3]: u^2/2, [4]: the weights themselves. */
 static void add_row(const struct fv *s, int64_t c, int64_t n, const double *weight, double *sums)
@@ -278,8 +271,8 @@ static const double *mask_of(struct fv *s)
             const int at[3] = {(int)(i - c) - p->g[0], j, k};
             bool in = !(air && air[i]) && !(forced && forced[i]);
             for (int a = 0; a < s->dim && in; a++)
-                in = (at[a] >= 0 || !closed_here(&s->b, 2 * a)) &&
-                     (at[a] < p->n[a] || !closed_here(&s->b, 2 * a + 1));
+                in = (at[a] >= 0 || !block_has_side(&s->b, 2 * a)) &&
+                     (at[a] < p->n[a] || !block_has_side(&s->b, 2 * a + 1));
             s->flux[i] = in;
         }
     return s->flux;

@@ -61,8 +61,7 @@ static void pressure(struct fv *s)
         s->U[0][i] += 1e-6 * ((double)(i * 2654435761u >> 7 & 1023) - 511.5);
     const double t = cpu_time();
     stage_solve_pressure(s, 2, 1.0, 1e-6);
-    printf("  pressure by %s: %.1f ns a cell and cycle, %d cycles to 1e-6 of the step's\n",
-           poisson_name(s->poisson),
+    printf("  pressure: %.1f ns a cell and cycle, %d cycles to 1e-6 of the step's\n",
            1e9 * (cpu_time() - t) / (double)(s->totals.iterations - before) / (N * N),
            (int)(s->totals.iterations - before));
 }

@@ -75,7 +75,7 @@ static inline void box_run(struct box_flow *f, int n, double cfl, double t)
     f->n = n;
     for (int a = 0; a < 2; a++) {
         f->u[a] = NEW(double, n *n);
-        block_pack(&s->b, s->u[a], f->u[a]);
+        block_pack_from(&s->b, 0, s->u[a], f->u[a]);
     }
     f->p = NEW(double, n *n);
     double mean = 0.0;
