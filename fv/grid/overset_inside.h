@@ -50,13 +50,10 @@ bool overset_invert(const struct mesh_block *b, int dim, const int *cell, const 
 
 /* overset_stencil.c. overset_all: whether cells lo to hi - 1, which may lie behind joined sides,
  * are all of this set. overset_stencil: the first cell of the stencil around a position, kept among
- * the cells; false: not all of it are of this set. overset_weigh: that and the weights, see
- * overset_weights. */
+ * the cells; false: not all of it are of this set. */
 bool overset_all(const struct mesh *m, int block, const int *lo, const int *hi, int set);
 bool overset_stencil(const struct mesh *m, int block, const int *cell, const double *xi, int width,
                      int set, int *from);
-bool overset_weigh(const struct mesh *m, int block, const int *cell, const double *xi, int npoints,
-                   int width, int set, int *from, double *weight);
 /* Puts a linear stencil into the store of a cubic one: the same window, zeros around. */
 void overset_widen(const struct mesh *m, struct donor *d);
 /* Index, on its owner, of the first cell of a donor's stencil. */

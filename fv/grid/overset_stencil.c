@@ -82,8 +82,8 @@ bool overset_stencil(const struct mesh *m, int block, const int *cell, const dou
 
 /* xi: npoints places relative to `cell', of which the mean is taken; the first gives the stencil. /
  * With several points the first is the centre and only chooses the stencil. */
-bool overset_weigh(const struct mesh *m, int block, const int *cell, const double *xi, int npoints,
-                   int width, int set, int *from, double *weight)
+static bool weigh(const struct mesh *m, int block, const int *cell, const double *xi, int npoints,
+                  int width, int set, int *from, double *weight)
 {
     const int n = m->dim == 3 ? width * width * width : width * width;
     if (!overset_stencil(m, block, cell, xi, width, set, from))
@@ -104,7 +104,7 @@ bool overset_weigh(const struct mesh *m, int block, const int *cell, const doubl
 bool overset_weights(const struct mesh *m, int block, const int *cell, const double *xi,
                      int npoints, int width, int *from, double *weight)
 {
-    return overset_weigh(m, block, cell, xi, npoints, width, OF_COMPUTED, from, weight);
+    return weigh(m, block, cell, xi, npoints, width, OF_COMPUTED, from, weight);
 }
 
 /* A linear stencil in the store of a cubic one: the same window, zeros around. from may move down
@@ -175,7 +175,7 @@ static bool sample_from(const struct mesh *m, const struct overset *o, int q, in
     const double v = m->block[q].volume[mesh_cell(m->block + q, cell)];
     memcpy(e.at, cell, sizeof e.at);
     if (v >= *volume || !box_places(m, &e, h, xi, places) ||
-        !overset_weigh(m, q, cell, places, (1 << m->dim) + 1, width, OF_ANY, e.from, e.weight))
+        !weigh(m, q, cell, places, (1 << m->dim) + 1, width, OF_ANY, e.from, e.weight))
         return false;
     *volume = v;
     *d = e;
@@ -202,7 +202,7 @@ bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, con
         return false;
     for (int a = 0; a < m->dim; a++)
         xi[a] = fmax(-1.0, fmin(2.0, xi[a]));
-    if (!overset_weigh(m, block, cell, xi, 1, 2, OF_ANY, d.from, d.weight))
+    if (!weigh(m, block, cell, xi, 1, 2, OF_ANY, d.from, d.weight))
         return false;
     overset_widen(m, &d);
     to_request(m, &d, r, weight);

@@ -262,10 +262,14 @@ bool moving_turns(struct fv *s)
 {
     const double instant = 1e-9 * fmax(1.0, fabs(s->t));
     const bool now = grid_motion_event(&s->grid, s->t - 2.0 * instant) <= s->t + instant;
-    s->m->turn = grid_motion_event(&s->grid, s->t);
+    for (int after = now ? 0 : 1; after < 2; after++) { /* walls that a restart has made, too */
+        s->m->turn = after ? grid_motion_event(&s->grid, s->t) : s->t;
+        if (now) {
+            mesh_motion_place(s->m, s->t);
+            mesh_bc_time(s, s->t);
+        }
+    }
     if (now) {
-        mesh_motion_place(s->m, s->t);
-        mesh_bc_time(s, s->t);
         mesh_bc_velocity(s, BC_GIVEN, s->u);
         mesh_bc_fluxes(s, s->U);
     }

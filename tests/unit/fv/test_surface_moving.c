@@ -5,6 +5,8 @@
 
 #include "mesh_case.h"
 
+#include "../../../fv/boundary/mesh_sides.h"
+#include "../../../fv/grid/mesh_motion.h"
 #include "../../../fv/grid/overset.h"
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"
@@ -243,7 +245,7 @@ TEST(water_falls_with_its_tank)
 }
 
 /* A tank at rest that falls at 0.5 m/s from one instant to another: its water goes with it at once,
- * and stays level. */
+ * and stays level, to 0.1 % of that; the same where a restart has made the walls anew. */
 TEST(water_starts_and_stops_with_its_tank)
 {
     static const char falls[] =
@@ -255,10 +257,15 @@ TEST(water_starts_and_stops_with_its_tank)
         struct fv *s = start(&c, MPI_COMM_WORLD, falls,
                              (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363, NULL);
         const double volume = surface_volume(s);
+        assert_true(mesh_case_run(s, 1000, 0.1));
+        s->sides->set = false;
+        s->m->turn = INFINITY;
+        mesh_motion_place(s->m, s->t);
+        mesh_bc_time(s, s->t);
         assert_true(mesh_case_run(s, 1000, 0.2));
-        assert_close(s->u[1][part_at(s->grid.part, 0, 0, 0)], -0.5, 0.005);
+        assert_close(s->u[1][part_at(s->grid.part, 0, 0, 0)], -0.5, 5e-4);
         assert_true(mesh_case_run(s, 1000, 0.4));
-        assert_true(s->max.u[0] < 0.005);
+        assert_true(s->max.u[0] < 5e-4);
         assert_close((fabs(s->surface->lost) + fabs(s->surface->gained)) / volume, 0.0, 1e-3);
         mesh_case_end(&c, &s);
     }
