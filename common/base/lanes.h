@@ -43,6 +43,19 @@ static inline double lanes_dot_any(const double *restrict a, const double *restr
     return lanes_sum(part);
 }
 
+/* The sum of a[n] for any n; n = 0 gives 0. */
+static inline double lanes_total(const double *restrict a, int64_t n)
+{
+    double part[SUM_LANES] = {0.0};
+    int64_t i = 0;
+    for (; i + SUM_LANES <= n; i += SUM_LANES)
+        for (int m = 0; m < SUM_LANES; m++)
+            part[m] += a[i + m];
+    for (; i < n; i++)
+        part[0] += a[i];
+    return lanes_sum(part);
+}
+
 /* Sets *low and *high to the smallest and the largest of a[n]; n must be a multiple of SUM_LANES
  * and > 0. Elements that are NaN are passed over, but for those among the first SUM_LANES. */
 static inline void lanes_bounds(const double *restrict a, int n, double *low, double *high)

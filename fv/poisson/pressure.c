@@ -154,20 +154,11 @@ static void set_halving(const struct fv *s, struct pressure *p)
     halving_set_matrix(p->halving);
 }
 
-static void make_matrix(const struct fv *s, struct pressure *p)
+static void set_pfmg(const struct fv *s, struct pressure *p)
 {
-    memset(p->diagonal, 0, (size_t)s->size * sizeof(double));
-    if (p->halving) {
-        add_cuts(s, p->z);
-        set_halving(s, p);
-        memset(p->z, 0, (size_t)s->size * sizeof(double));
-        return;
-    }
     const struct wet_boxes *w = &p->boxes;
     double *values = NEW(double, (2 * s->dim + 1) * w->cells), *row = values,
            **rows = NEW(double *, w->n);
-    if (s->surface)
-        add_cuts(s, p->z);
     for (int q = 0; q < w->n; q++) {
         int64_t cells = 2 * s->dim + 1;
         for (int a = 0; a < 3; a++)
@@ -178,6 +169,20 @@ static void make_matrix(const struct fv *s, struct pressure *p)
     }
     pfmg_set_matrix(p->pfmg, rows);
     FREE(rows, values);
+}
+
+static void make_matrix(const struct fv *s, struct pressure *p)
+{
+    memset(p->diagonal, 0, (size_t)s->size * sizeof(double));
+    if (s->surface)
+        add_cuts(s, p->z);
+    if (p->halving)
+        set_halving(s, p);
+    else
+        set_pfmg(s, p);
+    memset(p->z, 0, (size_t)s->size * sizeof(double));
+    if (s->forcing)
+        forcing_zero(s->forcing, p->diagonal);
 }
 
 static void *create(struct fv *s)
@@ -244,36 +249,35 @@ static void zero_idle(const struct fv *s, double *x)
         surface_zero(s, x);
 }
 
-/* q = A x, x with its ghosts; both are 0 in forced cells and in dry ones, whose diagonal is 0. */
-static void apply(const struct fv *s, const double *restrict x, double *restrict q)
+/* q = A x for the n cells of row j from c on, x with its ghosts; q is 0 in forced cells and in dry
+ * ones, whose diagonal is 0, and x is. */
+static void apply_row(const struct fv *s, const double *restrict x, int j, int64_t c, int64_t n,
+                      double *restrict q)
 {
     const struct block *b = &s->b;
-    const double *restrict d = own(s)->diagonal;
+    const double *restrict d = own(s)->diagonal + c;
     const int64_t y = b->stride[1], z = b->stride[2];
-    BLOCK_NEAR_AT (s, 0, j, c, n) {
-        const double cx = coefficient(b, 0, j), low = coefficient(b, 1, j),
-                     up = coefficient(b, 1, j + 1);
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = d[i] > 0.0
-                       ? d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y])
-                       : 0.0;
-    }
-    if (b->dim == 3)
-        BLOCK_NEAR_AT (s, 0, j, c, n) {
-            const double cz = coefficient(b, 2, j);
-            for (int64_t i = c; i < c + n; i++)
-                q[i] -= d[i] > 0.0 ? cz * (x[i - z] + x[i + z]) : 0.0;
-        }
-    if (s->forcing)
-        forcing_zero(s->forcing, q);
+    const double cx = coefficient(b, 0, j), low = coefficient(b, 1, j),
+                 up = coefficient(b, 1, j + 1), cz = b->dim == 3 ? coefficient(b, 2, j) : 0.0;
+    x += c;
+    for (int64_t i = 0; i < n; i++)
+        q[i] = d[i] > 0.0
+                   ? d[i] * x[i] - cx * (x[i - 1] + x[i + 1]) - (low * x[i - y] + up * x[i + y])
+                   : 0.0;
+    for (int64_t i = 0; i < n && b->dim == 3; i++)
+        q[i] -= d[i] > 0.0 ? cz * (x[i - z] + x[i + z]) : 0.0;
 }
 
 /* Over all ranks. */
-static double dot(const struct fv *s, const double *x, const double *y)
+static double sum_ranks(const struct fv *s, double sum)
 {
-    double sum = helmholtz_dot(s, x, y);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
     return sum;
+}
+
+static double dot(const struct fv *s, const double *x, const double *y)
+{
+    return sum_ranks(s, helmholtz_dot(s, x, y));
 }
 
 /* Takes the mean over the free cells out: the rows of A sum to zero. Returns the sum of the squares
@@ -288,10 +292,10 @@ static double remove_mean(const struct fv *s, double *restrict x)
     }
     if (!own(s)->singular)
         return dot(s, x, x);
-    sums[0] = helmholtz_dot(s, x, x);
-    BLOCK_NEAR (s, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            sums[1] += x[i];
+    BLOCK_NEAR (s, 0, c, n) {
+        sums[0] += lanes_dot_any(x + c, x + c, n);
+        sums[1] += lanes_total(x + c, n);
+    }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     const double mean = sums[1] / own(s)->free_cells;
     BLOCK_NEAR (s, 0, c, n)
@@ -328,6 +332,12 @@ static double next_direction(const struct fv *s, double *r, double rz_last)
     if (s->surface && !p->halving)
         surface_zero(s, p->z);
     const double rz = dot(s, r, p->z), beta = rz_last > 0.0 ? rz / rz_last : 0.0;
+    if (!p->halving && beta == 0.0) { /* that needs its zeros again */
+        double *const first = p->z;
+        p->z = p->p;
+        p->p = first;
+        return rz;
+    }
     const double *restrict z = p->z;
     double *restrict d = p->p;
     BLOCK_NEAR (s, 0, c, n)
@@ -340,29 +350,37 @@ static double next_direction(const struct fv *s, double *r, double rz_last)
 static double advance(const struct fv *s, double rz, double *restrict x, double *restrict r)
 {
     struct pressure *p = own(s);
-    double *restrict d = p->p, *restrict Ad = p->Ap;
+    double *restrict d = p->p, *restrict Ad = p->Ap, sum = 0.0;
     block_halo(&s->b, 1, &p->p);
-    apply(s, p->p, p->Ap);
-    const double alpha = rz / dot(s, p->p, p->Ap);
-    BLOCK_NEAR (s, 0, c, n)
+    BLOCK_NEAR_AT (s, 0, j, c, n) {
+        apply_row(s, d, j, c, n, Ad + c);
+        sum += lanes_dot_any(d + c, Ad + c, n);
+    }
+    const double alpha = rz / sum_ranks(s, sum);
+    sum = 0.0;
+    BLOCK_NEAR (s, 0, c, n) {
         for (int64_t i = c; i < c + n; i++) {
             x[i] += alpha * d[i];
             r[i] -= alpha * Ad[i];
         }
-    return dot(s, r, r);
+        sum += lanes_dot_any(r + c, r + c, n);
+    }
+    return sum_ranks(s, sum);
 }
 
 /* r = -div - A psi in place of div. Returns r.r. */
 static double first_residual(const struct fv *s, double *psi, double *restrict div)
 {
-    const double *restrict q = own(s)->Ap;
+    double *restrict row = own(s)->Ap, sum = 0.0;
     zero_idle(s, psi);
     block_halo(&s->b, 1, &psi);
-    apply(s, psi, own(s)->Ap);
-    BLOCK_NEAR (s, 0, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            div[i] = -div[i] - q[i];
-    return dot(s, div, div);
+    BLOCK_NEAR_AT (s, 0, j, c, n) {
+        apply_row(s, psi, j, c, n, row);
+        for (int64_t i = 0; i < n; i++)
+            div[c + i] = -div[c + i] - row[i];
+        sum += lanes_dot_any(div + c, div + c, n);
+    }
+    return sum_ranks(s, sum);
 }
 
 /* Square sum of a residual that rounding leaves: g L/h^2 in all wet cells. */
