@@ -107,8 +107,7 @@ static void reach_along(int dim, const double *d, const double *lo, const double
     ends[1] = fmax(ends[1], to);
 }
 
-/* Least and largest place along the direction and across it in the zones that make waves. */
-static void window_of(const struct scene *s, double window[2][2])
+void scene_waves_window(const struct scene *s, const struct scene_wall *only, double window[2][2])
 {
     double d[2][3], lo[3], hi[3];
     scene_waves_direction(s, d[0], d[1]);
@@ -118,7 +117,7 @@ static void window_of(const struct scene *s, double window[2][2])
         window[k][1] = any ? -INFINITY : 0.0;
     }
     for (int k = 0; k < s->nwalls; k++) {
-        if (s->walls[k].zone != ZONE_WAVE)
+        if (s->walls[k].zone != ZONE_WAVE || (only && only != s->walls + k))
             continue;
         scene_zone_box(s, s->walls + k, lo, hi);
         for (int i = 0; i < 2; i++)
@@ -159,7 +158,7 @@ struct wave_spec scene_waves_spec(const struct scene *s)
     }
     snprintf(of.file, sizeof of.file, "%s", w->path);
     of.repeat = w->repeat > 0.0 ? w->repeat : repeat_of(s, waves_period(&of));
-    window_of(s, of.window);
+    scene_waves_window(s, NULL, of.window);
     return of;
 }
 

@@ -45,7 +45,10 @@ int scene_zone_axis(const struct scene_wall *w, bool *low);
 /* The box lo[3], hi[3], m, of the zone before a wall's side: as long as the zone along the axis
  * that is returned, and as wide as the domain. -1: no zone stands there. */
 int scene_zone_box(const struct scene *s, const struct scene_wall *w, double lo[3], double hi[3]);
-/* What the group waves asks for, in the terms of waves.h. */
+/* Least and largest place, m, along the waves' direction and across it, in the zones that make
+ * waves, or in one of them (NULL: all); 0 without any. */
+void scene_waves_window(const struct scene *s, const struct scene_wall *only, double window[2][2]);
+/* What the group waves asks for, in the terms of waves.h, for all zones together. */
 struct wave_spec scene_waves_spec(const struct scene *s);
 
 #endif

@@ -22,10 +22,15 @@ struct wave_zones {
     double along[3], across[3], level, sign; /* of waves; height is sign times x[up] */
 };
 
-/* A side that lets the waves pass takes nothing off them. */
-static struct waves *waves_of(const struct scene *s, const struct wave_zones *z, int k, bool pass)
+/* A side that lets the waves pass takes nothing off them. Sums of waves are computed for the places
+ * of their zone alone; what evolves, or is read, is one field for all zones. */
+static struct waves *waves_of(const struct scene *s, const struct wave_zones *z,
+                              const struct scene_wall *wall, bool pass)
 {
+    const int k = z->n;
     struct wave_spec of = scene_waves_spec(s);
+    if (of.evolve == EVOLVE_NO && of.kind != WAVE_FILE)
+        scene_waves_window(s, wall, of.window);
     of.zone = pass ? 0.0 : fabs(z->zone[k].length);
     of.rate = scene_currents_rate(&of, z->zone[k].rate);
     of.open = scene_currents_flow(s);
@@ -73,7 +78,7 @@ struct wave_zones *wave_zones_create(const struct scene *s, bool pass)
         z->zone[z->n].per = 1.0 / z->zone[z->n].length;
         z->zone[z->n].rate = 4.0 * M_PI / w->beach_period;
         if (w->zone == ZONE_WAVE)
-            z->zone[z->n].waves = waves_of(s, z, z->n, pass);
+            z->zone[z->n].waves = waves_of(s, z, w, pass);
         z->n++;
     }
     if (z->n > 0)

@@ -10,6 +10,7 @@
 #include "../../../common/scene/wave_maker.h"
 #include "../../../common/waves/imposed_waves.h"
 #include "../../../common/waves/sea.h"
+#include "../../../common/waves/sea_gains.h"
 #include "../../../common/waves/zone_gain.h"
 
 static void near(double a, double b, double within)
@@ -355,7 +356,7 @@ TEST(bits_do_not_depend_on_who_asks)
 }
 
 /* Without a zone all comes back, and long ones send on what u_w says. Of one length R is that of
- * waves.md's exact solution within a factor (0.008 to 0.02 at the best rate); half as long ten
+ * the exact solution within a factor (0.008 to 0.02 at the best rate); half as long ten
  * times as much. */
 TEST(zones_answer_as_they_should)
 {
@@ -370,6 +371,25 @@ TEST(zones_answer_as_they_should)
     near(creal(three.make), 1.0, 0.01);
     near(cimag(three.make), 0.0, 0.03);
     near(creal(one.make), 1.12, 0.02);
+}
+
+/* What the zone before a side must move the water by to make a wave, or so that none comes back, is
+ * not much more than the wave itself, however many of its lengths the zone has (13 of three times
+ * the peak's frequency; of twice that it was 110 times as much). */
+TEST(zones_ask_for_no_more_than_the_waves)
+{
+    const double depth = 0.5, period = 1.2,
+                 length =
+                     waves_length(&(struct wave_spec){.period = period, .g = 9.81, .depth = depth}),
+                 peak = 2.0 * M_PI / period;
+    const struct wave_spec of = {
+        .g = 9.81, .depth = depth, .zone = 1.5 * length, .rate = 2.0 * peak, .normal = {1.0, 0.0}};
+    struct sea_gains *is = sea_gains_create(&of, 0.5 * peak, 3.0 * peak);
+    for (int k = 0; k <= 50; k++)
+        for (int way = -1; way < 2; way += 2) {
+            assert_true(cabs(sea_gains_at(is, (0.5 + 0.05 * k) * peak, way)) < 1.15);
+        }
+    sea_gains_free(&is);
 }
 
 /* Biesel's transfer functions of pistons and of flaps hinged on the floor, kh 0.3, 1, 3. */
