@@ -139,6 +139,14 @@ double wall_level_change(const struct scene_wall *w, double span)
     return most;
 }
 
+double wall_level_rise(const struct scene_wall *w, double span, double surge, double t)
+{
+    const double now = wall_level(w, t), before = now - wall_level(w, t - span),
+                 after = wall_level(w, t + span) - now;
+    const double bend = surge > 0.0 ? fabs(after - before) / surge : 0.0;
+    return fmax(0.0, fmin(1.0, 2.0 - 3.0 * bend)) * (before + after) / (2.0 * span);
+}
+
 double wall_discharge(const struct scene_wall *w, double t)
 {
     return w->discharges && w->discharges->n > 0 ? value_at(w->discharges, t) : w->discharge;

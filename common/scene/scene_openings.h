@@ -20,6 +20,10 @@ void wall_histories_check(const struct scene *s, const struct params *p, struct 
 double wall_level(const struct scene_wall *w, double t);
 /* m: by how much it changes at most within span, s; 0 without a file. */
 double wall_level_change(const struct scene_wall *w, double span);
+/* m/s: how fast it rises at t, in the mean over `span' s before and after it, so that it has no
+ * steps where the file's lines meet. surge: that change in `span', m; nothing foresees a surge:
+ * where the rise changes by two thirds of it the result is 0. */
+double wall_level_rise(const struct scene_wall *w, double span, double surge, double t);
 /* Discharge through an opening with has_discharge at time t, s; m^dim/s, >= 0. */
 double wall_discharge(const struct scene_wall *w, double t);
 /* Finds what stands at the start in outflows under a free surface that are given nothing: stands,

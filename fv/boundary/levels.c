@@ -149,17 +149,12 @@ static double memory_of(const struct fv *s, int k)
                             : 0.0;
 }
 
-/* m/s: u_b at time t, by the level's mean rise over half a transit before and after it: it has no
- * steps where the file's lines meet. Nothing foresees a surge: where the rise changes by two thirds
- * of the file's steepest there is no u_b. */
+/* m/s: u_b at time t. */
 static double basin_velocity(const struct fv *s, int k, double t)
 {
     const struct levels *l = s->levels;
     const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
-    const double span = l->tide[k], now = wall_level(w, t), before = now - wall_level(w, t - span),
-                 after = wall_level(w, t + span) - now;
-    const double bend = l->surge[k] > 0.0 ? fabs(after - before) / l->surge[k] : 0.0;
-    return -l->basin[k] * fmax(0.0, fmin(1.0, 2.0 - 3.0 * bend)) * (before + after) / (2.0 * span);
+    return -l->basin[k] * wall_level_rise(w, l->tide[k], l->surge[k], t);
 }
 
 /* U relaxes towards u within T; without waves it is u. */

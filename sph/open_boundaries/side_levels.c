@@ -36,6 +36,7 @@ struct side_water {
     };
     double bed, depth, area; /* m, m, m^(dim-1): of the water in the opening */
     double width;            /* m^(dim-2): of the opening, 1 in 2D */
+    double tide, surge;      /* s: half a transit; m: what its level changes by in it; 0: no file */
     double *room;            /* m^(dim-1): of each row of faces that no wall cuts off */
 };
 
@@ -92,6 +93,17 @@ void side_levels_free(struct side_levels **l)
     *l = NULL;
 }
 
+/* Of a level that follows a file, by the depth at its beginning. */
+static void start_tide(const struct sph *s, const struct side_levels *l, struct side_water *of,
+                       int side)
+{
+    const double depth = of->is->has_level ? wall_level(of->is, -INFINITY) - of->bed : 0.0;
+    if (!of->is->levels || !(depth > 0.0))
+        return;
+    of->tide = 0.5 * (s->hi[side / 2] - s->lo[side / 2]) / sqrt(l->g * depth);
+    of->surge = wall_level_change(of->is, of->tide);
+}
+
 /* What walls leave of each row of faces. The bed is the lower edge of the lowest row that walls
  * leave open, in part for a row that they cut. */
 static void find_room(const struct sph *s, struct side_levels *l)
@@ -113,6 +125,7 @@ static void find_room(const struct sph *s, struct side_levels *l)
             of->bed = l->bottom +
                       s->dx * (first + 1.0 - fmin(of->room[first] / (s->dx * of->width), 1.0));
             of->depth = l->started ? of->level - of->bed : 0.0; /* of a restart file's level */
+            start_tide(s, l, of, side);
         }
     l->sounded = true;
 }
@@ -145,7 +158,7 @@ static double level_of(const struct sph *s, const struct side_levels *l,
 
 /* What the band of the free zone beside the transition holds, as long as that: within the zones
  * what comes in would measure itself, and the level wanders off. */
-enum { BAND_ALL, BAND_WINDOW, BAND_ABOVE, BAND_FLUX, BAND };
+enum { BAND_ALL, BAND_WINDOW, BAND_ABOVE, BAND_FLUX, BAND_BASIN, BAND };
 
 /* Part of the lattice cell of a particle `in' deep that lies in the band. */
 static double part_in_band(const struct sph *s, double in)
@@ -156,7 +169,9 @@ static double part_in_band(const struct sph *s, double in)
 }
 
 /* For each open side: volume in the band, in the window around the level and above it, and the
- * volume's momentum outwards over density. */
+ * volume's momentum outwards over density; of one with a tide the volume beyond the middle of
+ * the band in the middle half of its depth, which over that is the plan area of the basin that the
+ * flow in the band fills. */
 static void sum_band(const struct sph *s, const struct side_levels *l, double bands[6][BAND])
 {
     const int dim = s->dim;
@@ -167,6 +182,9 @@ static void sum_band(const struct sph *s, const struct side_levels *l, double ba
             const struct side_water *of = l->of + side;
             const int a = side / 2;
             const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+            if (of->tide > 0.0 && in > s->zones->buffer + 1.5 * s->zones->transition &&
+                fabs(height - 0.5 * (of->bed + of->inside)) < 0.25 * (of->inside - of->bed))
+                bands[side][BAND_BASIN] += w;
             const double part = of->is ? w * part_in_band(s, in) : 0.0;
             if (part == 0.0)
                 continue;
@@ -202,14 +220,33 @@ static double measured(const struct sph *s, const struct side_levels *l,
                : plain;
 }
 
+/* m/s: change in dt of the velocity outwards that a tide fills the basin with, -(A/a) dL/dt, A the
+ * basin's plan area, a that of all openings of given level. Without it `past' is two transits
+ * behind, and the basin swings by a quarter of a tide of eleven transits too far
+ * (fv/boundary/levels.c). */
+static double filling(const struct sph *s, const struct side_levels *l, const struct side_water *of,
+                      double basin, double dt)
+{
+    double openings = 0.0;
+    for (int side = 0; side < 2 * s->dim; side++)
+        if (l->of[side].is && has_level(l->of[side].is))
+            openings += l->of[side].area;
+    const double middle = 0.5 * (of->inside - of->bed);
+    if (!(of->tide > 0.0 && openings > 0.0 && middle > 0.0))
+        return 0.0;
+    return -basin / (middle * openings) *
+           (wall_level_rise(of->is, of->tide, of->surge, s->t) -
+            wall_level_rise(of->is, of->tide, of->surge, s->t - dt));
+}
+
 /* Where a level is given: the wave that leaves raises it. */
 static void let_waves_out(const struct sph *s, const struct side_levels *l, struct side_water *of,
-                          int side, double dt)
+                          int side, double basin, double dt)
 {
     const double depth = fmax(of->depth, s->dx), c = sqrt(l->g * depth),
                  Fr = fmin(fabs(of->mean) / c, 0.9);
     const double T = transits * (s->hi[side / 2] - s->lo[side / 2]) / (c * (1.0 - Fr * Fr));
-    of->past += (of->mean - of->past) * -expm1(-dt / T);
+    of->past += (of->mean - of->past) * -expm1(-dt / T) + filling(s, l, of, basin, dt);
     of->level = of->given + c / l->g * (of->mean - of->past);
 }
 
@@ -230,7 +267,7 @@ static void update_side(const struct sph *s, const struct side_levels *l, struct
             of->given = wall_level(of->is, s->t);
         else if (isnan(of->given))
             of->given = of->inside;
-        let_waves_out(s, l, of, side, dt);
+        let_waves_out(s, l, of, side, band[BAND_BASIN], dt);
     } else {
         of->level = of->inside;
     }

@@ -210,8 +210,8 @@ static double share_across(const struct sph *s, const struct column *c, int a, d
 }
 
 /* What a column holds, m^dim: all; of it what is in the window, and above; particles of a surface
- * in the window. */
-enum { COLUMN_ALL, COLUMN_WINDOW, COLUMN_ABOVE, COLUMN_SURFACE, COLUMN };
+ * in the window, and those in the zones before open sides. */
+enum { COLUMN_ALL, COLUMN_WINDOW, COLUMN_ABOVE, COLUMN_SURFACE, COLUMN_ZONED, COLUMN };
 
 /* Adds the volumes of what flows of one level, weighted by the hat function. Where levels meet each
  * counts by its share: by their roles rows of the coarser one were in or out as a whole, and the
@@ -240,6 +240,7 @@ static void add_level(const struct sph *s, const struct column *c, const struct 
         sums[COLUMN_ALL] += weight;
         sums[COLUMN_ABOVE] += weight * above;
         sums[COLUMN_WINDOW] += weight * inside;
+        sums[COLUMN_ZONED] += s->p.zone[i] != ZONE_FREE;
         sums[COLUMN_SURFACE] += inside > 0.0 && s->surface && s->surface->is[i] == SURFACE_ON;
     }
 }
@@ -262,10 +263,11 @@ static double level_of(const struct sph *s, const struct column *c, double volum
 }
 
 /* Whether the water of the column can stand closer, or wider, than its volumes say: beside walls,
- * over a floor that is not even, under a roof and where levels of refinement meet. */
-static bool is_disturbed(const struct sph *s, const struct column *c)
+ * over a floor that is not even, under a roof, where levels of refinement meet and in the zones
+ * before open sides, where particles are given their volumes. */
+static bool is_disturbed(const struct sph *s, const struct column *c, double zoned)
 {
-    bool cut = s->finer || c->ground > c->floor + 1e-6 * s->dx || isfinite(c->roof);
+    bool cut = zoned > 0.0 || s->finer || c->ground > c->floor + 1e-6 * s->dx || isfinite(c->roof);
     for (int a = 0; a < s->dim; a++)
         cut = cut || (a != c->up && c->hi[a] - c->lo[a] < (4.0 - 1e-6) * s->dx);
     return cut;
@@ -285,7 +287,7 @@ double level_gauge(struct sph *s, const double *at)
     sum_column(s, &c, &none, all);
     const double level = level_of(s, &c, all[COLUMN_ALL]);
     const struct level_window w = level_window(isfinite(c.roof) ? c.crest : c.ground, level, s->dx);
-    if (!is_disturbed(s, &c) || !level_window_fits(&w))
+    if (!is_disturbed(s, &c, all[COLUMN_ZONED]) || !level_window_fits(&w))
         return level;
     sum_column(s, &c, &w, sums);
     const double section = sums[COLUMN_WINDOW] / (w.high - w.low);
