@@ -129,7 +129,7 @@ static bool find_rise(struct evolution *e, bool solved)
     }
     if (!solved) {
         layer_shape(e->layer, eta);
-        const int products = layer_solve(e->layer, phi, NULL, tolerance, true);
+        const int products = layer_solve(e->layer, phi, tolerance, true);
         if (products < 0)
             return false;
         e->products += products;
@@ -240,7 +240,7 @@ bool evolution_look(struct evolution *e)
             return false;
     }
     layer_shape(e->layer, e->eta);
-    const int products = layer_solve(e->layer, e->phi, NULL, tolerance, false);
+    const int products = layer_solve(e->layer, e->phi, tolerance, false);
     e->products += products > 0 ? products : 0;
     e->looked = products > 0;
     return e->looked;

@@ -52,7 +52,7 @@ static void differentiate(const struct sigma_layer *l, const double *v, double *
 
 /* rows is nodes rounded up to a multiple of 4: two real rows are one complex one (layer_solver.c),
  * and columns stay aligned to vectors. */
-static struct sigma_layer *make(const struct wave_grid *grid, double depth, double a, int nodes)
+struct sigma_layer *layer_create(const struct wave_grid *grid, double depth, double a, int nodes)
 {
     struct sigma_layer *l = NEW(struct sigma_layer, 1);
     const size_t cells = (size_t)grid->cells;
@@ -60,33 +60,12 @@ static struct sigma_layer *make(const struct wave_grid *grid, double depth, doub
     l->sigma = NEW(double, l->rows);
     l->phi = NEW(double, cells *(size_t)l->rows);
     l->phi_s = NEW(double, cells *(size_t)l->rows);
-    double **const of[] = {&l->D, &l->eta_x[0], &l->eta_x[1], &l->eta_xx,
-                           &l->h, &l->h_x[0],   &l->h_x[1],   &l->h_xx};
-    for (int i = 0; i < 8; i++)
+    double **const of[] = {&l->D, &l->eta_x[0], &l->eta_x[1], &l->eta_xx};
+    for (int i = 0; i < 4; i++)
         *of[i] = NEW(double, cells);
     for (int b = 0; b < 2; b++)
         l->phi_x[b] = NEW(double, cells *(size_t)l->rows);
     l->solver = layer_solver_create(l, depth);
-    return l;
-}
-
-struct sigma_layer *layer_create(const struct wave_grid *grid, double depth, double a, int nodes)
-{
-    struct sigma_layer *l = make(grid, depth, a, nodes);
-    for (int i = 0; i < grid->cells; i++)
-        l->h[i] = a;
-    return l;
-}
-
-struct sigma_layer *layer_create_over(const struct wave_grid *grid, const double *h, int nodes)
-{
-    double a = 0.0;
-    for (int i = 0; i < grid->cells; i++)
-        a = fmax(a, h[i]);
-    struct sigma_layer *l = make(grid, a, a, nodes);
-    l->uneven = true;
-    memcpy(l->h, h, (size_t)grid->cells * sizeof *h);
-    differentiate(l, l->h, l->h_x[0], l->h_x[1], l->h_xx);
     return l;
 }
 
@@ -96,8 +75,8 @@ void layer_free(struct sigma_layer **l)
         return;
     struct sigma_layer *q = *l;
     FREE(q->sigma, q->phi, q->phi_s, q->phi_x[0], q->phi_x[1], q->D, q->eta_x[0], q->eta_x[1],
-         q->eta_xx, q->h, q->h_x[0], q->h_x[1], q->h_xx);
-    layer_solver_free(q, &q->solver);
+         q->eta_xx);
+    layer_solver_free(&q->solver);
     mem_free(q);
     *l = NULL;
 }
@@ -106,12 +85,12 @@ void layer_shape(struct sigma_layer *l, const double *eta)
 {
     differentiate(l, eta, l->eta_x[0], l->eta_x[1], l->eta_xx);
     for (int i = 0; i < l->grid->cells; i++)
-        l->D[i] = eta[i] + l->h[i];
+        l->D[i] = eta[i] + l->a;
 }
 
-/* What sigma does at fixed places of a column: sigma_x = at[.][0] + sigma at[.][1], and so on. */
+/* What sigma does at fixed places of a column: sigma_x = (1 + sigma) x[0], and so on. */
 struct sigma_column {
-    double x[2][2];     /* 1/m: along x and y */
+    double x[2];        /* 1/m: along x and y */
     double one, square; /* 1/m^2: 1/D^2; (D/a)^2 */
 };
 
@@ -119,19 +98,16 @@ static struct sigma_column column_at(const struct sigma_layer *l, int i)
 {
     const double D = l->D[i];
     struct sigma_column c = {.one = 1.0 / (D * D), .square = D * D / (l->a * l->a)};
-    for (int b = 0; b < 2; b++) { /* z_x = (1 + sigma) eta_x + sigma h_x = -D sigma_x */
-        c.x[b][0] = -l->eta_x[b][i] / D;
-        c.x[b][1] = -(l->eta_x[b][i] + l->h_x[b][i]) / D;
-    }
+    for (int b = 0; b < 2; b++) /* z_x = (1 + sigma) eta_x = -D sigma_x */
+        c.x[b] = -l->eta_x[b][i] / D;
     return c;
 }
 
 /* lap sigma at a node: -(lap z + 2 grad sigma.grad D)/D. */
 static double bend(const struct sigma_layer *l, int i, double s, double sx, double sy)
 {
-    const double lap = (1.0 + s) * l->eta_xx[i] + s * l->h_xx[i];
-    const double Dx = l->eta_x[0][i] + l->h_x[0][i], Dy = l->eta_x[1][i] + l->h_x[1][i];
-    return -(lap + 2.0 * (sx * Dx + sy * Dy)) / l->D[i];
+    const double lap = (1.0 + s) * l->eta_xx[i];
+    return -(lap + 2.0 * (sx * l->eta_x[0][i] + sy * l->eta_x[1][i])) / l->D[i];
 }
 
 /* The equations of a column, from f + i f_y (level) and f_x + i lap f (slopes). r[0] is the
@@ -153,17 +129,13 @@ static void column_product(const struct sigma_layer *l, int i, const double *lev
     if (plane)
         layer_solver_multiply(s->D1, n, rows, fy, fys);
     for (int j = 1; j < last; j++) {
-        const double at = l->sigma[j], sx = c.x[0][0] + at * c.x[0][1],
-                     sy = c.x[1][0] + at * c.x[1][1];
+        const double at = l->sigma[j], sx = (1.0 + at) * c.x[0], sy = (1.0 + at) * c.x[1];
         r[j] = c.square * (lap[j] + 2.0 * (sx * fxs[j] + sy * fys[j]) +
                            (sx * sx + sy * sy + c.one) * fss[j] + bend(l, i, at, sx, sy) * fs[j]);
     }
-    const double sx = c.x[0][0] - c.x[0][1], sy = c.x[1][0] - c.x[1][1], D = l->D[i];
-    const double over = l->uneven ? l->h_x[0][i] * (fx[last] + sx * fs[last]) +
-                                        l->h_x[1][i] * ((plane ? fy[last] : 0.0) + sy * fs[last])
-                                  : -level[s->at_lower];
+    const double D = l->D[i];
     r[0] = f[0];
-    r[last] = (fs[last] / D + over) * D / l->a;
+    r[last] = (fs[last] / D - level[s->at_lower]) * D / l->a;
     for (int j = n; j < rows; j++)
         r[j] = 0.0;
 }
@@ -196,18 +168,14 @@ static void keep_solution(struct sigma_layer *l)
     }
 }
 
-/* b holds phi_s in each column's first row, the flux in its last. A cold start is y = b, the
+/* b holds phi_s in each column's first row. A cold start is y = b, the
  * solution for a flat surface. */
-int layer_solve(struct sigma_layer *l, const double *phi_s, const double *flux, double tolerance,
-                bool warm)
+int layer_solve(struct sigma_layer *l, const double *phi_s, double tolerance, bool warm)
 {
     const size_t cells = (size_t)l->grid->cells, rows = (size_t)l->rows;
     double *b = NEW(double, cells *rows);
-    for (size_t i = 0; i < cells; i++) {
+    for (size_t i = 0; i < cells; i++)
         b[i * rows] = phi_s[i];
-        if (flux)
-            b[i * rows + (size_t)l->nodes - 1] = flux[i] * l->D[i] / l->a;
-    }
     if (!warm)
         memcpy(l->solver->start, b, cells * rows * sizeof *b);
     const int products = layer_solver_gmres(l, b, tolerance, l->solver->start);
@@ -236,9 +204,9 @@ void layer_velocity(const struct sigma_layer *l, int cell, double *x, double *up
     const size_t at = (size_t)cell * (size_t)l->rows;
     for (int j = 0; j < l->nodes; j++) {
         const double s = l->sigma[j], fs = l->phi_s[at + (size_t)j];
-        x[j] = l->phi_x[0][at + (size_t)j] + (c.x[0][0] + s * c.x[0][1]) * fs;
+        x[j] = l->phi_x[0][at + (size_t)j] + (1.0 + s) * c.x[0] * fs;
         up[j] = fs / l->D[cell];
         if (y)
-            y[j] = l->phi_x[1][at + (size_t)j] + (c.x[1][0] + s * c.x[1][1]) * fs;
+            y[j] = l->phi_x[1][at + (size_t)j] + (1.0 + s) * c.x[1] * fs;
     }
 }

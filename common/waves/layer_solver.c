@@ -101,9 +101,8 @@ struct layer_solver *layer_solver_create(const struct sigma_layer *l, double dep
     return s;
 }
 
-void layer_solver_free(const struct sigma_layer *l, struct layer_solver **s)
+void layer_solver_free(struct layer_solver **s)
 {
-    (void)l;
     if (!*s)
         return;
     FREE((*s)->D1, (*s)->D2, (*s)->lower, (*s)->inverse, (*s)->packed, (*s)->work, (*s)->slopes,
