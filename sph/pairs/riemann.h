@@ -88,11 +88,10 @@ INLINE vec impedance(const struct tait *e, vec rho, const int gamma)
 }
 
 /* Bounds of the dissipation: of the jump between the bounded states counts b = min(1, max(least,
- * factor (u_i - u_j))), of that between states of third order the share `even' of the rest. */
+ * factor (u_i - u_j))). */
 struct dissipation {
     double factor; /* s/m: 3/c0 (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017, eq. 17) */
     double least;  /* 1: full dissipation, as in [2.100]; else 0 */
-    double even;   /* what keeps particles in order where nothing hits: see star */
 };
 
 /* Weights of the linear Riemann problem between particles i and j a distance r apart, from their Z
@@ -113,18 +112,18 @@ INLINE struct weights weigh(vec r, vec Zi, vec Zj)
 
 /* Star state [2.100] between p[0], v[0] at i and p[1], v[1] at j. v: velocities along x_j - x_i
  * times r, as the sums have them; sets vE = r u_E and pE. The bound of the dissipation acts on p_E
- * only. `bent': -3/2 of the jump that states of third order would have, that is what v_j - v_i
- * exceeds the mean of both slopes by. It is 0 in linear flow and small of third order in smooth
- * flow, where the bounded states, cut at every extremum, let the least share c0 times a jump of
- * first order: half of what a gentle wave loses in five periods. Particles out of order have it
- * nearly whole. */
+ * only. What it leaves takes `even' instead, a share of the jump that states of third order have:
+ * 2/3 of what the mean of both slopes exceeds v_j - v_i by. It is 0 in linear flow and of third
+ * order in smooth flow, where the bounded states, cut at every extremum, let such a share take c0
+ * times a jump of first order: half of what a gentle wave lost in five periods. Particles out of
+ * order have most of their jump. */
 INLINE void star(const struct dissipation *d, const struct weights *z, const vec p[2],
-                 const vec v[2], vec bent, vec *vE, vec *pE)
+                 const vec v[2], vec even, vec *vE, vec *pE)
 {
     const vec dv = v[0] - v[1], dp = p[0] - p[1];
     const vec b = vec_min(vec_max(dv * z->r_1 * d->factor, vec_all(d->least)), vec_all(1.0));
     *vE = v[1] + z->share * dv + z->pull * dp;
-    *pE = p[0] - z->share * dp + z->push * (b * dv - (1.0 - b) * (2.0 / 3.0 * d->even) * bent);
+    *pE = p[0] - z->share * dp + z->push * (b * (dv - even) + even);
 }
 
 #endif

@@ -36,6 +36,7 @@ struct riemann_constants {
     double damper;                  /* beta rho0 c0 R, Pa s */
     double c2_1;                    /* 1/c0^2 */
     double mu;                      /* Pa s, times dim + 2 for Monaghan-Gingold */
+    double even;                    /* 2/3 of the share of the jump of third order */
     double slack_rho, slack_u;      /* kg/m^3, m/s: what limiters let pass */
     double sharp[2];                /* weights of u_j - u_i and its estimates in the viscous term */
     double moment;                  /* 1/4: of the moment of shift fluxes, see solve */
@@ -58,7 +59,7 @@ struct riemann_batch {
     vec rho[BATCH];                      /* of j; then the mean of both states */
     vec D[3][BATCH];                     /* u_j - u_i as friction takes it */
     vec parting[BATCH];                  /* (u_j - u_i).(x_j - x_i) */
-    vec bent[BATCH];                     /* that less the mean of both slopes along x_j - x_i */
+    vec even[BATCH];                     /* share of the jump of third order, see star */
     vec u[2][3][BATCH], p[2][BATCH];     /* states at the middle: i's side, j's side */
     vec Q[BATCH], m[2][BATCH], w[BATCH]; /* fluxes of momentum, of mass, of volume */
     vec rub[BATCH];                      /* times D: momentum that goes to i */
@@ -79,9 +80,8 @@ static struct riemann_constants constants_of(const struct sph *s)
                free = filled && !(s->zones && (s->walls || s->prm.outer == OUTER_PARTNER));
     return (struct riemann_constants){
         .eos = tait_of(s),
-        .dissipation = {.factor = 3.0 / s->c0,
-                        .least = s->prm.low_dissipation ? 0.0 : 1.0,
-                        .even = s->prm.dissipation},
+        .dissipation = {.factor = 3.0 / s->c0, .least = s->prm.low_dissipation ? 0.0 : 1.0},
+        .even = 2.0 / 3.0 * s->prm.dissipation,
         .limiter = s->prm.limiter,
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / s->R,
@@ -196,7 +196,7 @@ INLINE void velocities(const struct riemann_constants *c, const struct riemann_o
             t->u[1][a][k] = right;
         }
         t->parting[k] = parting;
-        t->bent[k] = parting - 0.5 * slopes;
+        t->even[k] = c->even * (0.5 * slopes - parting);
     }
 }
 
@@ -243,7 +243,7 @@ INLINE void solve(const struct riemann_constants *c, const struct riemann_own *i
             uJ[a] = t->u[1][a][k];
         }
         const vec V[2] = {vec_dot(uI, d, dim), vec_dot(uJ, d, dim)};
-        star(&c->dissipation, z, p, V, t->bent[k], &vE, &pE);
+        star(&c->dissipation, z, p, V, t->even[k], &vE, &pE);
         if (v.exact)
             add_exact(&c->eos, z, (vec[2]){t->x[0][k], t->x[1][k]}, V, c->gamma, &vE, &pE);
         vec Q = f * pE;                        /* times d: what acts along the line of centres */

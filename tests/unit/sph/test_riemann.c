@@ -64,21 +64,20 @@ TEST(low_dissipation_is_bounded)
     assert_close(pE, 100.0 + 0.5e4 * 5.0, 1e-9);
 }
 
-/* States of third order at the middle of a pair, v[1] - v[0] and slopes given, have the jump -2/3
- * bent; the share `even' of its wave is in p_E, and none of it where the other dissipation is whole
- * or the field is linear. */
+/* States of third order at the middle of a pair have 2/3 of what the mean slope exceeds the
+ * difference by for their jump; its wave is in p_E, and none of it where the dissipation of the
+ * bounded states is whole. */
 TEST(even_dissipation_is_that_of_third_order)
 {
     const double even = 0.1, D = 0.3, slope[2] = {0.5, -0.2};
-    const struct dissipation calm = {.factor = 0.0, .even = even};
-    const struct dissipation all = {.factor = 0.0, .least = 1.0, .even = even};
+    const struct dissipation calm = {.factor = 0.0}, all = {.factor = 0.0, .least = 1.0};
     const struct weights z = weigh(vec_all(1.0), vec_all(1e4), vec_all(1e4));
     vec left = vec_all(0.7), right = left + D, vE, P[3];
     const vec p[2] = {vec_all(50.0), vec_all(50.0)}, v[2] = {left, right};
-    const vec bent = vec_all(D - 0.5 * (slope[0] + slope[1]));
-    star(&calm, &z, p, v, bent, &vE, P);
+    const vec jump = vec_all(even * 2.0 / 3.0 * (0.5 * (slope[0] + slope[1]) - D));
+    star(&calm, &z, p, v, jump, &vE, P);
     star(&calm, &z, p, v, vec_all(0.0), &vE, P + 1);
-    star(&all, &z, p, v, bent, &vE, P + 2);
+    star(&all, &z, p, v, jump, &vE, P + 2);
     reconstruct(&left, &right, vec_all(slope[0]), vec_all(slope[1]), LIMITER_NONE, 0.0);
     assert_close(P[0][0], 50.0 + even * 0.5e4 * (left[0] - right[0]), 1e-9);
     assert_close(P[1][0], 50.0, 1e-12);
