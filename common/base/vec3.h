@@ -64,4 +64,13 @@ static inline double vec3_unit(double *a)
     return length;
 }
 
+/* c[a]: the cross product of the two rows of A after row a, so that the inverse of A is the
+ * transpose of c over the determinant of A, which is returned. */
+static inline double vec3_cofactors(double A[3][3], double c[3][3])
+{
+    for (int a = 0; a < 3; a++)
+        vec3_cross(A[(a + 1) % 3], A[(a + 2) % 3], c[a]);
+    return vec3_dot(A[0], c[0]);
+}
+
 #endif

@@ -134,16 +134,6 @@ static void face_vector(const struct mesh_block *b, int dim, const int *i, int a
         S[c] = e[0][c] + e[1][c] - e[2][c] - e[3][c];
 }
 
-/* Cofactors: vectors of the faces of a unit of index, S_a . dx_b = J delta_ab. */
-static void cofactors(double d[3][3], double S[3][3])
-{
-    for (int a = 0; a < 3; a++)
-        for (int c = 0; c < 3; c++) {
-            const int p = (a + 1) % 3, q = (a + 2) % 3, u = (c + 1) % 3, v = (c + 2) % 3;
-            S[a][c] = d[p][u] * d[q][v] - d[p][v] * d[q][u];
-        }
-}
-
 /* S_a.S_b/J averaged over the lower face along a: slopes from the maps of both sides. Two Gauss
  * points a tangent. Entries below 1e-12 of the largest are rounding and become 0, so that upright
  * cells are recognised. */
@@ -166,7 +156,7 @@ static void face_tensor(const struct mesh_block *b, int dim, const int *i, int a
         for (int k = 0; k < 3; k++)
             for (int c = 0; c < 3; c++)
                 d[k][c] = 0.5 * (d[k][c] + e[k][c]);
-        cofactors(d, S);
+        vec3_cofactors(d, S); /* vectors of the faces of a unit of index, S_a . dx_b = J delta_ab */
         const double w = 1.0 / ((nt == 2 ? 4.0 : 2.0) * mesh_determinant(d));
         for (int k = 0; k < dim; k++)
             for (int c = 0; c < dim; c++)

@@ -25,7 +25,8 @@
 static const double enough = 0.5, open_share = 0.02; /* - */
 static const double close_by = 0.1, flat = 0.9995;   /* dx; -: faces that lie on each other */
 
-const struct sph *seal_level(const struct sph *s, const double *x)
+/* Level of refinement that flows at x. */
+static const struct sph *level_at(const struct sph *s, const double *x)
 {
     const struct sph *at = s;
     for (const struct sph *q = s->finer; q; q = q->finer)
@@ -39,7 +40,7 @@ const struct sph *seal_level(const struct sph *s, const double *x)
 static bool measure(const struct sph *s, int body, bool all, struct seal_point *to)
 {
     const struct walls *w = s->walls;
-    const struct sph *at = seal_level(s, to->is.x);
+    const struct sph *at = level_at(s, to->is.x);
     double x[3] = {0.0, 0.0, 0.0}, out[3], most = 0.0;
     for (int a = 0; a < s->dim; a++)
         x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
@@ -73,7 +74,7 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
 static void find_far(const struct sph *s, struct seal_point *of, int n)
 {
     for (int k = 0; k < n; k++) {
-        const double R = seal_level(s, of[k].is.x)->R;
+        const double R = level_at(s, of[k].is.x)->R;
         double least = INFINITY, e[3];
         for (int m = 0; m < n; m++)
             if (of[m].rim) {

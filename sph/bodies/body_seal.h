@@ -18,8 +18,6 @@ struct seal_point {
     double weight[3]; /* m^2/s^2: wall_share_weight */
 };
 
-/* Level of refinement that flows at x. */
-const struct sph *seal_level(const struct sph *s, const double *x);
 /* Marks what free bodies rest on since the start as sealed; returns whether that is anything of
  * this body. */
 bool seals_mark(struct walls *w, int body);

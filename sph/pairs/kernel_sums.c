@@ -25,28 +25,24 @@ double kernel_sum(const struct sph *s, int i)
     return sum;
 }
 
-/* Lattice points within R lie in [-n, n]^dim around the one at the origin; the corners of that cube
- * get W = 0. */
-double kernel_lattice_sum(const struct sph *s)
+/* Sum of dx^D W over a lattice about one of its points, or of dx^D x_1^2 (-W'/r). Its points within
+ * R lie in [-n, n]^dim; the corners of that cube get 0. */
+static double over_lattice(const struct sph *s, bool moment)
 {
     const int n = (int)(s->R / s->dx) + 1, deep = s->dim == 3 ? n : 0;
     double sum = 0.0;
     for (int k = -deep; k <= deep; k++)
         for (int j = -n; j <= n; j++)
-            for (int i = -n; i <= n; i++)
-                sum += kernel_w(s->dim, s->dx * sqrt(i * i + j * j + k * k), s->R);
+            for (int i = -n; i <= n; i++) {
+                const double x = s->dx * i, r = s->dx * sqrt(i * i + j * j + k * k);
+                sum += moment ? -x * x * kernel_dw_r(s->dim, r, s->R) : kernel_w(s->dim, r, s->R);
+            }
     return sum * s->dxD;
 }
 
+double kernel_lattice_sum(const struct sph *s) { return over_lattice(s, false); }
+
 double kernel_pair_viscosity(const struct sph *s)
 {
-    const int n = s->nu > 0.0 ? (int)(s->R / s->dx) + 1 : 0, deep = s->dim == 3 ? n : 0;
-    const double d2 = s->dx * s->dx;
-    double moment = 0.0;
-    for (int k = -deep; k <= deep; k++)
-        for (int j = -n; j <= n; j++)
-            for (int i = -n; i <= n; i++)
-                moment -=
-                    d2 * i * i * kernel_dw_r(s->dim, sqrt(d2 * (i * i + j * j + k * k)), s->R);
-    return s->nu > 0.0 ? s->rho0 * s->nu / (moment * s->dxD) : 0.0;
+    return s->nu > 0.0 ? s->rho0 * s->nu / over_lattice(s, true) : 0.0;
 }

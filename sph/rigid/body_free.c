@@ -17,9 +17,7 @@
 static void invert(double A[3][3], double to[3][3])
 {
     double c[3][3];
-    for (int a = 0; a < 3; a++)
-        vec3_cross(A[(a + 1) % 3], A[(a + 2) % 3], c[a]);
-    const double det = vec3_dot(A[0], c[0]);
+    const double det = vec3_cofactors(A, c);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)
             to[a][b] = c[b][a] / det;

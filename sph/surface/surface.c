@@ -102,22 +102,17 @@ static void moments(struct sph *s, struct free_surface *f)
  * is far below any determinant of particles with two neighbours. */
 static bool find_normal(const double *M, const double *g, double *N, int dim)
 {
-    double row[3][3] = {{0.0}, {0.0}, {0.0, 0.0, 1.0}}, crowding[3] = {0.0}, normal[3] = {0.0};
-    double c[3]; /* rows of the cofactors */
-    for (int a = 0; a < dim; a++) {
-        crowding[a] = g[a];
-        memcpy(row[a], M + (size_t)dim * a, (size_t)dim * sizeof *M);
-    }
-    vec3_cross(row[1], row[2], c);
-    const double det = vec3_dot(row[0], c);
+    double A[3][3] = {{0.0}, {0.0}, {0.0, 0.0, 1.0}}, c[3][3], v[3] = {0.0};
+    for (int a = 0; a < dim * dim; a++)
+        A[a / dim][a % dim] = M[a];
+    const double det = vec3_cofactors(A, c);
     if (!(fabs(det) > 1e-12))
         return false;
-    for (int a = 0; a < dim; a++) {
-        vec3_cross(row[(a + 1) % 3], row[(a + 2) % 3], c);
-        normal[a] = -vec3_dot(crowding, c) / det;
-    }
-    const double size = vec3_unit(normal);
-    memcpy(N, normal, (size_t)dim * sizeof *N);
+    for (int a = 0; a < dim; a++)
+        for (int b = 0; b < dim; b++)
+            v[a] -= c[a][b] * g[b] / det; /* B^T */
+    const double size = vec3_unit(v);
+    memcpy(N, v, (size_t)dim * sizeof *N);
     return size > 0.0;
 }
 

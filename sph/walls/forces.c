@@ -227,44 +227,32 @@ bool forces_load(struct sph *s, struct h5 *f)
     return rows != NULL;
 }
 
-/* Mean of the first body's force, its fluctuation, its error. */
-static void summarise_body(const struct sph *s)
+/* The mean over T of the first body's force by one of the two rules, and, if it is the one that
+ * counts, how far it is from the wanted one. Returns the square of its size. */
+static double summarise_mean(const struct sph *s, const char *rule, const double *sum, double T,
+                             bool counts)
 {
-    struct summary *to = s->run->summary;
-    const double *wanted = s->run->scene.bodies[0].force, T = s->total.mean_force.time;
-    static const char *const names[2][3] = {
-        {"force.x", "force.y", "force.z"},
-        {"force.average_x", "force.average_y", "force.average_z"}};
-    double var = s->total.mean_force.sum2 / T, size2 = 0.0, error2 = 0.0;
-    for (int a = 0; a < s->dim; a++) {
-        const double mean = s->total.mean_force.sum[a] / T;
-        var -= mean * mean;
-        size2 += wanted[a] * wanted[a];
-        error2 += (mean - wanted[a]) * (mean - wanted[a]);
-        summary_real(to, names[0][a], mean);
-        if (s->total.mean_force.average_time > 0.0)
-            summary_real(to, names[1][a],
-                         s->total.mean_force.average_sum[a] / s->total.mean_force.average_time);
-    }
-    summary_real(to, "force.rms", sqrt(fmax(0.0, var)));
-    if (size2 > 0.0)
-        summary_real(to, "error.force", sqrt(error2 / size2));
+    const double *wanted = s->run->scene.bodies[0].force, size = vec3_length(wanted);
+    double mean[3] = {0.0, 0.0, 0.0};
+    vec3_add(mean, 1.0 / T, sum);
+    for (int a = 0; a < s->dim; a++)
+        summary_real(s->run->summary, key_text("force.%s%c", rule, "xyz"[a]), mean[a]);
+    if (counts && size > 0.0)
+        summary_real(s->run->summary, "error.force", vec3_distance(mean, wanted) / size);
+    return vec3_dot(mean, mean);
 }
 
-/* Of models that credit nothing: the mean of the averages, and its error. */
-static void summarise_average(const struct sph *s)
+/* Of models that credit nothing there is the average alone. */
+static void summarise_body(const struct sph *s)
 {
-    const double *wanted = s->run->scene.bodies[0].force, T = s->total.mean_force.average_time;
-    static const char *const names[3] = {"force.average_x", "force.average_y", "force.average_z"};
-    double size2 = 0.0, error2 = 0.0;
-    for (int a = 0; a < s->dim; a++) {
-        const double mean = s->total.mean_force.average_sum[a] / T;
-        size2 += wanted[a] * wanted[a];
-        error2 += (mean - wanted[a]) * (mean - wanted[a]);
-        summary_real(s->run->summary, names[a], mean);
+    const struct mean_force *m = &s->total.mean_force;
+    const bool known = s->walls->forces.known;
+    if (known && m->time > 0.0) {
+        const double mean2 = summarise_mean(s, "", m->sum, m->time, true);
+        summary_real(s->run->summary, "force.rms", sqrt(fmax(0.0, m->sum2 / m->time - mean2)));
     }
-    if (size2 > 0.0)
-        summary_real(s->run->summary, "error.force", sqrt(error2 / size2));
+    if (m->average_time > 0.0)
+        summarise_mean(s, "average_", m->average_sum, m->average_time, !known);
 }
 
 /* Momentum now less that of the start, less gravity's impulse, plus what bodies and walls got, over
@@ -300,11 +288,8 @@ static void summarise_balance(const struct sph *s)
 
 void forces_summarise(const struct sph *s)
 {
-    if (!s->walls->forces.known && s->walls->nbodies > 0 && s->total.mean_force.average_time > 0.0)
-        summarise_average(s);
-    if (!s->walls->forces.known)
-        return;
-    if (s->walls->nbodies > 0 && s->total.mean_force.time > 0.0)
+    if (s->walls->nbodies > 0)
         summarise_body(s);
-    summarise_balance(s);
+    if (s->walls->forces.known)
+        summarise_balance(s);
 }

@@ -75,16 +75,12 @@ struct fixed_sample {
 static bool fixed_solve(double N[3][3], double Q[3][3], double v[3][3])
 {
     double c[3][3];
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            c[a][b] = N[(a + 1) % 3][(b + 1) % 3] * N[(a + 2) % 3][(b + 2) % 3] -
-                      N[(a + 1) % 3][(b + 2) % 3] * N[(a + 2) % 3][(b + 1) % 3];
-    const double det = N[0][0] * c[0][0] + N[0][1] * c[0][1] + N[0][2] * c[0][2];
+    const double det = vec3_cofactors(N, c);
     if (!(det > 1e-5 * N[0][0] * N[0][0] * N[0][0]))
         return false;
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
-            v[k][a] = (c[a][0] * Q[k][0] + c[a][1] * Q[k][1] + c[a][2] * Q[k][2]) / det;
+            v[k][a] = vec3_dot(c[a], Q[k]) / det;
     return true;
 }
 

@@ -191,17 +191,19 @@ static void mark_beside_walls(struct sph *s, const struct wall_list *l)
  * it, whole rows fill the half space either way; but there the least shift leads behind the wall.
  * In a pipe of Re 25, 8 dx wide, a quarter of the outlet's particles lay on the wall and came back
  * at each step. */
-static void shift_before_walls(const struct sph *s, const struct wall_list *l, int k, double *shift)
+static void shift_before_walls(const struct sph *s, const struct wall_list *l, int k)
 {
-    const double near = 0.25 * s->dx;
+    const int dim = s->dim;
+    const double near = 0.25 * s->dx, *u = prim_line(&s->p, l->who[k]) + dim;
+    double *u0 = slope_line(&s->p, l->who[k]) + dim + dim * dim;
     for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
         double across = 0.0;
         if (!t->foot || t->height >= near || t->height < 0.0)
             continue;
-        for (int a = 0; a < s->dim; a++)
-            across += shift[a] * t->n[a];
-        for (int a = 0; a < s->dim && across > 0.0; a++)
-            shift[a] -= (1.0 - t->height / near) * across * t->n[a];
+        for (int a = 0; a < dim; a++)
+            across += (u0[a] - u[a]) * t->n[a];
+        for (int a = 0; a < dim && across > 0.0; a++)
+            u0[a] -= (1.0 - t->height / near) * across * t->n[a];
     }
 }
 
@@ -225,13 +227,10 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
     const double R = oger ? fmin(2.0 * s->dx, s->R) : s->R;
     const double factor = (oger ? 1.0 : 2.0) * scheme_shift_speed(s, l->who[k]) * R;
     const double gamma = fmax(l->gamma[k], least_gamma);
-    double shift[3];
     for (int a = 0; a < dim; a++)
-        shift[a] = (u0[a] - u[a] - factor * sum[a]) / gamma;
+        u0[a] = u[a] + (u0[a] - u[a] - factor * sum[a]) / gamma;
     if (!s->surface)
-        shift_before_walls(s, l, k, shift);
-    for (int a = 0; a < dim; a++)
-        u0[a] = u[a] + shift[a];
+        shift_before_walls(s, l, k);
 }
 
 /* The last word on shifts where there is a surface: that which keeps gravity workless came later
@@ -239,16 +238,8 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
 static void bound_shifts(struct sph *s)
 {
     const struct nfm *m = s->walls->state;
-    const int dim = s->dim;
-    for (int k = 0; s->surface && k < m->list.n; k++) {
-        const double *u = prim_line(&s->p, m->list.who[k]) + dim;
-        double *u0 = slope_line(&s->p, m->list.who[k]) + dim + dim * dim, shift[3];
-        for (int a = 0; a < dim; a++)
-            shift[a] = u0[a] - u[a];
-        shift_before_walls(s, &m->list, k, shift);
-        for (int a = 0; a < dim; a++)
-            u0[a] = u[a] + shift[a];
-    }
+    for (int k = 0; s->surface && k < m->list.n; k++)
+        shift_before_walls(s, &m->list, k);
 }
 
 static void slopes(struct sph *s)

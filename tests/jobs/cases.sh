@@ -42,7 +42,7 @@ small rotating_patch "particles_lost 0 drift.energy 0.1 drift.momentum 1e-6" -p 
 # 0.1 % at L/dx 50, of second order: 0.63 % at 20; from rest dt is set by friction on the walls, and 0.08 m/s are reached so far
 small poiseuille_sph "error.velocity_l2 0.0063" -p time.end=3
 small poiseuille_sph "error.velocity_l2 0.01" -p sph.dx=0.0125 -p time.end=0.1
-# Re = 100: extrema of Marchi, Suero & Araki, J. Braz. Soc. Mech. Sci. Eng. 31, 2009; the case wants 3 % on 50 x 50, of second order 19 % on 20 x 20
+# Re = 100: extrema of Marchi, Suero & Araki, J. Braz. Soc. Mech. Sci. Eng. 31, 2009; 3 % on 50 x 50 is wanted, of second order 19 % on 20 x 20
 small cavity_sph "error.extrema 0.19" -p sph.dx=0.05 -p time.end=15 -p fluid.nu=0.01 -p 'sph.extrema=(-0.214042,0.179573,-0.253804)'
 # half of what lattices and Morris's term alone gave; the start with most disorder like the others
 small taylor_green_sph "error.velocity_l2 0.0049 error.pressure_offset 0.04" -p sph.dx=0.015625 -p fluid.nu=0.02
