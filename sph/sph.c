@@ -205,16 +205,17 @@ static void warn_of_passage(const struct run *r, const struct sph_params *prm)
                      t.width, prm->dx);
 }
 
-/* Whether water stands all around the mesh of a body at the start. */
+/* Whether water stands around most of the mesh of a body at the start. */
 static bool has_body_in_water(const struct run *r)
 {
     const struct exact e = exact_create(&r->scene);
     bool any = false;
     for (int i = 0; r->scene.meshes && i < r->scene.meshes->n && !any; i++) {
         const struct scene_mesh *is = r->scene.meshes->of + i;
-        any = is->owner == MESH_OF_BODY;
-        for (int k = 0; k < is->mesh.ntriangles && any; k++)
-            any = is_wet(r, &e, &is->mesh, k);
+        int wet = 0;
+        for (int k = 0; k < is->mesh.ntriangles && is->owner == MESH_OF_BODY; k++)
+            wet += is_wet(r, &e, &is->mesh, k);
+        any = wet > 0.75 * is->mesh.ntriangles;
     }
     return any;
 }

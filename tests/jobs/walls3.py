@@ -42,6 +42,7 @@ run_case('block', changed(TANK3, time='end = 0.3;', domain='dim = 3; min = (0.1,
 check(-485.1 < number('block', 'force.z') < -456.8, 'block: %g N, wanted -470.9 N within 3 %%' % number('block', 'force.z'))
 for way in 'x', 'y':
     check(abs(number('block', 'force.' + way)) < 1, 'block: pushed along %s by %g N' % (way, number('block', 'force.' + way)))
+run_case('block', None, '--check', '-p', 'sph.R_dx=2.5', words='R_dx = 2.5: the lift of bodies under water is')
 
 # the same tank as sides of the domain, as a mesh, and turned by 30 degrees: nobody lost, and when what the start has
 # stirred is over, |u| below 1e-3 c0 in the mean of squares
