@@ -58,18 +58,19 @@ struct sph_params {
     double c0;    /* m/s; 0: ten times the speed that the scene lets expect */
     double gamma; /* Tait's exponent, 7 or 1 */
     int scheme, limiter, transport, viscosity; /* the enums above */
-    int surface_shift;    /* enum sph_surface_shift: how shifting ends at a free surface */
-    int riemann;          /* enum sph_riemann: how the problem of each pair is solved */
-    bool low_dissipation; /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
-    double dissipation;   /* its least fraction of the full Riemann dissipation then */
-    double damper;        /* acoustic damper beta, 0: off */
-    double alpha, delta;  /* of schemes delta and standard: artificial viscosity and density
-                             diffusion [2.58, 2.60, 2.62] */
-    bool background;      /* whether a uniform pressure lifts the lowest one to 0 [2.105] */
-    int integrator;       /* enum sph_integrator */
-    double cfl;           /* CFL_a of [2.102] */
-    double cfl_viscous;   /* CFL_v of [2.103] */
-    double box[2][3];     /* outer face of the buffer; all 0: the whole domain, no zones */
+    int surface_shift;     /* enum sph_surface_shift: how shifting ends at a free surface */
+    int riemann;           /* enum sph_riemann: how the problem of each pair is solved */
+    bool low_dissipation;  /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
+    double dissipation;    /* its least fraction of the full Riemann dissipation then */
+    int dissipation_order; /* 1: of the jump of third order, else of the bounded states' */
+    double damper;         /* acoustic damper beta, 0: off */
+    double alpha, delta;   /* of schemes delta and standard: artificial viscosity and density
+                              diffusion [2.58, 2.60, 2.62] */
+    bool background;       /* whether a uniform pressure lifts the lowest one to 0 [2.105] */
+    int integrator;        /* enum sph_integrator */
+    double cfl;            /* CFL_a of [2.102] */
+    double cfl_viscous;    /* CFL_v of [2.103] */
+    double box[2][3];      /* outer face of the buffer; all 0: the whole domain, no zones */
     /* The free zone, given instead of box; box is then larger by the widths of the zones. */
     double free[2][3];
     double box_velocity[3]; /* m/s: of a box that moves */

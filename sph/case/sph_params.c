@@ -38,8 +38,10 @@ static const struct param rows[] = {
           USED(NEED(VISCOUS, "fluid.nu is 0: nothing viscous is computed")), .comparison = true),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)",
           USED(NEED(RIEMANN, "schemes delta and standard solve no Riemann problem")), .comparison = true),
-    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "share of the Riemann dissipation between states of third order that low_dissipation leaves where nothing hits; -1: 1/8 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
           USED(NEED(BOUNDED, "it is the floor of low_dissipation, which is off or has no Riemann scheme")), .comparison = true),
+    CHOICE(P, dissipation_order, "first|third", "first", "of the jump that this share acts on: first: that between bounded states, which keeps particles in order best; third: between states of third order: gentle waves lose less, water at rest in 3D stirs a third more",
+           USED(NEED(BOUNDED, "it is of the floor of low_dissipation, which is off or has no Riemann scheme")), .comparison = true),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure",
           USED(NEED(RIEMANN, "schemes delta and standard have no pair pressure that it could damp")), .comparison = true),
     PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0",
@@ -295,7 +297,7 @@ static void resolve(const struct run *r)
     if (used.cfl_viscous <= 0.0)
         used.cfl_viscous = default_cfl_viscous(&r->scene, &used);
     if (used.dissipation < 0.0)
-        used.dissipation = used.surface == SURFACE_YES || hangs(&r->scene, &used) ? 0.125 : 0.0;
+        used.dissipation = used.surface == SURFACE_YES || hangs(&r->scene, &used) ? 0.1 : 0.0;
     if (used.alpha < 0.0)
         used.alpha = r->scene.fluid.nu > 0.0 ? 0.0 : 0.01;
     if (has_box() && used.outer == OUTER_NONE)

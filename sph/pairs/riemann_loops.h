@@ -78,10 +78,14 @@ static struct riemann_constants constants_of(const struct sph *s)
 {
     const bool filled = !s->surface, whole = filled && !s->walls,
                free = filled && !(s->zones && (s->walls || s->prm.outer == OUTER_PARTNER));
+    const bool third = s->prm.dissipation_order == 1;
     return (struct riemann_constants){
         .eos = tait_of(s),
-        .dissipation = {.factor = 3.0 / s->c0, .least = s->prm.low_dissipation ? 0.0 : 1.0},
-        .even = 2.0 / 3.0 * s->prm.dissipation,
+        .dissipation = {.factor = 3.0 / s->c0,
+                        .least = !s->prm.low_dissipation ? 1.0
+                                 : third                 ? 0.0
+                                                         : s->prm.dissipation},
+        .even = third ? 2.0 / 3.0 * s->prm.dissipation : 0.0,
         .limiter = s->prm.limiter,
         .gamma = (int)s->gamma,
         .R_1 = 1.0 / s->R,

@@ -23,7 +23,7 @@ coupling: steps 7 | transition 0.15 | buffer 0.15 | overlap 0.15 | memory 3 | ke
     interpolation linear | in_time linear | blend all | deadline 7
 output: every 0.003 | snapshots true | series 2 | checkpoint 0.002
 sph: dx 0.05 | R_dx 3 | c0 17 | gamma 1 | scheme standard | riemann exact | limiter minmod | transport none
-    surface_shift beta | viscosity monaghan | low_dissipation false | dissipation 0.4 | damper 0.4 | alpha 0.05
+    surface_shift beta | viscosity monaghan | low_dissipation false | dissipation 0.4 | dissipation_order third | damper 0.4 | alpha 0.05
     delta 0.1 | background true | integrator rk4 | cfl 0.2 | cfl_viscous 0.0001 | box ((-1,-1),(1,0.5))
     free ((-1,-1),(1,0.5)) | box_velocity (0.1,0) | box_follows b | outer exact | density_limit 1e-6 | walls ghosts
     wall_integrals clipped | births vertices | surface yes | packing 7 | noise 0.1 | extrema (-0.3,0.2,-0.2)
