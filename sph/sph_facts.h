@@ -12,6 +12,7 @@ enum sph_fact {
     FACT_SHIFT_ENDS,
     FACT_SHIFTED,
     FACT_BOUNDED,
+    FACT_FLOORED, /* sph.dissipation above 0 */
     FACT_ARTIFICIAL,
     FACT_DIFFUSIVE,
     FACT_NO_SURFACE,
@@ -27,6 +28,7 @@ enum sph_fact {
 #define WORDS_SHIFT_ENDS "a free surface, transport = tvs or tvo and apr.method = guards"
 #define WORDS_SHIFTED "sph.transport = tvs or tvo"
 #define WORDS_BOUNDED "a Riemann scheme with low_dissipation"
+#define WORDS_FLOORED "a least share of low_dissipation above 0"
 #define WORDS_ARTIFICIAL "scheme = delta or standard"
 #define WORDS_DIFFUSIVE "scheme = delta"
 #define WORDS_NO_SURFACE "no free surface"

@@ -41,7 +41,7 @@ static const struct param rows[] = {
     PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
           USED(NEED(BOUNDED, "it is the floor of low_dissipation, which is off or has no Riemann scheme")), .comparison = true),
     CHOICE(P, dissipation_order, "first|third", "first", "of the jump that this share acts on: first: that between bounded states, which keeps particles in order best; third: between states of third order: gentle waves lose less, water at rest in 3D stirs a third more",
-           USED(NEED(BOUNDED, "it is of the floor of low_dissipation, which is off or has no Riemann scheme")), .comparison = true),
+           USED(NEED(FLOORED, "nothing is left at least: see sph.dissipation and low_dissipation")), .comparison = true),
     PARAM(P, damper, "-", "0.2", 0.0, 1.0, "acoustic damper: p - damper rho c0 R div u in the pair pressure",
           USED(NEED(RIEMANN, "schemes delta and standard have no pair pressure that it could damp")), .comparison = true),
     PARAM(P, alpha, "-", "-1.0", -1.0, 1.0, "artificial viscosity of schemes delta and standard; -1: 0.01, in a viscous fluid 0",

@@ -57,6 +57,7 @@ static unsigned long long find_own(const struct run *r, const struct sph_params 
     has |= surface && one_size && shifts ? FACT(SHIFT_ENDS) : 0;
     has |= shifts ? FACT(SHIFTED) : 0;
     has |= riemann && used->low_dissipation ? FACT(BOUNDED) : 0;
+    has |= riemann && used->low_dissipation && used->dissipation > 0.0 ? FACT(FLOORED) : 0;
     has |= used->scheme == SCHEME_DELTA ? FACT(DIFFUSIVE) : 0;
     has |= c->fluid.nu > 0.0 ? FACT(VISCOUS) : 0;
     has |= walls ? FACT(WALLS) : 0;
