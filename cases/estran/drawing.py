@@ -191,12 +191,22 @@ def walled_sides(program, view):
             yield lines[wall['side']]
 
 
+def holds_water(x, corners=None):
+    """Whether a body is a tank: its corners run counter-clockwise, its triangles (rows of corners) show out of what is inside."""
+    if corners is None:
+        return np.sum(x[:, 0] * np.roll(x[:, 1], -1) - np.roll(x[:, 0], -1) * x[:, 1]) > 0
+    a, b, c = (x[corners[:, k]] - x.mean(0) for k in range(3))
+    return np.sum(a * np.cross(b, c)) > 0
+
+
 def outlines(program, part, view):
-    """Lines of walls and closed lines of bodies, in the plane."""
+    """Lines of walls and tanks and closed lines of bodies, in the plane."""
     lines, bodies = list(block_walls(program, part, view)), []
     names = [b.get('name') for b in program.case.get('bodies', [])]
     if view.dim == 2:
-        bodies += [b for b in part.bodies if len(b) > 1]
+        for body in (b for b in part.bodies if len(b) > 1):
+            tank = holds_water(body)
+            (lines if tank else bodies).append(np.concatenate([body, body[:1]]) if tank else body)
         for wall in program.case.get('walls', []):
             if len(wall.get('points', [])) > 1:
                 p = np.array([q[:2] for q in wall['points']], float)
@@ -206,7 +216,7 @@ def outlines(program, part, view):
         if x is not None:
             segments = grids.cut(x, corners, view.across, view.where)
             chains = grids.loops(segments[:, :, view.axes], float(np.max(view.high - view.low)))
-            (bodies if name in names else lines).extend(chains)
+            (bodies if name in names and not holds_water(x, corners) else lines).extend(chains)
     for box in program.case.get('blocked', []):
         a, b = ((list(box[k]) + [0, 0])[:3] for k in ('min', 'max'))
         if view.dim == 2 or a[view.across] <= view.where <= b[view.across]:

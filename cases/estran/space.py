@@ -102,7 +102,7 @@ def add_solids(scene, program, part):
     grey = matplotlib.colors.to_rgba(drawing.grey)
     for name, (x, corners) in program.triangles().items():
         x = part.meshes.get(name, x)
-        if x is not None and name in names:  # a tank would hide what is in it
+        if x is not None and name in names and not drawing.holds_water(x, corners):  # a tank would hide what is in it
             scene.add_faces(x[corners], np.tile(grey, (len(corners), 1)))
     for box in program.case.get('blocked', []):
         faces = sides(np.array(box['min'], float), np.array(box['max'], float))

@@ -49,6 +49,8 @@ static void write_scene(FILE *f, const struct scene *s)
                     w->points.x[i % w->points.n][1]);
         fprintf(f, "],\n");
     }
+    for (int k = 0; k < s->nbodies; k++)
+        tank = tank || s->bodies[k].tank;
     fprintf(f, "]\nfields = ('%s', '%s', 'pressure')\nsurface, opaque = %s, %s\n",
             all > 0.0 ? "velocity" : "vorticity", all > 0.0 ? "vorticity" : "velocity",
             scene_has_surface(s) ? "True" : "False", tank ? "False" : "True");

@@ -160,9 +160,15 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 points, polygons = vtkPoints(), vtkCellArray()
 for line in leaves(self.GetInputDataObject(0, 0)):
-    polygons.InsertNextCell(line.GetNumberOfPoints())
-    for i in range(line.GetNumberOfPoints()):
-        polygons.InsertCellPoint(points.InsertNextPoint(line.GetPoint(i)))
+    x = [line.GetPoint(i) for i in range(line.GetNumberOfPoints())]
+    turn = 0  # built-in sum is another function here
+    for p, q in zip(x, x[1:] + x[:1]):
+        turn += p[0] * q[1] - q[0] * p[1]
+    if turn > 0:  # a tank: what is inside is water
+        continue
+    polygons.InsertNextCell(len(x))
+    for p in x:
+        polygons.InsertCellPoint(points.InsertNextPoint(p))
 to = self.GetOutputDataObject(0)
 to.SetPoints(points)
 to.SetPolys(polygons)
@@ -320,7 +326,7 @@ def show_walls():
         name = os.path.basename(path)[:-5]
         solid = XDMFReader(FileNames=[path], guiName=name)
         solid.UpdatePipeline(last)
-        show_solid(name, solid, dark if dim == 2 else grey, 1.0 if opaque else 0.3)
+        show_solid(name, solid, dark if dim == 2 else grey, 1.0 if opaque or dim == 2 else 0.3)
         if dim == 2:
             show_solid('bodies', Triangulate(Input=scripted(solid, 'vtkPolyData', inside)), grey)
     for name, case in text.items():

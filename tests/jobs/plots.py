@@ -32,6 +32,10 @@ near(1000 * np.asarray(part['volume'], float).sum(), pool.series['mass'][-1], 0.
 assert len(part['pressure']) == pool.series['particles'][-1] and part['pressure'].units == 'Pa'
 near(pool.column('P')[1][-1], 1000 * 9.81 * 0.4, 0.05 * 3924)
 assert len(part.bodies) == 1 and np.allclose(np.ptp(part.bodies[0], axis=0), [0.3, 0.4])
+# a body is filled with grey, a tank, which runs the other way round its water, is not
+assert not drawing.holds_water(part.bodies[0]) and drawing.holds_water(part.bodies[0][::-1])
+faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])  # normals out
+assert drawing.holds_water(np.eye(4, 3), faces[:, ::-1]) != drawing.holds_water(np.eye(4, 3), faces)
 try:
     pool.column('Q')
     raise AssertionError('a column that is not there')
