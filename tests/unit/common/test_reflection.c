@@ -4,6 +4,7 @@
 #include "../test.h"
 
 #include <complex.h>
+#include <sys/stat.h>
 
 #include "../../../common/files/files.h"
 #include "../../../common/run/wave_gauges.h"
@@ -109,7 +110,8 @@ static void write_sea(const char *path, const double *x, double R, double end)
  * 20 s are taken, for their lines do not leak into each other. */
 static double of_sea(double R)
 {
-    static const char path[] = "test_reflection_sea.csv";
+    const char *folder = unit_file("sea"); /* of its own: tests run beside each other */
+    char path[400], spectrum[400];
     const double x[GAUGES] = {2.0, 2.2, 2.6};
     struct scene *s = NEW(struct scene, 1);
     double is = NAN;
@@ -126,12 +128,15 @@ static double of_sea(double R)
         s->probes[g].name[0] = (char)('a' + g);
     }
     struct summary *to = summary_create();
+    mkdir(folder, 0700);
+    snprintf(path, sizeof path, "%s/series.csv", folder);
+    snprintf(spectrum, sizeof spectrum, "%s/spectrum_tank.csv", folder);
     write_sea(path, x, R, 40.0);
-    wave_gauges_judge(s, path, ".", to);
+    wave_gauges_judge(s, path, folder, to);
     summary_find(to, "reflection.tank.R", &is);
     summary_free(&to);
     remove(path);
-    remove("spectrum_tank.csv");
+    remove(spectrum);
     mem_free(s);
     return is;
 }
