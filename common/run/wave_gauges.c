@@ -91,7 +91,7 @@ static int zoned(const struct scene *s, int n, const int *probe, const struct sc
             *of = s->walls + k;
             const int axis = scene_zone_box(s, *of, lo, hi);
             const double x = axis < 0 ? 0.0 : s->probes[probe[i]].at[axis];
-            if (axis >= 0 && x > lo[axis] && x < hi[axis])
+            if (axis >= 0 && (lo[axis] > s->domain.min[axis] ? x > lo[axis] : x < hi[axis]))
                 return probe[i];
         }
     return -1;
