@@ -126,8 +126,12 @@ struct line_foot line_foot(const struct line *l, const double *x)
             continue;
         const bool first = !l->closed && k == 0 && along <= 0.0,
                    last = !l->closed && k == n - 1 && along >= 1.0;
-        f = (struct line_foot){
-            {a[0] + z * d[0], a[1] + z * d[1]}, sqrt(r2), aside, first ? -1 : last};
+        f = (struct line_foot){.x = {a[0] + z * d[0], a[1] + z * d[1]},
+                               .distance = sqrt(r2),
+                               .segment = k,
+                               .part = z,
+                               .aside = aside,
+                               .past = first ? -1 : last};
         least = r2;
     }
     return f;

@@ -40,6 +40,8 @@ double line_distance(const struct line *l, const double *x);
  * `aside' is that of the one from whose straight line the other point is farther. */
 struct line_foot {
     double x[2], distance;
+    int segment; /* on which it is, and which part of the way along it, 0 to 1 */
+    double part;
     double aside; /* distance from the straight line of the segment, > 0 on its left */
     int past;     /* -1, 1: the other point is beyond the first, the last end of an open line */
 };

@@ -85,7 +85,8 @@ static double share_held(const struct scene *s, const struct param_points *point
     for (int i = 0; i < ACROSS * ACROSS; i++) {
         const double x[3] = {lo[0] + (i % ACROSS + 0.5) / ACROSS * (hi[0] - lo[0]),
                              lo[1] + (i / ACROSS + 0.5) / ACROSS * (hi[1] - lo[1]), 0.0};
-        n[line_inside(&l, x)] += wet(s, &e, x);
+        if (wet(s, &e, x))
+            n[line_inside(&l, x)]++;
     }
     return (double)n[1] / fmax(1.0, n[0] + n[1]);
 }

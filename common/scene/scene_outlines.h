@@ -7,9 +7,8 @@
 
 /* Reads the files, which stand beside the case in dir, makes their corners the points of their
  * owner and scales, rotates and shifts points; so it does with bodies of simple form
- * (scene_forms.h). Then
- * marks bodies that are tanks. Faults go to f. Before scene_check; call on all ranks alike, each
- * reads for itself. */
+ * (scene_forms.h). Then marks bodies that are tanks. Faults go to f. Before scene_check; call on
+ * all ranks alike, each reads for itself. */
 void scene_outlines_read(struct scene *s, const char *dir, const struct params *p,
                          struct faults *f);
 

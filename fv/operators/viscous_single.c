@@ -9,12 +9,13 @@
 #include <float.h>
 #include <math.h>
 
+#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 #include "helmholtz.h"
 #include "operators.h"
 #include "viscous_solver.h"
 
-enum { LANES = 16, MOST = 200 }; /* partial sums side by side; iterations */
+enum { MOST = 200 }; /* iterations */
 
 /* The fields of an iteration: direction, residual, increment; scaled so that the first residual is
  * of size 1 on average, for squares of floats underflow below 1e-38. */
@@ -66,26 +67,6 @@ static float *product_row(const struct cg *g, const float *p, int64_t n)
     return line;
 }
 
-static double sum_of(const float part[LANES])
-{
-    double sum = 0.0;
-    for (int m = 0; m < LANES; m++)
-        sum += (double)part[m];
-    return sum;
-}
-
-static double dot_row(const float *restrict a, const float *restrict b, int64_t n)
-{
-    float part[LANES] = {0.0F};
-    int64_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (int m = 0; m < LANES; m++)
-            part[m] += a[i + m] * b[i + m];
-    for (; i < n; i++)
-        part[0] += a[i] * b[i];
-    return sum_of(part);
-}
-
 /* p.A p of all ranks, after the ghosts of p. */
 static double curvature(const struct cg *g)
 {
@@ -93,7 +74,7 @@ static double curvature(const struct cg *g)
     block_halo_single(&g->s->b, g->s->dim, g->p);
     for (int a = 0; a < g->s->dim; a++)
         BLOCK_ROWS (&g->s->b, 0, at, n)
-            sum += dot_row(g->p[a] + at, product_row(g, g->p[a] + at, n), n);
+            sum += lanes_dot_single(g->p[a] + at, product_row(g, g->p[a] + at, n), n);
     MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->s->comm);
     return sum;
 }
@@ -106,7 +87,7 @@ static double descend_row(const float *restrict p, const float *restrict Ap, flo
         x[i] += alpha * p[i];
         r[i] -= alpha * Ap[i];
     }
-    return dot_row(r, r, n);
+    return lanes_dot_single(r, r, n);
 }
 
 /* Imposed cells keep their values: no residual. Returns its squares there. */

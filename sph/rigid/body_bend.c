@@ -68,33 +68,15 @@ void body_bend_velocity(const struct body_bend *bend, int k, double share, doubl
     }
 }
 
-/* Squared distance of x from the piece behind point k; *share: where it is nearest. */
-static double distance2(const struct body_bend *bend, int k, const double *x, double *share)
-{
-    const double *p = bend->x[k], *q = bend->x[(k + 1) % bend->n];
-    const double e[2] = {q[0] - p[0], q[1] - p[1]}, d[2] = {x[0] - p[0], x[1] - p[1]};
-    *share = fmin(fmax((d[0] * e[0] + d[1] * e[1]) / (e[0] * e[0] + e[1] * e[1]), 0.0), 1.0);
-    return (d[0] - *share * e[0]) * (d[0] - *share * e[0]) +
-           (d[1] - *share * e[1]) * (d[1] - *share * e[1]);
-}
-
 void body_bend_load(const struct body_bend *bend, const double *x, const double *f,
                     enum bend_load which)
 {
-    double(*const to)[2] = bend->load[which], least = INFINITY, at = 0.0;
-    int on = 0;
-    for (int k = 0; k < bend->n; k++) {
-        double share;
-        const double d2 = distance2(bend, k, x, &share);
-        if (d2 < least) {
-            least = d2;
-            at = share;
-            on = k;
-        }
-    }
+    const struct line l = {bend->n, (const double(*)[2])bend->x, true};
+    const struct line_foot at = line_foot(&l, x);
+    double(*const to)[2] = bend->load[which];
     for (int a = 0; a < 2; a++) {
-        to[on][a] += (1.0 - at) * f[a];
-        to[(on + 1) % bend->n][a] += at * f[a];
+        to[at.segment][a] += (1.0 - at.part) * f[a];
+        to[(at.segment + 1) % bend->n][a] += at.part * f[a];
     }
 }
 
