@@ -227,8 +227,9 @@ static bool has_body_in_water(const struct run *r)
 static void warn_of_lift(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;
-    const bool flat = c->domain.dim == 2, any = flat ? c->nbodies > 0 : has_body_in_water(r);
-    if (prm->R_dx < 3.0 && vec3_length(c->fluid.gravity) > 0.0 && any)
+    const bool flat = c->domain.dim == 2;
+    if (prm->R_dx < 3.0 && vec3_length(c->fluid.gravity) > 0.0 &&
+        (flat ? c->nbodies > 0 : has_body_in_water(r)))
         log_warn("sph.R_dx = %g: the lift of bodies under water is %s %% too large at 2.5, %s %% "
                  "at 3; take 3 or more",
                  prm->R_dx, flat ? "6" : "3 to 14", flat ? "0.5" : "0.3 to 1.6");

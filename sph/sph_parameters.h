@@ -28,6 +28,9 @@ enum sph_transport {
 /* sph.surface_shift, how shifting ends at a free surface: near it along it alone, or it fades as
  * the support is cut [5.14]. */
 enum sph_surface_shift { SURFACE_SHIFT_ALONG, SURFACE_SHIFT_BETA };
+/* sph.dissipation_order, of the jump that the least dissipation acts on: between bounded states, or
+ * between states of third order. */
+enum sph_dissipation_order { DISSIPATION_FIRST, DISSIPATION_THIRD };
 /* sph.viscosity, the form of the viscous term; AUTO stands in cases only. */
 enum sph_viscosity { VISCOSITY_MORRIS, VISCOSITY_MONAGHAN, VISCOSITY_AUTO };
 /* sph.outer, what the zones of open sides impose: nothing, the scene's exact solution, a partner's
@@ -62,7 +65,7 @@ struct sph_params {
     int riemann;           /* enum sph_riemann: how the problem of each pair is solved */
     bool low_dissipation;  /* bounded Riemann dissipation (Zhang, Hu & Adams 2017) */
     double dissipation;    /* its least fraction of the full Riemann dissipation then */
-    int dissipation_order; /* 1: of the jump of third order, else of the bounded states' */
+    int dissipation_order; /* enum sph_dissipation_order */
     double damper;         /* acoustic damper beta, 0: off */
     double alpha, delta;   /* of schemes delta and standard: artificial viscosity and density
                               diffusion [2.58, 2.60, 2.62] */

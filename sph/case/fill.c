@@ -331,10 +331,10 @@ static void warn_of_taken(const struct sph *s, const struct look *k)
     long long n[2] = {k->wet, k->taken};
     MPI_Allreduce(MPI_IN_PLACE, n, 2, MPI_LONG_LONG, MPI_SUM, s->run->comm);
     if (k->drawn ? 2 * n[1] > n[0] : n[1] > 0 && n[1] == n[0])
-        log_warn("walls and bodies take %lld of %lld particles that the shapes give: lines have "
-                 "fluid on "
-                 "their left; a body is a tank if all water is inside and there are no walls",
-                 n[1], n[0]);
+        log_warn(
+            "walls and bodies take %lld of %lld particles that the shapes give: lines have "
+            "fluid on their left; a body is a tank if all water is inside and there are no walls",
+            n[1], n[0]);
 }
 
 struct fill {

@@ -91,7 +91,7 @@ INLINE vec impedance(const struct tait *e, vec rho, const int gamma)
  * factor (u_i - u_j))). */
 struct dissipation {
     double factor; /* s/m: 3/c0 (Zhang, Hu & Adams, J. Comput. Phys. 335, 2017, eq. 17) */
-    double least;  /* 1: full dissipation, as in [2.100]; else 0 */
+    double least;  /* 1: full dissipation, as in [2.100] */
 };
 
 /* Weights of the linear Riemann problem between particles i and j a distance r apart, from their Z

@@ -78,7 +78,7 @@ static struct riemann_constants constants_of(const struct sph *s)
 {
     const bool filled = !s->surface, whole = filled && !s->walls,
                free = filled && !(s->zones && (s->walls || s->prm.outer == OUTER_PARTNER));
-    const bool third = s->prm.dissipation_order == 1;
+    const bool third = s->prm.dissipation_order == DISSIPATION_THIRD;
     return (struct riemann_constants){
         .eos = tait_of(s),
         .dissipation = {.factor = 3.0 / s->c0,

@@ -307,12 +307,11 @@ static bool has_fallen(struct sph *s, int i)
     int over = -1;
     bool falls = false;
     for (int side = 0; side < 2 * s->dim && !falls; side++) {
+        if (!(side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2]))
+            continue;
         const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
         falls = w && w->kind == WALL_FALLS;
-        if (side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2])
-            over = falls || !w ? side : over;
-        else
-            falls = false;
+        over = falls || !w ? side : over;
     }
     if (over >= 0 && !particles_is_guard(&s->p, i))
         s->total.fallen[over] += y[at_mass(s->dim)];

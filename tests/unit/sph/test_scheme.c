@@ -171,7 +171,7 @@ static void choose(struct sph *s, int scheme, int limiter, int viscosity, double
     s->gamma = s->prm.gamma = gamma;
     s->prm.low_dissipation = low;
     s->prm.dissipation = low ? 0.1 : 0.0;
-    s->prm.dissipation_order = 1;
+    s->prm.dissipation_order = DISSIPATION_THIRD;
     s->passes = scheme_pick(s);
     particles_lines(s);
 }
