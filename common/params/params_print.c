@@ -1,6 +1,7 @@
 /* params_print.c - what the parameter table says of itself: --help, the manual, values with units.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../base/base.h"
@@ -53,6 +54,8 @@ static const char *default_of(const struct param *r)
         snprintf(names, sizeof names, "%.*s, %.*s2, ..", n, r->dflt, n, r->dflt);
         return names;
     }
+    if (is_numeric(r) && r->dflt && strtod(r->dflt, NULL) > r->max)
+        return "not given"; /* the key's words say what stands for it */
     return r->type == PARAM_LIST ? "none" : r->dflt ? r->dflt : "required";
 }
 

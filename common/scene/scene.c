@@ -214,7 +214,7 @@ static const struct param waves_rows[] = {
     PARAM(P, period,    "s", "0.0", 0, 1e6, "of a wave, of a sea's peak; this or length",
           USED(OWN_WAVES)),
     PARAM(P, depth,     "m", "0.0", 0, 1e6, "of the still water where the waves are made; 0: from the shapes' level to the floor of the domain"),
-    PARAM(P, direction, "-", "0.0", -360, 360, "degrees about the vertical in which they run; 0: along the first horizontal axis, +x; 90: along the second; 180: -x"),
+    PARAM(P, direction, "-", "1e30", -360, 360, "degrees about the vertical in which they run; 0: along the first horizontal axis, +x; 90: along the second; 180: -x; by default into the domain from the first side of kind wave"),
     PARAM(P, at,        "-", "(0.0, 0.0)", -1e9, 1e9, "(m, s): place along the direction and time of a crest of a regular wave, of the focus of a group, of the beginning of a file",
           USED(ONLY(kind, ~ONE(WAVE_SEA), "the phases of a sea are random")), .numbers = 2),
     PARAM(P, start,     "-", "2.0", 0, 100, "periods over which the waves grow from water at rest; 0: at once"),

@@ -182,7 +182,7 @@ struct scene {
         double height;         /* m */
         double length, period; /* m, s */
         double depth;          /* m; 0: from the level to the domain's floor */
-        double direction;      /* degrees about the vertical */
+        double direction;      /* degrees about the vertical; WAVES_INWARD: not given */
         double at[3];          /* m, s: of a crest; the third is not used */
         double start;          /* periods of the soft start */
         double current;        /* m/s: of the water under the waves, along them */
@@ -239,8 +239,9 @@ struct scene {
     struct scene_meshes *meshes; /* what the files of surfaces hold; scene_mesh.h; NULL: none */
 };
 
-/* Value of initial.level and walls.level that stands for "not given". */
+/* Values of initial.level and walls.level, and of waves.direction, that stand for "not given". */
 #define LEVEL_TOP 1e30
+#define WAVES_INWARD 1e30
 
 /* "x_min", ... for SIDE_X_MIN + k. */
 extern const char *const scene_side_names[6];

@@ -10,6 +10,22 @@
 #include "scene_mesh.h"
 #include "wave_maker.h"
 
+/* Degrees about the vertical into the domain through the first side that makes waves; without one
+ * along the first horizontal axis, as a paddle that is given no other has it. */
+static double inward(const struct scene *s)
+{
+    const int up = scene_still_axis(s), first = up == 0 ? 1 : 0;
+    for (int k = 0; k < s->nwalls; k++) {
+        bool low;
+        const int axis = scene_zone_axis(s->walls + k, &low);
+        if (s->walls[k].zone == ZONE_WAVE && axis == first)
+            return low ? 0.0 : 180.0;
+        if (s->walls[k].zone == ZONE_WAVE && axis != up)
+            return low ? 90.0 : -90.0;
+    }
+    return 0.0;
+}
+
 void scene_waves_mark(struct scene *s)
 {
     for (int k = 0; k < s->nwalls; k++) {
@@ -19,6 +35,8 @@ void scene_waves_mark(struct scene *s)
                                                                                      : ZONE_NONE;
         w->kind = w->kind >= WALL_WAVE ? WALL_SLIP : w->kind;
     }
+    if (s->waves.direction >= WAVES_INWARD)
+        s->waves.direction = inward(s);
 }
 
 bool scene_makes_waves(const struct scene *s)

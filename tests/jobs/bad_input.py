@@ -598,6 +598,10 @@ tells('group', 's/^$//', 'its focus: 6 m along its direction, t = 8 s')
 holds(not told('waves.at'), 'a focus within the run is warned of')
 tells('group', 's/at = (6, 8)/at = (6, 0)/', 'warning: waves.at: the focus, t = 0 s, is not within the run, from t = 2.8 s')
 tells('group', 's/at = (6, 8)/at = (60, 8)/', 'warning: waves.at: the focus, 60 m along waves.direction, is not in the domain, which reaches from')
+# waves run in from the side that makes them, unless they are given a direction
+tells('group', 's/"x_min"/"x_m"/; s/"x_max"/"x_min"/; s/"x_m"/"x_max"/; s/at = (6, 8)/at = (-6, 8)/', 'x_max: wave zone over')
+holds(not told('waves.at'), 'waves of x_max do not run towards x_min')
+faulty('group', 's/at = (6, 8)/at = (6, 8); direction = 180/', 'waves.direction: 180 degrees: the waves run out through x_min', 'sph')
 
 # regions of refinement
 write('apr.cfg', '''format = 1;
