@@ -98,7 +98,10 @@ static const char *beyond_remedy(const struct run *r, int k, int axis)
 {
     return r->scene.domain.periodic[axis]
                ? "a body may come up to it, not through it; shift the domain, or make it larger"
-           : scene_body_moves(r->scene.bodies + k) ? "make the domain larger, or the motion smaller"
+           : scene_body_moves(r->scene.bodies + k)
+               ? "make the domain larger, or the motion smaller; a flap that turns about a hinge "
+                 "on "
+                 "a side stands on a point there, as points = ((0, 0), (-0.1, 0.1), ...)"
            : r->scene.domain.dim == 3
                ? "end it on the side, or make the domain larger"
                : "make the domain larger, or end it on the side: one that crosses "
