@@ -258,13 +258,12 @@ static void write_part(struct h5 *f, const char *name, const char *unit, const s
  * MPI_Exscan. */
 static struct h5_part rows_part(const struct h5 *f, int64_t n, int ncomp)
 {
-    int64_t first = 0, all = 0;
+    int64_t first = 0;
     MPI_Exscan(&n, &first, 1, MPI_INT64_T, MPI_SUM, f->comm);
     if (f->rank == 0)
         first = 0;
-    MPI_Allreduce(&n, &all, 1, MPI_INT64_T, MPI_SUM, f->comm);
     struct h5_part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
-    p.shape[0] = (hsize_t)all;
+    p.shape[0] = (hsize_t)ranks_count(f->comm, n);
     p.first[0] = (hsize_t)first;
     p.count[0] = (hsize_t)n;
     p.shape[1] = p.count[1] = (hsize_t)ncomp;
@@ -386,8 +385,8 @@ static bool read_at(struct h5 *f, const char *name, int64_t first, int64_t n, in
 {
     struct h5_part p = {.rank = ncomp > 1 ? 2 : 1, .empty = n == 0};
     hsize_t shape[4];
-    int fits = shape_of(f, name, shape) == p.rank && (hsize_t)(first + n) <= shape[0];
-    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, f->comm);
+    const bool fits =
+        ranks_all(f->comm, shape_of(f, name, shape) == p.rank && (hsize_t)(first + n) <= shape[0]);
     p.shape[0] = shape[0];
     p.first[0] = (hsize_t)first;
     p.count[0] = (hsize_t)n;

@@ -329,12 +329,6 @@ static bool stop_asked(const struct run *r)
     return stop;
 }
 
-static double sum_over_ranks(const struct run *r, double v)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, r->comm);
-    return v;
-}
-
 /* Largest over the ranks. Ranks may have met their timers in another order, or not at all: rank 0's
  * names count. */
 static void summarise_timers(struct run *r)
@@ -346,9 +340,8 @@ static void summarise_timers(struct run *r)
         if (r->rank == 0)
             snprintf(name, sizeof name, "%s", r->timers.of[k].name);
         MPI_Bcast(name, sizeof name, MPI_CHAR, 0, r->comm);
-        double v = timer_wall(&r->timers, name);
-        MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, r->comm);
-        summary_real(r->summary, key_text("time_s.%s", name), v);
+        summary_real(r->summary, key_text("time_s.%s", name),
+                     ranks_max(r->comm, timer_wall(&r->timers, name)));
     }
 }
 
@@ -358,7 +351,7 @@ static void summarise(struct life *l)
 {
     struct run *r = &l->r;
     struct summary *s = r->summary;
-    const double wall = wall_time() - l->began, cpu = sum_over_ranks(r, cpu_time());
+    const double wall = wall_time() - l->began, cpu = ranks_sum(r->comm, cpu_time());
     summary_text(s, "status", l->status);
     summary_text(s, "case", r->case_name);
     summary_text(s, "program", r->name);

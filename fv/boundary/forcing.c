@@ -79,8 +79,7 @@ static int64_t count_kind(const struct fv *s, struct forcing *f, int n, const do
         free_cells += !f->forced[c] && is_local(p, at);
     }
     MPI_Allreduce(&free_cells, &f->free_cells, 1, MPI_INT64_T, MPI_SUM, s->comm);
-    MPI_Allreduce(MPI_IN_PLACE, &forced, 1, MPI_INT64_T, MPI_SUM, s->comm);
-    return forced;
+    return ranks_count(s->comm, forced);
 }
 
 /* Whether one of the up to 26 neighbours has this layer. */

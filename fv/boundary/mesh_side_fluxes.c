@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include "../../common/base/base.h"
+
 /* Of walls the flux of the moving grid, or 0; other sides keep what was interpolated from
  * ghosts. */
 void mesh_bc_fluxes(const struct fv *s, double *const U[3])
@@ -132,8 +134,7 @@ double mesh_bc_net_flux(const struct fv *s)
             (void)at;
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    return sum;
+    return ranks_sum(s->m->comm, sum);
 }
 
 /* Sum of the outward vectors of sides beside computed cells. Collective. */

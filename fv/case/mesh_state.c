@@ -116,8 +116,7 @@ void mesh_state_create(struct fv *s)
     measure(s);
     double speed = 0.0;
     mesh_bc_rate(s, &speed);
-    MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    s->speed.scene = fmax(speed, limits_reference(r));
+    s->speed.scene = fmax(ranks_max(s->comm, speed), limits_reference(r));
     s->speed.decay = limits_decay(&s->run->scene);
     for (int k = 0; k < s->m->nblocks && s->moving; k++)
         if (s->m->block[k].motion)

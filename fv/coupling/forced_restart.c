@@ -57,7 +57,7 @@ static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
     int64_t n;
     int64_t *number = h5_read_all_int(f, "forced_cells", &n);
     struct numbered *all = mem_new((size_t)(number ? n : 0), sizeof *all);
-    int good = number != NULL;
+    bool good = number != NULL;
     for (int64_t k = 0; number && k < n; k++)
         all[k] = (struct numbered){number[k], k};
     if (number)
@@ -69,8 +69,7 @@ static bool find_rows(const struct fv *s, struct h5 *f, int64_t *row)
         row[i] = at ? at->row : 0;
     }
     FREE(all, number);
-    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, s->comm);
-    return good;
+    return ranks_all(s->comm, good);
 }
 
 /* Every rank reads all records of a component at a time. */

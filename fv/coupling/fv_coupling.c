@@ -73,9 +73,7 @@ static double seen_size(const struct fv *s)
         h = fmax(h, s->b.h[a]);
     for (int64_t i = 0; s->m && i < f->npartner; i++)
         h = fmax(h, pow(grid_volume(&s->grid, f->partner[i]), 1.0 / s->dim));
-    if (s->m)
-        MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return h;
+    return s->m ? ranks_max(s->comm, h) : h;
 }
 
 /* m: least height of the cells of blocks that the partner gives. */
@@ -88,8 +86,7 @@ static double least_height(const struct fv *s)
             const int64_t c = f->partner[i];
             h = fmin(h, grid_volume(&s->grid, c) / grid_face_area(&s->grid, c, a));
         }
-    MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MIN, s->comm);
-    return h;
+    return ranks_min(s->comm, h);
 }
 
 /* Width of the kernel whose mean has the second moment of a cell average: sqrt(6/5) h in 2D,

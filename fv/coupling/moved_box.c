@@ -19,9 +19,7 @@
 /* Whether any rank's imposed cells are others. Collective. */
 static bool differs(const struct fv *s, const struct forcing *f)
 {
-    int other = memcmp(f->forced, s->forcing->forced, (size_t)s->size) != 0;
-    MPI_Allreduce(MPI_IN_PLACE, &other, 1, MPI_INT, MPI_MAX, s->comm);
-    return other != 0;
+    return ranks_any(s->comm, memcmp(f->forced, s->forcing->forced, (size_t)s->size) != 0);
 }
 
 /* Fills the new lists with the partner's values where the old lists had them, else with FV's own at

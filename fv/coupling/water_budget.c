@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
@@ -127,8 +128,7 @@ static double own_water(const struct fv *s, const struct water_budget *w)
             block_cell(&s->b, i[0], i[1], i[2], x, h);
             sum += h[0] * h[1] * h[2] * surface_share(s, c) * share_outside(s, w, x, h);
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* Wet area of the interface with imposed cells, m^(dim-1). Collective. */
@@ -141,8 +141,7 @@ static double wet_area(const struct fv *s)
             if (f->counts[a][i])
                 sum += grid_face_area(&s->grid, f->face[a][i], a) *
                        surface_face_share(s, f->face[a][i], a);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* Drops that fell into FV's water since the last time are added to what FV conserves. */

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "mesh.h"
 
 static const double gauss2[2] = {0.2113248654051871, 0.7886751345948129};
@@ -301,6 +302,5 @@ double mesh_least_height(const struct mesh *m, enum mesh_status status)
             for (int64_t i = c; i < c + n; i++)
                 for (int a = 0; a < m->dim && m->status[i] == status; a++)
                     least = fmin(least, m->V[i] / sqrt(mesh_area2(m, a, i)));
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m->comm);
-    return least;
+    return ranks_min(m->comm, least);
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 #include "blocked_cells.h"
@@ -131,8 +132,7 @@ static double divergence_of_blocks(struct fv *s)
 double flow_largest_divergence(struct fv *s)
 {
     double most = s->m ? divergence_of_blocks(s) : divergence_of_even(s);
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return most;
+    return ranks_max(s->comm, most);
 }
 
 void flow_to_volume(struct fv *s, double *q)

@@ -36,15 +36,14 @@ static void apply(struct fv *s, double c, double *const x[3], double *const out[
 /* Non-uniform cells, fringe and no-slip ghosts make it unsymmetric. */
 bool mesh_viscous_symmetric(const struct fv *s)
 {
-    int plain = !s->m->uneven && !s->m->has_fringe && !s->m->moves;
+    bool plain = !s->m->uneven && !s->m->has_fringe && !s->m->moves;
     for (int q = 0; q < s->grid.nparts; q++)
         plain = plain && s->grid.part[q].kind == PART_EVEN;
     for (int k = 0; k < s->m->nblocks; k++)
         for (int q = 0; q < 2 * s->m->dim; q++)
             plain = plain && (s->m->block[k].side[q] == MESH_JOINED ||
                               s->m->block[k].side[q] == MESH_PERIODIC);
-    MPI_Allreduce(MPI_IN_PLACE, &plain, 1, MPI_INT, MPI_MIN, s->comm);
-    return plain;
+    return ranks_all(s->comm, plain);
 }
 
 /* 1/s: largest eigenvalue of -L, by cells: that of differences along one axis is 16/3, at a no-slip
@@ -71,8 +70,7 @@ double mesh_viscous_largest(const struct fv *s)
             most = fmax(most, sum / m->V[c]);
         }
     }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m->comm);
-    return s->nu * most;
+    return s->nu * ranks_max(m->comm, most);
 }
 
 /* left = free (r - x + c L x); y = x + beta (x - y) + alpha left. Returns the sum of left^2, in
@@ -129,8 +127,7 @@ static double square(const struct fv *s, double *const x[3])
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++)
         sum += helmholtz_dot(s, x[a], x[a]);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* rhs -= (1 - c L) delta, where delta has what the sides change from the old velocity to the new

@@ -111,8 +111,7 @@ static double largest_eigenvalue(const struct fv *s)
                 sum += fabs(b->rows->laplace[j][m]);
             bound = fmax(bound, sum * one * 3.0 / 16.0);
         }
-        MPI_Allreduce(MPI_IN_PLACE, &bound, 1, MPI_DOUBLE, MPI_MAX, b->cart);
-        most += bound;
+        most += ranks_max(b->cart, bound);
     }
     return s->nu * most;
 }

@@ -75,8 +75,7 @@ static double curvature(const struct cg *g)
     for (int a = 0; a < g->s->dim; a++)
         BLOCK_ROWS (&g->s->b, 0, at, n)
             sum += lanes_dot_single(g->p[a] + at, product_row(g, g->p[a] + at, n), n);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->s->comm);
-    return sum;
+    return ranks_sum(g->s->comm, sum);
 }
 
 /* x += alpha p, r -= alpha A p of a row; r.r then. */
@@ -112,8 +111,7 @@ static double descend(const struct cg *g, float alpha)
                                g->x[a] + at, g->r[a] + at);
         sum -= zero_imposed(g->s, g->r[a]);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->s->comm);
-    return sum;
+    return ranks_sum(g->s->comm, sum);
 }
 
 /* p = r + beta p */
@@ -185,8 +183,7 @@ static double renew(const struct cg *g, double c, double scale, double *const re
             forcing_zero(s->forcing, r);
         sum += helmholtz_dot(s, r, r);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* Rounding of x, each cell its own, leaves a residual of about half the largest eigenvalue times

@@ -17,8 +17,7 @@ static double cells_a_side(const struct fv *s)
     int64_t n = 0;
     for (int k = 0; k < s->grid.nparts; k++)
         n += (int64_t)s->grid.part[k].n[0] * s->grid.part[k].n[1] * s->grid.part[k].n[2];
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->comm);
-    return pow((double)n, 1.0 / s->dim);
+    return pow((double)ranks_count(s->comm, n), 1.0 / s->dim);
 }
 
 /* 1.25 nu (G_lower + G_upper)/V per axis: the diagonal of the fourth-order operator, 30/12 = 2.5

@@ -120,13 +120,11 @@ static bool restore_fields(struct fv *s, struct h5 *f, const struct layout *l)
 static bool restore_grids(struct fv *s, struct h5 *f)
 {
     struct layout *l = layout_load(f, "layout");
-    int fits = h5_rows(f, "p") == s->size;
-    MPI_Allreduce(MPI_IN_PLACE, &fits, 1, MPI_INT, MPI_MIN, s->comm);
-    if (!l && !fits)
+    const bool same = ranks_all(s->comm, h5_rows(f, "p") == s->size);
+    bool fits = l || same;
+    if (!fits)
         log_say("the restart file is of another grid or another number of ranks, and of an older "
                 "version that does not say which");
-    else
-        fits = 1;
     for (int k = 0; l && fits && k < grid_blocks(&s->grid); k++)
         fits = layout_fits(l, k, grid_cells(&s->grid, k));
     fits = fits && restore_fields(s, f, l);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"
 #include "../surface/fv_surface.h"
@@ -23,8 +24,7 @@ double surface_energy(const struct fv *s)
             sum += square > 0.0 ? 0.5 * square * surface_water(s, i) * surface_cell_volume(s, i, j)
                                 : 0.0;
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* Where along a the water ends that is in cell c, m from its centre; the end must be within `most'
@@ -111,8 +111,7 @@ static double reach_on_blocks(const struct fv *s, int a)
                 if (!inside && end > x[i])
                     most = fmax(most, end + foot_on_blocks(s, part, i, d, a, end));
             }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return most;
+    return ranks_max(s->comm, most);
 }
 
 /* The same of uniform cells and layers; those with water next to them in that direction are
@@ -133,8 +132,7 @@ static double reach_on_cells(const struct fv *s, int a)
             end = (next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5) * block_step(b, a, j + 1);
         most = fmax(most, x[a] + (isfinite(end) ? end : 0.5 * b->h[a]));
     }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, b->cart);
-    return most;
+    return ranks_max(b->cart, most);
 }
 
 /* The foot of a tongue, which is found from its slope, is no further than the domain. */
@@ -153,8 +151,7 @@ static double enstrophy(const struct fv *s)
                        ? 0.5 * part * flow_curl_squared(s, p, i) * surface_cell_volume(s, i, j)
                        : 0.0;
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* Period and damping of the modal amplitude against the exact ones. */
@@ -193,9 +190,8 @@ void surface_summarise(struct fv *s)
     summary_real(to, "volume_lost", f->lost / surface_volume_scale(s));
     summary_real(to, "volume_gained", f->gained / surface_volume_scale(s));
     if (f->fraction) {
-        double moved = f->fraction->moved;
-        MPI_Allreduce(MPI_IN_PLACE, &moved, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-        summary_real(to, "volume_moved", moved / surface_volume_scale(s));
+        summary_real(to, "volume_moved",
+                     ranks_sum(s->comm, f->fraction->moved) / surface_volume_scale(s));
         summary_real(to, "level_volume", surface_level_volume(s, NULL) / volume - 1.0);
     }
     summary_int(to, "reinitialisations", f->reinits);

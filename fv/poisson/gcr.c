@@ -33,8 +33,7 @@ static void add(int n, double a, const double *restrict x, double *restrict y)
 double gcr_norm(const struct gcr *g, const double *x)
 {
     double sum = lanes_dot_any(x, x, g->n);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->comm);
-    return sqrt(sum);
+    return sqrt(ranks_sum(g->comm, sum));
 }
 
 static double *test(struct gcr *g, int j) { return g->galerkin ? g->z[j] : g->Az[j]; }
@@ -47,8 +46,7 @@ static void make_conjugate(struct gcr *g, int k, int m, int first)
         const int j = (first + i) % GCR_KEPT;
         if (j == k || !(g->kept[j] > 0.0))
             continue;
-        double sum = lanes_dot_any(g->Az[k], test(g, j), g->n);
-        MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, g->comm);
+        const double sum = ranks_sum(g->comm, lanes_dot_any(g->Az[k], test(g, j), g->n));
         add(g->n, -sum / g->kept[j], g->z[j], g->z[k]);
         add(g->n, -sum / g->kept[j], g->Az[j], g->Az[k]);
     }

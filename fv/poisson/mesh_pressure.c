@@ -340,8 +340,7 @@ static double pinned_residual(struct fv *s, struct mesh_pressure *p, double b, d
         HYPRE(HYPRE_IJVectorGetValues(p->r.ij, 1, &p->pinned, &v));
         v = b - v;
     }
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-    return v;
+    return ranks_sum(s->m->comm, v);
 }
 
 static double in_pinned_row(const struct mesh_pressure *p, const double *b)

@@ -103,8 +103,7 @@ static void set_psi(struct fv *s, const struct poisson *p, const double *row, do
     if (!mesh_bc_pressure_given(s) && p->shift == 0.0) {
         for (int k = 0; k < p->n; k++)
             level += p->V[k] * row[k];
-        MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
-        level /= p->volumes;
+        level = ranks_sum(s->m->comm, level) / p->volumes;
     }
     memset(psi, 0, (size_t)s->size * sizeof(double));
     for (int k = 0; k < p->n; k++)

@@ -268,16 +268,9 @@ static void apply_row(const struct fv *s, const double *restrict x, int j, int64
         q[i] -= d[i] > 0.0 ? cz * (x[i - z] + x[i + z]) : 0.0;
 }
 
-/* Over all ranks. */
-static double sum_ranks(const struct fv *s, double sum)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
-}
-
 static double dot(const struct fv *s, const double *x, const double *y)
 {
-    return sum_ranks(s, helmholtz_dot(s, x, y));
+    return ranks_sum(s->comm, helmholtz_dot(s, x, y));
 }
 
 /* Takes the mean over the free cells out: the rows of A sum to zero. Returns the sum of the squares
@@ -356,7 +349,7 @@ static double advance(const struct fv *s, double rz, double *restrict x, double 
         apply_row(s, d, j, c, n, Ad + c);
         sum += lanes_dot_any(d + c, Ad + c, n);
     }
-    const double alpha = rz / sum_ranks(s, sum);
+    const double alpha = rz / ranks_sum(s->comm, sum);
     sum = 0.0;
     BLOCK_NEAR (s, 0, c, n) {
         for (int64_t i = c; i < c + n; i++) {
@@ -365,7 +358,7 @@ static double advance(const struct fv *s, double rz, double *restrict x, double 
         }
         sum += lanes_dot_any(r + c, r + c, n);
     }
-    return sum_ranks(s, sum);
+    return ranks_sum(s->comm, sum);
 }
 
 /* r = -div - A psi in place of div. Returns r.r. */
@@ -380,7 +373,7 @@ static double first_residual(const struct fv *s, double *psi, double *restrict d
             div[c + i] = -div[c + i] - row[i];
         sum += lanes_dot_any(div + c, div + c, n);
     }
-    return sum_ranks(s, sum);
+    return ranks_sum(s->comm, sum);
 }
 
 /* Square sum of a residual that rounding leaves: g L/h^2 in all wet cells. */

@@ -137,8 +137,7 @@ bool wet_boxes_find(const struct fv *s, struct wet_boxes *w)
     }
     find_runs(s, ny, run);
     make_boxes(b, ny, nz, run, &now);
-    changes = misses_some(s, w) || w->cells > SPARE * now.cells;
-    MPI_Allreduce(MPI_IN_PLACE, &changes, 1, MPI_C_BOOL, MPI_LOR, s->comm);
+    changes = ranks_any(s->comm, misses_some(s, w) || w->cells > SPARE * now.cells);
     if (changes) {
         wet_boxes_free(w);
         *w = now;

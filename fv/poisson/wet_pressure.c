@@ -375,8 +375,7 @@ static double norm(const struct fv *s, const double *v, int n)
     double sum = 0.0;
     for (int k = 0; k < n; k++)
         sum += v[k] * v[k];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sqrt(sum);
+    return sqrt(ranks_sum(s->comm, sum));
 }
 
 /* |b - A x|. */

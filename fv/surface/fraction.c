@@ -19,8 +19,7 @@ static bool any_curved(const struct mesh *m)
     bool curved = false;
     for (int q = 0; q < m->nparts; q++)
         curved = curved || m->part[q].kind == PART_CURVED;
-    MPI_Allreduce(MPI_IN_PLACE, &curved, 1, MPI_C_BOOL, MPI_LOR, m->comm);
-    return curved;
+    return ranks_any(m->comm, curved);
 }
 
 /* Whether indices change where blocks join: planes of a neighbour's cells stand in its own. */
@@ -173,8 +172,7 @@ static bool has_boxes(const struct fv *s)
     FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             any = any || surface_holds_none(s, i);
-    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm); /* ghosts see theirs */
-    return any;
+    return ranks_any(s->comm, any);
 }
 
 void fraction_start(struct fv *s)
@@ -208,8 +206,7 @@ double fraction_volume(const struct fv *s)
     FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             sum += f->C[i] * f->volume[i];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 double surface_water(const struct fv *s, int64_t c)

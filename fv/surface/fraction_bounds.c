@@ -54,8 +54,7 @@ static bool find_shares(struct fv *s)
             else if (sum_on > 0.0)
                 f->next[i] = e * f->volume[i] / sum_on;
         }
-    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm);
-    return any;
+    return ranks_any(s->comm, any);
 }
 
 /* What cell i gets from those beside it. */

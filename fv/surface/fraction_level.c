@@ -180,6 +180,5 @@ bool fraction_is_calm(const struct fv *s)
         find_smooth(s);
         calm = are_calm(s, true);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &calm, 1, MPI_C_BOOL, MPI_LAND, s->comm);
-    return calm;
+    return ranks_all(s->comm, calm);
 }

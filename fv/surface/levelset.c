@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "extension_window.h"
 #include "level_ops.h"
@@ -170,8 +171,7 @@ double surface_plan(const struct fv *s, double level, double within)
             if (own && fabs(s->gravity.level + x->height / f->g - level) <= within)
                 sum += x->up * upward_area(s, x->face, a);
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 double surface_volume_scale(const struct fv *s)

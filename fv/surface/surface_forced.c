@@ -69,9 +69,7 @@ static double largest(const struct fv *s, const struct surface_forced *f)
         for (int a = 0; a < s->dim; a++)
             h = fmax(h, w->size[p - s->grid.part][a] / sqrt(w->K[a][a][f->cell[i]]));
     }
-    if (s->m)
-        MPI_Allreduce(MPI_IN_PLACE, &h, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return h;
+    return s->m ? ranks_max(s->comm, h) : h;
 }
 
 /* m: spacing of the partner's particles, of several the largest. */

@@ -311,8 +311,7 @@ double surface_mesh_speeds(const struct fv *s, double band)
                     most = fmax(most, sum);
             }
     }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return most;
+    return ranks_max(s->comm, most);
 }
 
 void surface_mesh_gradient(const struct fv *s, const struct part *p, int64_t c, const double *phi,

@@ -87,7 +87,6 @@ void surface_sample(struct fv *s)
 {
     if (s->exact.field != FIELD_STANDING_WAVE)
         return;
-    double sum = s->m ? mode_on_blocks(s) : mode_on_even_cells(s);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    fit_add(&s->surface->oscillation, s->t, sum);
+    const double sum = s->m ? mode_on_blocks(s) : mode_on_even_cells(s);
+    fit_add(&s->surface->oscillation, s->t, ranks_sum(s->comm, sum));
 }

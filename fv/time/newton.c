@@ -210,15 +210,14 @@ void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
 {
     struct newton *w = s->newton;
     const double *r = N_VGetArrayPointer(w->residual), *f = N_VGetArrayPointer(w->fscale);
-    double worst = -1.0, all;
+    double worst = -1.0;
     int64_t at = 0;
     for (int64_t i = 0; i < (s->dim + 1) * w->cells; i++)
         if (!(fabs(r[i] * f[i]) <= worst)) {
             worst = isfinite(r[i]) ? fabs(r[i] * f[i]) : 1e300;
             at = i;
         }
-    MPI_Allreduce(&worst, &all, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    if (worst < all) /* another rank has it */
+    if (worst < ranks_max(s->comm, worst)) /* another rank has it */
         return;
     char place[PARAM_TEXT_SIZE + 64];
     double x[3];

@@ -47,8 +47,7 @@ static void add_velocities(struct fv *s)
         grid_place(&s->grid, c, x);
         any = add_velocity(s, c, x) || any;
     }
-    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm);
-    if (!any && !s->m)
+    if (!ranks_any(s->comm, any) && !s->m)
         return;
     extension_apply(s, s->u, EXTEND_FREE, LAYERS);
     sides_velocity(s, BC_GIVEN, s->u);

@@ -29,12 +29,7 @@ static bool is_periodic(const struct fv *s, unsigned sides)
 }
 
 /* Whether a wall moves along itself, on any rank. */
-static bool walls_slide(const struct fv *s)
-{
-    bool any = sides_slide(s);
-    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_C_BOOL, MPI_LOR, s->comm);
-    return any;
-}
+static bool walls_slide(const struct fv *s) { return ranks_any(s->comm, sides_slide(s)); }
 
 /* Cells that a partner or the exact solution fills do work that no budget knows, as do walls that
  * move beside a surface; nor is there one in pseudo-time or with sound. Where blocks overlap a

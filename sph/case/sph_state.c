@@ -138,9 +138,7 @@ static void create_finer(struct sph *s)
 /* Whether there is nobody, and nobody can come in. */
 static bool is_dry(const struct sph *s)
 {
-    int64_t n = s->p.n;
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
-    return n == 0 && !s->zones;
+    return ranks_count(s->run->comm, s->p.n) == 0 && !s->zones;
 }
 
 /* Four times: volumes beside each other depend on each other. */

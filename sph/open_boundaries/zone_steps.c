@@ -258,8 +258,7 @@ double zones_mass(const struct sph *s)
         sum += s->p.y[(size_t)i * s->p.nstate + 2 * s->dim + 1];
     if (s->refinement)
         sum = s->step.mass;
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
+    return ranks_sum(s->run->comm, sum);
 }
 
 /* kg: what the region and its faces hold beyond the start. Collective. */

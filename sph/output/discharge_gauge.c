@@ -14,6 +14,7 @@
 
 #include <math.h>
 
+#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 
@@ -158,6 +159,5 @@ double discharge_gauge(struct sph *s, const struct scene_probe *g)
         for (const struct sph *q = s; q; q = q->finer)
             sum += flow_of(q, &shifted);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
+    return ranks_sum(s->run->comm, sum);
 }

@@ -82,8 +82,7 @@ static double exact_kinetic(const struct sph *s)
             for (int a = 0; a < s->dim && !particles_is_guard(&q->p, i); a++)
                 sum += 0.5 * y[at_mass(s->dim)] * u[a] * u[a];
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
+    return ranks_sum(s->run->comm, sum);
 }
 
 /* sum of w |curl u|^2/2, m^dim/s^2. Needs the gradients of the present state. own: each particle by
@@ -100,8 +99,7 @@ static double enstrophy(const struct sph *s, bool own)
             sum += 0.5 * (own ? zones_share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
                    (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
+    return ranks_sum(s->run->comm, sum);
 }
 
 /* Smallest distance where ghosts of walls or the lattice behind open sides must not count. As
@@ -131,16 +129,11 @@ static double least_spacing(const struct sph *s)
         const bool all = q->p.nghost == q->p.nhalo;
         least = fmin(least, (all ? neighbours_least(q) : least_among_particles(q)) / q->dx);
     }
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
-    return least;
+    return ranks_min(s->run->comm, least);
 }
 
 /* Sum over all ranks. Collective. */
-static double total(const struct sph *s, double v)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return v;
-}
+static double total(const struct sph *s, double v) { return ranks_sum(s->run->comm, v); }
 
 /* What flows, of all levels and ranks. Collective. */
 static double particles(const struct sph *s)

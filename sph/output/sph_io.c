@@ -211,8 +211,7 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     mem_free(v);
     write_region(s, f);
     wall_files_snapshot(s, f, x, file);
-    int64_t all = n;
-    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
+    const int64_t all = ranks_count(s->run->comm, n);
     if (x)
         xdmf_points(x, s->t, file, all, s->dim, nshown, shown);
 }

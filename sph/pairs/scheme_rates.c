@@ -22,6 +22,7 @@
 
 #include <math.h>
 
+#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "riemann_rows.h"
 
@@ -49,8 +50,7 @@ double scheme_background(const struct sph *s)
     double least = INFINITY;
     for (int i = 0; i < s->p.n; i++)
         least = fmin(least, prim_line(&s->p, i)[at_rho(s->dim)]);
-    MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, s->run->comm);
-    return fmax(0.0, -eos_p(least, s->rho0, s->c0, s->gamma));
+    return fmax(0.0, -eos_p(ranks_min(s->run->comm, least), s->rho0, s->c0, s->gamma));
 }
 
 /* Central schemes need the first pass only for what reads its slopes: shifting, walls, surface

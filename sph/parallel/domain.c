@@ -387,8 +387,8 @@ bool domain_balance(struct sph *s, double tolerance)
     int *work = NEW(int, n);
     double(*x)[3] = mem_new((size_t)n, sizeof *x);
     const int64_t mine = find_work(s, x, work);
-    int64_t sum, most;
-    MPI_Allreduce(&mine, &sum, 1, MPI_INT64_T, MPI_SUM, d->comm);
+    const int64_t sum = ranks_count(d->comm, mine);
+    int64_t most;
     MPI_Allreduce(&mine, &most, 1, MPI_INT64_T, MPI_MAX, d->comm);
     const bool uneven = (double)most * d->size > (1.0 + tolerance) * (double)sum;
     if (s->lists.ready && most > 0) {

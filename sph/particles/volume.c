@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "volume.h"
 
+#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../sph.h"
 
@@ -32,8 +33,7 @@ static double sum_volumes(const struct sph *s)
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             sum += particles_is_guard(&q->p, i) ? 0.0 : q->p.y[(size_t)row * i + at];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    return sum;
+    return ranks_sum(s->run->comm, sum);
 }
 
 /* The factor is the same everywhere: densities change by it, pressures by c0^2 rho (1 - factor) to
@@ -55,8 +55,7 @@ void volume_change(struct sph *s, double by)
 {
     if (s->start.volume == 0.0)
         return;
-    MPI_Allreduce(MPI_IN_PLACE, &by, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    s->start.volume += by;
+    s->start.volume += ranks_sum(s->run->comm, by);
 }
 
 void volume_renew(struct sph *s)
