@@ -232,6 +232,20 @@ bool exact_oscillation(const struct exact *e, double *period, double *rate)
     return false;
 }
 
+void exact_summarise_oscillation(const struct fit *samples, double period, double rate,
+                                 struct summary *to)
+{
+    const double T = fit_period(samples), r = fit_rate(samples);
+    if (isfinite(T)) {
+        summary_real(to, "period", T);
+        summary_real(to, "error.period", fabs(T / period - 1.0));
+    }
+    if (isfinite(r)) {
+        summary_real(to, "damping", r);
+        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
+    }
+}
+
 bool exact_has_past(const struct exact *e)
 {
     return e->field != FIELD_POISEUILLE && e->field != FIELD_COUETTE;

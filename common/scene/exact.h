@@ -13,6 +13,7 @@
 #ifndef COMMON_EXACT_H
 #define COMMON_EXACT_H
 
+#include "../base/base.h"
 #include "../files/files.h"
 #include "../waves/waves.h"
 #include "scene_groups.h"
@@ -50,6 +51,11 @@ struct exact exact_create(const struct scene *s);
 /* Sets the period, s, and the rate of decay, 1/s, <= 0, of a standing wave or of the drop
  * (inviscid: rate 0); false for other fields. */
 bool exact_oscillation(const struct exact *e, double *period, double *rate);
+/* Writes "period" and "damping" of its signal's samples, as far as they can be fitted, and as
+ * "error.period" and "error.damping" how far they are off these; an undamped field has rate 0, and
+ * the error of the damping is then what a period loses. */
+void exact_summarise_oscillation(const struct fit *samples, double period, double rate,
+                                 struct summary *to);
 /* Height of the surface over x, m: at t = 0, and for waves of permanent form at any t. */
 double exact_surface(const struct exact *e, double x);
 double exact_surface_at(const struct exact *e, double x, double t);

@@ -545,6 +545,31 @@ void scene_check(struct scene *s, const struct params *p, struct faults *f)
         scene_check_sense(s, p, f);
 }
 
+static bool has_word(const char *list, const char *word, size_t n)
+{
+    for (const char *at = list; *(at += strspn(at, " ,")); at += strcspn(at, " ,"))
+        if (strcspn(at, " ,") == n && strncmp(at, word, n) == 0)
+            return true;
+    return false;
+}
+
+bool scene_shows(const struct scene *s, const char *field)
+{
+    return has_word(s->output.fields, field, strlen(field));
+}
+
+void scene_check_shown(const struct scene *s, const struct params *p, const char *program,
+                       const char *known, struct faults *f)
+{
+    size_t n = 0;
+    for (const char *at = s->output.fields; *(at += strspn(at, " ,")); at += n) {
+        n = strcspn(at, " ,");
+        if (!has_word(known, at, n))
+            params_fault(p, f, "output.fields", "%.*s: the fields of %s are %s", (int)n, at,
+                         program, known);
+    }
+}
+
 void scene_check_facts(const struct scene *s, const struct params *p, unsigned long long facts,
                        struct faults *f)
 {

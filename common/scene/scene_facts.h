@@ -55,5 +55,12 @@ unsigned long long scene_facts(const struct scene *s, const struct params *p);
  * without facts. */
 void scene_check_facts(const struct scene *s, const struct params *p, unsigned long long facts,
                        struct faults *f);
+/* Whether output.fields asks for this field of a snapshot: a list of words, with blanks or commas
+ * between them. */
+bool scene_shows(const struct scene *s, const char *field);
+/* A fault for each word of output.fields that is none of `known', a list like it: the fields that
+ * `program' has. */
+void scene_check_shown(const struct scene *s, const struct params *p, const char *program,
+                       const char *known, struct faults *f);
 
 #endif

@@ -63,16 +63,6 @@ void sums_window(struct coupler *c)
         fit_add(&s->fit, t, s->now[SIGNAL]);
 }
 
-static void put_ratio(struct summary *to, const char *name, double found, double exact)
-{
-    char key[64];
-    if (!isfinite(found))
-        return;
-    summary_real(to, name, found);
-    snprintf(key, sizeof key, "error.%s", name);
-    summary_real(to, key, fabs(found / exact - 1.0));
-}
-
 /* For a standing wave over both programs: period and damping from the signal's history, enstrophy
  * at the end, each against the exact solution. */
 void sums_summarise(const struct coupler *c, struct summary *to)
@@ -82,10 +72,12 @@ void sums_summarise(const struct coupler *c, struct summary *to)
     double period, rate;
     if (!c->sums || e.field != FIELD_STANDING_WAVE || !exact_oscillation(&e, &period, &rate))
         return;
-    put_ratio(to, "period", fit_period(&c->sums->fit), period);
-    put_ratio(to, "damping", fit_rate(&c->sums->fit), rate);
-    put_ratio(to, "enstrophy", c->sums->now[ENSTROPHY],
-              exact_enstrophy(&e, d->min, d->max, window_start(c, c->window)));
+    exact_summarise_oscillation(&c->sums->fit, period, rate, to);
+    const double enstrophy = c->sums->now[ENSTROPHY];
+    summary_real(to, "enstrophy", enstrophy);
+    summary_real(
+        to, "error.enstrophy",
+        fabs(enstrophy / exact_enstrophy(&e, d->min, d->max, window_start(c, c->window)) - 1.0));
 }
 
 void sums_free(struct coupler *c)

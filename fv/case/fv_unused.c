@@ -58,7 +58,7 @@ static bool pressure_unseen(const struct run *r)
     bool walls = some_block_has(MESH_WALL) || fv_params_nboxes(r) > 0;
     for (int k = 0; k < s->nwalls; k++)
         walls = walls || s->walls[k].kind == WALL_SLIP || s->walls[k].kind == WALL_NO_SLIP;
-    return !walls && s->nprobes == 0 && !(pictures && fv_field_wanted(r, "pressure"));
+    return !walls && s->nprobes == 0 && !(pictures && scene_shows(s, "pressure"));
 }
 
 /* Height of p = 0: of water that fills closed sides, or the still surface of a wave. */
@@ -259,20 +259,9 @@ static void check_elements(const struct run *r, struct faults *f)
 /* Each word names a field that this solver can write; partners have others. */
 static void check_fields(const struct run *r, struct faults *f)
 {
-    static const char *const known[] = {"velocity", "pressure", "vorticity", "vorticity_exact"};
-    const char *c = r->scene.output.fields;
-    for (int n; *c; c += n) {
-        bool is = false;
-        n = (int)strcspn(c, " ,");
-        for (int k = 0; k < 4; k++)
-            is = is || (n == (int)strlen(known[k]) && strncmp(c, known[k], (size_t)n) == 0);
-        if (n > 0 && !is)
-            params_fault(
-                r->params, f, "output.fields",
-                "%.*s: the fields of fv are velocity, pressure, vorticity, vorticity_exact", n, c);
-        n += c[n] != '\0';
-    }
-    if (!fv_field_wanted(r, "vorticity_exact"))
+    scene_check_shown(&r->scene, r->params, "fv", "velocity, pressure, vorticity, vorticity_exact",
+                      f);
+    if (!scene_shows(&r->scene, "vorticity_exact"))
         return;
     if (mesh_given_count > 0)
         params_fault(r->params, f, "output.fields", "vorticity_exact: not with blocks");

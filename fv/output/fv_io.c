@@ -13,17 +13,6 @@
 #include "../operators/fv_operators.h"
 #include "../surface/fv_surface.h"
 
-/* Whether output.fields has this word. */
-bool fv_field_wanted(const struct run *r, const char *name)
-{
-    const size_t n = strlen(name);
-    const char *all = r->scene.output.fields;
-    for (const char *c = all; (c = strstr(c, name)); c += n)
-        if ((c == all || strchr(" ,", c[-1])) && (!c[n] || strchr(" ,", c[n])))
-            return true;
-    return false;
-}
-
 /* ---- the fields: their components in all cells of this rank ---- */
 
 static void velocity(struct fv *s, double *const q[3])
@@ -61,7 +50,7 @@ static void vorticity(struct fv *s, double *const q[3])
 
 static bool has_exact_vorticity(const struct fv *s)
 {
-    return !s->m && fv_field_wanted(s->run, "vorticity_exact") &&
+    return !s->m && scene_shows(&s->run->scene, "vorticity_exact") &&
            exact_at_all_times(&s->run->scene);
 }
 
@@ -230,7 +219,7 @@ void fv_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
             write_vertices(s, f, k);
     for (const struct field *one = fields; one < fields + FIELDS; one++) {
         double *q[3] = {NULL, NULL, NULL};
-        if (!(one->has ? one->has(s) : fv_field_wanted(s->run, one->name)))
+        if (!(one->has ? one->has(s) : scene_shows(&s->run->scene, one->name)))
             continue;
         for (int a = 0; a < one->ncomp; a++)
             q[a] = NEW(double, s->size);

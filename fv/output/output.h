@@ -78,7 +78,4 @@ int newton_values(const struct newton *w, double *values);
 /* Adds iterations and halvings of the run, which took so many steps, to the summary. */
 void newton_summarise(const struct newton *w, double steps, struct summary *to);
 
-/* fv_io.c: whether output.fields has this word. */
-bool fv_field_wanted(const struct run *r, const char *name);
-
 #endif

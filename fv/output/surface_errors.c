@@ -162,15 +162,7 @@ static void summarise_oscillation(struct fv *s)
     if (s->run->coupled || s->exact.field != FIELD_STANDING_WAVE ||
         !exact_oscillation(&s->exact, &period, &rate))
         return;
-    const double T = fit_period(&s->surface->oscillation), r = fit_rate(&s->surface->oscillation);
-    if (isfinite(T)) {
-        summary_real(to, "period", T);
-        summary_real(to, "error.period", fabs(T / period - 1.0));
-    }
-    if (isfinite(r)) {
-        summary_real(to, "damping", r);
-        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
-    }
+    exact_summarise_oscillation(&s->surface->oscillation, period, rate, to);
     if (rate != 0.0 && !s->m) {
         const struct scene_domain *d = &s->run->scene.domain;
         summary_real(to, "error.enstrophy",

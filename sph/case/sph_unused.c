@@ -112,22 +112,6 @@ static void check_wall(const struct run *r, const struct sph_params *used, int k
                   "it lies outside the region of the particles");
 }
 
-/* Words of output.fields that no particle has. */
-static void check_fields(const struct run *r, struct faults *f)
-{
-    static const char known[] =
-        " velocity pressure density vorticity volume zone age level guard id ";
-    const char *at = r->scene.output.fields;
-    while (*(at += strspn(at, " ,"))) {
-        const int n = (int)strcspn(at, " ,");
-        const char *word = key_text(" %.*s ", n, at);
-        if (!strstr(known, word))
-            params_fault(r->params, f, "output.fields", "no field%sof particles; there are:%s",
-                         word, known);
-        at += n;
-    }
-}
-
 void sph_unused_check(const struct run *r, const struct param_group groups[2],
                       const struct sph_params *given, const struct sph_params *used,
                       struct faults *f)
@@ -145,5 +129,7 @@ void sph_unused_check(const struct run *r, const struct param_group groups[2],
     scene_check_facts(&r->scene, r->params, find_shared(r, used), f);
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, used, k, f);
-    check_fields(r, f);
+    scene_check_shown(&r->scene, r->params, "sph",
+                      "velocity, pressure, density, vorticity, volume, zone, age, level, guard, id",
+                      f);
 }

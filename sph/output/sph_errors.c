@@ -206,8 +206,7 @@ static void sample_signal(struct sph *s)
         fit_add(&s->total.signal_fit, s->t, signal_now(s, &e, false));
 }
 
-/* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. An
- * undamped field has rate 0, and the error is then the damping per period. */
+/* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. */
 static void summarise_oscillation(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
@@ -215,16 +214,8 @@ static void summarise_oscillation(struct sph *s)
     if (s->run->coupled || !has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
         return;
     sample_signal(s);
-    const double T = fit_period(&s->total.signal_fit), r = fit_rate(&s->total.signal_fit);
     struct summary *to = s->run->summary;
-    if (isfinite(T)) {
-        summary_real(to, "period", T);
-        summary_real(to, "error.period", fabs(T / period - 1.0));
-    }
-    if (isfinite(r)) {
-        summary_real(to, "damping", r);
-        summary_real(to, "error.damping", rate != 0.0 ? fabs(r / rate - 1.0) : fabs(r) * period);
-    }
+    exact_summarise_oscillation(&s->total.signal_fit, period, rate, to);
     if (e.field == FIELD_STANDING_WAVE && s->nu > 0.0)
         summary_real(to, "error.enstrophy",
                      fabs(enstrophy(s, false) / exact_enstrophy(&e, s->lo, s->hi, s->t) - 1.0));

@@ -93,20 +93,10 @@ static const struct field {
 };
 enum { FIELDS = sizeof fields / sizeof fields[0] };
 
-/* Whether a word stands in the list of words. */
-static bool asked(const char *list, const char *word)
-{
-    const size_t n = strlen(word);
-    for (const char *p = strstr(list, word); p; p = strstr(p + 1, word))
-        if ((p == list || strchr(" ,", p[-1])) && (p[n] == '\0' || strchr(" ,", p[n])))
-            return true;
-    return false;
-}
-
 /* Whether a snapshot shows a particle: guards where the case asks for their column. */
 static bool shows(const struct sph *s, int i)
 {
-    return !particles_is_guard(&s->p, i) || asked(s->run->scene.output.fields, "guard");
+    return !particles_is_guard(&s->p, i) || scene_shows(&s->run->scene, "guard");
 }
 
 /* Number of particles of this rank that a snapshot shows. */
@@ -191,7 +181,6 @@ static void write_region(const struct sph *s, struct h5 *f)
 void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
 {
     struct sph *s = state;
-    const char *list = s->run->scene.output.fields;
     struct xdmf_field shown[FIELDS];
     int nshown = 0;
     for (struct sph *q = s; q && s->lists.broken; q = q->finer)
@@ -202,11 +191,12 @@ void sph_snapshot(void *state, struct h5 *f, struct xdmf *x, const char *file)
     double *v = NEW(double, 3 * (size_t)n);
     write_positions(s, f, n, v);
     for (int k = 0; k < FIELDS; k++)
-        if (asked(list, fields[k].name) || (s->finer && fields[k].get == get_level)) {
+        if (scene_shows(&s->run->scene, fields[k].name) ||
+            (s->finer && fields[k].get == get_level)) {
             write_field(s, f, fields + k, n, v);
             shown[nshown++] = (struct xdmf_field){fields[k].name, components(s, fields + k)};
         }
-    if (asked(list, "id"))
+    if (scene_shows(&s->run->scene, "id"))
         write_ids(s, f, n);
     mem_free(v);
     write_region(s, f);
