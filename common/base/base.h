@@ -11,6 +11,7 @@
 #include "key_text.h"
 #include "lanes.h"
 #include "log.h"
+#include "lookup.h"
 #include "mem.h"
 #include "ranks.h"
 #include "timer.h"

@@ -17,14 +17,10 @@ static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};
 
 /* --- measures --- */
 
-/* Linear between rows; t lies within the series. By bisection. */
+/* Linear between rows; t lies within the series. */
 static double value_at(struct accept_series s, double t)
 {
-    int lo = 0, hi = s.n - 1;
-    while (hi - lo > 1) {
-        const int mid = (lo + hi) / 2;
-        *(s.t[mid] <= t ? &lo : &hi) = mid;
-    }
+    const int lo = lookup_row(s.t, 1, s.n - 1, t), hi = s.n > 1 ? lo + 1 : 0;
     const double dt = s.t[hi] - s.t[lo], w = dt > 0.0 ? (t - s.t[lo]) / dt : 0.0;
     return (1.0 - w) * s.v[lo] + w * s.v[hi];
 }

@@ -70,7 +70,6 @@ static void interpolate(const struct body_term *b, int columns, int column, doub
 {
     const double *rows = b->rows;
     const int n = b->n;
-    int lo = 0, hi = n - 1;
     *dv = *ddv = 0.0;
     if (n < 1) {
         *v = 0.0;
@@ -80,13 +79,7 @@ static void interpolate(const struct body_term *b, int columns, int column, doub
         *v = rows[columns * (n < 2 || t <= rows[0] ? 0 : n - 1) + column];
         return;
     }
-    while (hi - lo > 1) { /* the last row not after t */
-        const int mid = (lo + hi) / 2;
-        if (t >= rows[columns * mid])
-            lo = mid;
-        else
-            hi = mid;
-    }
+    const int lo = lookup_row(rows, columns, n - 1, t);
     double slope[2];
     for (int e = 0; e < 2; e++) {
         const int before = lo + e > 0 ? lo + e - 1 : 0, after = lo + e < n - 1 ? lo + e + 1 : n - 1;

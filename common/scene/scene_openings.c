@@ -106,19 +106,13 @@ void openings_resolve(struct scene *s)
 
 static double value_at(const struct motion_file *m, double t)
 {
-    int lo = 0, hi = m->n - 1;
+    const double *last = m->rows + COLUMNS * (m->n - 1);
     if (!(t > m->rows[0]))
         return m->rows[1];
-    if (t >= m->rows[COLUMNS * hi])
-        return m->rows[COLUMNS * hi + 1];
-    while (hi - lo > 1) {
-        const int mid = (lo + hi) / 2;
-        if (m->rows[COLUMNS * mid] <= t)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    const double *a = m->rows + COLUMNS * lo, *b = m->rows + COLUMNS * hi;
+    if (t >= last[0])
+        return last[1];
+    const double *a = m->rows + COLUMNS * lookup_row(m->rows, COLUMNS, m->n - 1, t);
+    const double *b = a + COLUMNS;
     return a[1] + (t - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
 }
 

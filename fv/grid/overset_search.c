@@ -132,20 +132,6 @@ static void make_bins(const struct mesh_block *b, int dim, struct bins *s)
     s->first[0] = 0;
 }
 
-/* The interval of line[n + 1] that holds x, or the one at its end. */
-static int bisect(const double *line, int n, double x)
-{
-    int lo = 0, hi = n;
-    while (hi - lo > 1) {
-        const int mid = (lo + hi) / 2;
-        if (x < line[mid])
-            hi = mid;
-        else
-            lo = mid;
-    }
-    return lo;
-}
-
 /* A cell near x to start from. In bins the one whose centre is nearest. false: x is outside of the
  * block's bounds. */
 static bool near_cell(const struct mesh *m, const struct bins *s, const struct mesh_block *b,
@@ -159,7 +145,7 @@ static bool near_cell(const struct mesh *m, const struct bins *s, const struct m
         double y[3];
         unrotate(b->prm, x, y);
         for (int a = 0; a < 3; a++)
-            cell[a] = a < m->dim ? bisect(s->line[a], b->n[a], y[a]) : 0;
+            cell[a] = a < m->dim ? lookup_row(s->line[a], 1, b->n[a], y[a]) : 0;
         return true;
     }
     bin_range(s, x, x, from, to);

@@ -46,19 +46,11 @@ static void cut_axis(struct cuts *c, int a, int n, const struct box *box, double
     mem_free(all);
 }
 
-/* The cut at or just below x: the first cell of a box that starts there. By bisection; INFINITY
- * gives the number of cells, one beyond the last. */
+/* The cut at or just below x: the first cell of a box that starts there. INFINITY gives the
+ * number of cells, one beyond the last. */
 static int cell_from(const struct cuts *c, int a, double x)
 {
-    int lo = 0, hi = c->n[a];
-    while (hi - lo > 1) {
-        const int mid = (lo + hi) / 2;
-        if (c->at[a][mid] <= x)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    return x == INFINITY ? c->n[a] : lo;
+    return x == INFINITY ? c->n[a] : lookup_row(c->at[a], 1, c->n[a], x);
 }
 
 /* The mark of cell (i, j, k). */

@@ -314,13 +314,7 @@ static double excess(double P)
     static const double of[][2] = {{0.0, 0.0},    {0.24, 0.118},  {0.40, 0.049},
                                    {0.64, 0.018}, {0.87, 0.0025}, {1.1, 0.0}};
     enum { ROWS = sizeof of / sizeof of[0] };
-    int k = 1;
-    if (P <= 0.0 || P >= of[ROWS - 1][0])
-        return 0.0;
-    while (P > of[k][0])
-        k++;
-    const double along = (P - of[k - 1][0]) / (of[k][0] - of[k - 1][0]);
-    return of[k - 1][1] + along * (of[k][1] - of[k - 1][1]);
+    return lookup_linear(of, ROWS, P);
 }
 
 /* The density at which a level with the weight `to' = rho g R has, near the surface at rest, the

@@ -2,8 +2,10 @@
  * impedance rho c is loaded by rho c u.n at once (the added mass only when the sound has run around
  * it), so the body's velocity falls at the eigenvalues of M^-1 Z, Z = int rho c [n; r x n][n; r x
  * n]^T dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
+#include <lapacke.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "body_impedance.h"
 
 /* One piece of surface with the impedances `along' its normal and `across' it, rho c dS, kg/s: adds
@@ -49,33 +51,6 @@ static int directions(const struct body *b, double D[6][6])
     return n;
 }
 
-/* Cholesky factor of a symmetric matrix, in its lower half. */
-static void factor(double A[6][6], int n)
-{
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j <= i; j++) {
-            double v = A[i][j];
-            for (int k = 0; k < j; k++)
-                v -= A[i][k] * A[j][k];
-            A[i][j] = i == j ? sqrt(v) : v / A[j][j];
-        }
-}
-
-/* A holds the factor: forward, then back. */
-static void solve(double A[6][6], int n, double *v)
-{
-    for (int i = 0; i < n; i++) {
-        for (int k = 0; k < i; k++)
-            v[i] -= A[i][k] * v[k];
-        v[i] /= A[i][i];
-    }
-    for (int i = n - 1; i >= 0; i--) {
-        for (int k = i + 1; k < n; k++)
-            v[i] -= A[k][i] * v[k];
-        v[i] /= A[i][i];
-    }
-}
-
 static double form(double D[6][6], double A[6][6], int i, int j)
 {
     double sum = 0.0;
@@ -85,12 +60,11 @@ static double form(double D[6][6], double A[6][6], int i, int j)
     return sum;
 }
 
-/* Z and M in the directions that constraints leave (D^T Z D), then the largest eigenvalue of M^-1 Z
- * by powers: six unknowns at most, so 500 of them cost nothing. The first vector has all
- * components, unequal, so that it is no eigenvector by symmetry. */
+/* Z and M in the directions that constraints leave (D^T Z D), then the largest eigenvalue of M^-1
+ * Z, both symmetric and M positive: LAPACK gives them ascending. */
 double impedance_rate(const struct impedance *z, const struct body *b)
 {
-    double D[6][6], M6[6][6] = {{0.0}}, M[6][6], Z[6][6], v[6], rate = 0.0;
+    double D[6][6], M6[6][6] = {{0.0}}, M[6][6], Z[6][6], rate[6];
     const int n = directions(b, D);
     for (int a = 0; a < 3; a++) {
         M6[a][a] = b->free->mass;
@@ -101,22 +75,6 @@ double impedance_rate(const struct impedance *z, const struct body *b)
             M[i][j] = form(D, M6, i, j);
             Z[i][j] = form(D, (double(*)[6])z->Z, i, j);
         }
-    factor(M, n);
-    for (int i = 0; i < n; i++)
-        v[i] = 1.0 / (1.0 + 0.3 * i) / sqrt(M[i][i]);
-    for (int k = 0; k < 500; k++) { /* powers; the growth of the last one is the rate */
-        double w[6] = {0.0}, size = 0.0, before = 0.0;
-        for (int i = 0; i < n; i++)
-            for (int j = 0; j < n; j++)
-                w[i] += Z[i][j] * v[j];
-        solve(M, n, w);
-        for (int i = 0; i < n; i++) { /* in the scale of momentum^2/mass */
-            size += w[i] * w[i] * M[i][i] * M[i][i];
-            before += v[i] * v[i] * M[i][i] * M[i][i];
-        }
-        rate = before > 0.0 ? sqrt(size / before) : 0.0;
-        for (int i = 0; i < n && size > 0.0; i++)
-            v[i] = w[i] / sqrt(size);
-    }
-    return rate;
+    require(n == 0 || LAPACKE_dsygv(LAPACK_ROW_MAJOR, 1, 'N', 'L', n, Z[0], 6, M[0], 6, rate) == 0);
+    return n > 0 ? rate[n - 1] : 0.0;
 }

@@ -6,16 +6,12 @@
  * itself.) SPDX-License-Identifier: BSD-3-Clause */
 #include "rest_excess.h"
 
+#include "../../common/base/base.h"
+
 double rest_excess(double depth)
 {
     static const double of[][2] = {{-0.25, 0.0},   {0.0, 0.1},     {0.147, 0.075},
                                    {0.342, 0.046}, {0.63, 0.0155}, {0.87, 0.0}};
     enum { ROWS = sizeof of / sizeof of[0] };
-    int k = 1;
-    if (!(depth > of[0][0] && depth < of[ROWS - 1][0]))
-        return 0.0;
-    while (depth > of[k][0])
-        k++;
-    const double along = (depth - of[k - 1][0]) / (of[k][0] - of[k - 1][0]);
-    return of[k - 1][1] + along * (of[k][1] - of[k - 1][1]);
+    return lookup_linear(of, ROWS, depth);
 }
