@@ -35,14 +35,21 @@ struct params {
 
 /* --- faults --- */
 
+static void append(char **text, const char *more)
+{
+    const size_t old = *text ? strlen(*text) : 0, n = strlen(more) + 1;
+    *text = mem_grow(*text, old, old + n, 1);
+    memcpy(*text + old, more, n);
+}
+
 static void add_fault(struct faults *f, const char *place, const char *fmt, va_list args)
 {
-    char what[1024], line[2300];
+    char what[1024];
     vsnprintf(what, sizeof what, fmt, args);
-    const int n = snprintf(line, sizeof line, "%s: %s\n", place, what);
-    const size_t old = f->text ? strlen(f->text) : 0;
-    f->text = mem_grow(f->text, old, old + (size_t)n + 1, 1);
-    memcpy(f->text + old, line, (size_t)n + 1);
+    append(&f->text, place);
+    append(&f->text, ": ");
+    append(&f->text, what);
+    append(&f->text, "\n");
     f->n++;
 }
 
@@ -163,15 +170,14 @@ static void read_file(struct params *p, struct faults *f)
 static void place_of(const struct params *p, const config_setting_t *s, char *place, size_t size,
                      const char *group, const char *key)
 {
-    const char *file = s && config_setting_source_file(s) ? config_setting_source_file(s) : p->path;
-    const char *dot = *key ? "." : "";
-    if (s && config_setting_source_line(s) == 0)
-        snprintf(place, size, "command line: %s%s%s", group, dot, key);
-    else if (s)
-        snprintf(place, size, "%s:%u: %s%s%s", file, config_setting_source_line(s), group, dot,
-                 key);
-    else
-        snprintf(place, size, "%s: %s%s%s", file, group, dot, key);
+    param_place(s, p->path, key_text("%s%s%s", group, *key ? "." : "", key), place, size);
+}
+
+/* The name of a key of a group, or of an element of a list (element >= 0); see key_text. */
+static const char *name_of(const char *group, int element, const char *key)
+{
+    return element < 0 ? key_text("%s.%s", group, key)
+                       : key_text("%s.[%d].%s", group, element, key);
 }
 
 /* What the command line gives for a key of a group, or of an element of a list (element >= 0). */
@@ -180,10 +186,7 @@ static struct override *override_of(struct params *p, const char *group, int ele
 {
     struct override *found = NULL;
     char whole[256];
-    if (element < 0)
-        snprintf(whole, sizeof whole, "%s.%s", group, key);
-    else
-        snprintf(whole, sizeof whole, "%s.[%d].%s", group, element, key);
+    snprintf(whole, sizeof whole, "%s", name_of(group, element, key));
     for (int k = 0; k < p->noverrides; k++) {
         if (strcmp(key_text("%s.%s", p->overrides[k].group, p->overrides[k].key), whole) == 0) {
             found = p->overrides + k; /* the last one counts */
@@ -197,13 +200,7 @@ static struct override *override_of(struct params *p, const char *group, int ele
 static void mark_given(struct params *p, const char *group, int element, const char *key,
                        const char *mark)
 {
-    char word[160];
-    const int n = element < 0
-                      ? snprintf(word, sizeof word, "%s.%s%s ", group, key, mark)
-                      : snprintf(word, sizeof word, "%s.[%d].%s%s ", group, element, key, mark);
-    const size_t old = strlen(p->given);
-    p->given = mem_grow(p->given, old, old + (size_t)n + 1, 1);
-    memcpy(p->given + old, word, (size_t)n + 1);
+    append(&p->given, key_text("%s%s ", name_of(group, element, key), mark));
 }
 
 static bool same_value(const struct param *r, const void *a, const void *b)
@@ -283,10 +280,7 @@ static void read_row(struct params *p, const struct param_group *g, const struct
         mark_given(p, g->name, element, r->key, "!");
     if (r->type == PARAM_LIST) {
         char path[160];
-        if (element < 0)
-            snprintf(path, sizeof path, "%s.%s", g->name, r->key);
-        else
-            snprintf(path, sizeof path, "%s.[%d].%s", g->name, element, r->key);
+        snprintf(path, sizeof path, "%s", name_of(g->name, element, r->key));
         read_inner(p, path, r, s, target, f);
         return;
     }
@@ -456,9 +450,8 @@ static void find_unknown_groups(struct params *p, const char *const *others, str
         snprintf(p->names + n, sizeof p->names - n, "%s ", name);
         if (known_group(p, others, name) || config_setting_source_line(s) == 0)
             continue; /* of the command line: see find_unknown_overrides */
-        const char *file = config_setting_source_file(s), *near = nearest_group(p, others, name);
-        snprintf(place, sizeof place, "%s:%u: %s", file ? file : p->path,
-                 config_setting_source_line(s), name);
+        const char *near = nearest_group(p, others, name);
+        place_of(p, s, place, sizeof place, name, "");
         params_add_fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group",
                          near);
     }
@@ -516,7 +509,7 @@ static void check_format(const struct params *p, struct faults *f)
     double v;
     char place[1300];
     if (s && !(param_number(s, &v) && v == 1.0)) {
-        snprintf(place, sizeof place, "%s:%u: format", p->path, config_setting_source_line(s));
+        place_of(p, s, place, sizeof place, "format", "");
         params_add_fault(f, place, "expected 1: this program reads format 1");
     }
 }
@@ -732,13 +725,7 @@ void params_fault(const struct params *p, struct faults *f, const char *name, co
     }
     snprintf(text, sizeof text, "%s=", key);
     const config_setting_t *s = p->read ? config_lookup(&p->cfg, key) : NULL;
-    snprintf(place, sizeof place, "%s: %s", p->path, key);
-    if (s && config_setting_source_line(s) == 0)
-        snprintf(place, sizeof place, "command line: %s", key);
-    else if (s)
-        snprintf(place, sizeof place, "%s:%u: %s",
-                 config_setting_source_file(s) ? config_setting_source_file(s) : p->path,
-                 config_setting_source_line(s), key);
+    param_place(s, p->path, key, place, sizeof place);
     for (int k = 0; k < p->noverrides; k++)
         if (strncmp(p->overrides[k].text, text, strlen(text)) == 0)
             snprintf(place, sizeof place, "command line: -p %s: %s", p->overrides[k].text, key);
@@ -772,20 +759,18 @@ bool params_list_groups(const char *path)
 
 char *params_text(const struct params *p)
 {
-    char *variables = let_text(p->let);
-    const size_t room = 32 + strlen(variables);
-    char *all = mem_new(room, 1);
-    size_t n = (size_t)snprintf(all, room, "format = 1;\n%s", variables);
-    mem_free(variables);
-    for (int k = 0; k < p->ngroups; k++) {
-        if (!params_has_group(p, p->groups[k].name))
-            continue;
-        char *one = params_group_text(p, p->groups + k);
-        const size_t m = strlen(one);
-        all = mem_grow(all, n, n + m + 1, 1);
-        memcpy(all + n, one, m + 1);
-        n += m;
-        mem_free(one);
-    }
+    char *text;
+    size_t n;
+    FILE *to = open_memstream(&text, &n);
+    require(to);
+    fputs("format = 1;\n", to);
+    let_print(to, p->let);
+    for (int k = 0; k < p->ngroups; k++)
+        if (params_has_group(p, p->groups[k].name))
+            params_print_group(to, p, p->groups + k);
+    require(fclose(to) == 0);
+    char *all = NEW(char, n + 1);
+    memcpy(all, text, n + 1);
+    free(text);
     return all;
 }

@@ -5,14 +5,15 @@
 #define COMMON_PARAMS_HINTS_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #include "parameter_table.h"
 
 /* Bytes of a row's member, by its type. */
 size_t param_size(const struct param *r);
 
-/* A group as libconfig text in plain SI; owned by the caller (mem_free). */
-char *params_group_text(const struct params *p, const struct param_group *g);
+/* Writes a group as libconfig text in plain SI. */
+void params_print_group(FILE *to, const struct params *p, const struct param_group *g);
 
 /* A search for the known word that is nearest to a given one by edit distance, where swapped
  * neighbours count once. Words further away than a third of the letters (at least one) do not

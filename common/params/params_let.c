@@ -41,11 +41,7 @@ static void free_expression(void *e) { mem_free(e); }
 static void place_of(const struct let *l, const config_setting_t *s, const char *name, char *place,
                      size_t size)
 {
-    const char *file = config_setting_source_file(s) ? config_setting_source_file(s) : l->path;
-    if (config_setting_source_line(s) == 0)
-        snprintf(place, size, "command line: let.%s", name);
-    else
-        snprintf(place, size, "%s:%u: let.%s", file, config_setting_source_line(s), name);
+    param_place(s, l->path, key_text("let.%s", name), place, size);
 }
 
 /* "known here: H, n", for a message. */
@@ -248,15 +244,10 @@ void let_free(struct let **l)
     *l = NULL;
 }
 
-char *let_text(const struct let *l)
+void let_print(FILE *to, const struct let *l)
 {
-    const size_t room = 32 + 128 * (size_t)(l ? l->n : 0);
-    char *text = mem_new(room, 1);
-    size_t n = 0;
-    for (int k = 0; l && k < l->n && n < room; k++)
-        n += (size_t)snprintf(text + n, room - n, "%s%.80s = %.17g",
-                              k ? ", " : "# let: ", l->of[k].name, l->of[k].value);
-    if (n > 0 && n + 1 < room)
-        snprintf(text + n, room - n, "\n");
-    return text;
+    for (int k = 0; l && k < l->n; k++)
+        fprintf(to, "%s%.80s = %.17g", k ? ", " : "# let: ", l->of[k].name, l->of[k].value);
+    if (l && l->n > 0)
+        fputs("\n", to);
 }

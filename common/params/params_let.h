@@ -8,7 +8,7 @@
 
 #include <libconfig.h>
 #include <stdbool.h>
-#include <stddef.h>
+#include <stdio.h>
 
 #include "parameter_table.h"
 #include "params_override.h"
@@ -26,8 +26,8 @@ void let_free(struct let **l);
  * wanted, says why not, or is NULL for a setting that is no text. Valid once let_read has seen the
  * setting; *why is borrowed from it. */
 bool let_value(const config_setting_t *s, double *v, const char **why);
-/* The variables and their values as a comment of a case, "# let: H = 0.3"; "" if there are none or
- * l is NULL. Owned by the caller (mem_free). */
-char *let_text(const struct let *l);
+/* Writes the variables and their values as a comment of a case, "# let: H = 0.3"; nothing if there
+ * are none or l is NULL. */
+void let_print(FILE *to, const struct let *l);
 
 #endif

@@ -183,164 +183,130 @@ void params_manual(const struct param_group *groups, int ngroups)
         manual_rows(groups + k, true);
 }
 
-static int print_numbers(char *to, size_t size, const struct param *r, const char *at, int n)
+static void print_numbers(FILE *to, const struct param *r, const char *at, int n)
 {
-    int len = snprintf(to, size, "(");
     for (int k = 0; k < n; k++) {
-        const char *comma = k ? ", " : "";
-        size_t left = size - (size_t)len;
+        fputs(k ? ", " : "(", to);
         if (r->type == PARAM_INTS)
-            len += snprintf(to + len, left, "%s%d", comma, ((const int *)(const void *)at)[k]);
+            fprintf(to, "%d", ((const int *)(const void *)at)[k]);
         else if (r->type == PARAM_BOOLS)
-            len += snprintf(to + len, left, "%s%s", comma,
-                            ((const bool *)(const void *)at)[k] ? "true" : "false");
+            fputs(((const bool *)(const void *)at)[k] ? "true" : "false", to);
         else
-            len +=
-                snprintf(to + len, left, "%s%.17g", comma, ((const double *)(const void *)at)[k]);
+            fprintf(to, "%.17g", ((const double *)(const void *)at)[k]);
     }
-    return len + snprintf(to + len, size - (size_t)len, ")");
+    fputs(n > 0 ? ")" : "()", to);
 }
 
-static void print_text(char *to, size_t size, const char *text)
+static void print_text(FILE *to, const char *text)
 {
-    size_t n = 0;
-    to[n++] = '"';
-    for (; *text && n + 3 < size; text++) {
-        if (*text == '"' || *text == '\\')
-            to[n++] = '\\';
-        to[n++] = *text;
-    }
-    to[n++] = '"';
-    to[n] = '\0';
+    fputc('"', to);
+    for (; *text; text++)
+        fprintf(to, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    fputc('"', to);
 }
 
-/* n points x[n][dim] as ((x, y), ..), as many as fit in. */
-static void print_points(char *to, size_t size, int n, int dim, const double *x)
+/* n points x[n][dim] as ((x, y), ..). */
+static void print_points(FILE *to, int n, int dim, const double *x)
 {
-    size_t at = (size_t)snprintf(to, size, "(");
-    for (int k = 0; k < n && at + 40 + 20 * (size_t)dim < size; k++)
+    fputs("(", to);
+    for (int k = 0; k < n; k++)
         for (int a = 0; a < dim; a++)
-            at += (size_t)snprintf(to + at, size - at, "%s%s%.17g%s", k || a ? ", " : "",
-                                   a ? "" : "(", x[dim * k + a], a == dim - 1 ? ")" : "");
-    snprintf(to + at, size - at, ")");
+            fprintf(to, "%s%s%.17g%s", k || a ? ", " : "", a ? "" : "(", x[dim * k + a],
+                    a == dim - 1 ? ")" : "");
+    fputs(")", to);
 }
 
 /* Value as libconfig text. */
-static void print_value(char *to, size_t size, const struct param *r, const void *target)
+static void print_value(FILE *to, const struct param *r, const void *target)
 {
-    const char *at = (const char *)target + r->offset;
-    int index, len;
+    const char *at = (const char *)target + r->offset, *c = r->choices;
+    const struct param_numbers *numbers = (const void *)at;
+    const struct param_points *points = (const void *)at;
+    const struct param_places *places = (const void *)at;
     switch (r->type) {
     case PARAM_REAL:
-        snprintf(to, size, "%.17g", *(const double *)(const void *)at);
+        fprintf(to, "%.17g", *(const double *)(const void *)at);
         break;
     case PARAM_INT:
-        snprintf(to, size, "%d", *(const int *)(const void *)at);
+        fprintf(to, "%d", *(const int *)(const void *)at);
         break;
     case PARAM_BOOL:
-        snprintf(to, size, "%s", *(const bool *)(const void *)at ? "true" : "false");
+        fputs(*(const bool *)(const void *)at ? "true" : "false", to);
         break;
     case PARAM_TEXT:
-        print_text(to, size, at);
+        print_text(to, at);
         break;
-    case PARAM_CHOICE: {
-        const char *c = r->choices;
-        for (index = *(const int *)(const void *)at; index > 0 && strchr(c, '|'); index--)
+    case PARAM_CHOICE:
+        for (int index = *(const int *)(const void *)at; index > 0 && strchr(c, '|'); index--)
             c = strchr(c, '|') + 1;
-        snprintf(to, size, "\"%.*s\"", (int)strcspn(c, "|"), c);
+        fprintf(to, "\"%.*s\"", (int)strcspn(c, "|"), c);
         break;
-    }
     case PARAM_BOX:
-        len = snprintf(to, size, "(");
-        len += print_numbers(to + len, size - (size_t)len, r, at, 3);
-        len += snprintf(to + len, size - (size_t)len, ", ");
-        len += print_numbers(to + len, size - (size_t)len, r, at + 3 * sizeof(double), 3);
-        snprintf(to + len, size - (size_t)len, ")");
+        fputs("(", to);
+        print_numbers(to, r, at, 3);
+        fputs(", ", to);
+        print_numbers(to, r, at + 3 * sizeof(double), 3);
+        fputs(")", to);
         break;
     case PARAM_NUMBERS:
-        print_numbers(to, size, r, at + offsetof(struct param_numbers, v),
-                      ((const struct param_numbers *)(const void *)at)->n);
+        print_numbers(to, r, (const char *)numbers->v, numbers->n);
         break;
     case PARAM_POINTS:
-        print_points(to, size, ((const struct param_points *)(const void *)at)->n, 2,
-                     (const double *)(const void *)(at + offsetof(struct param_points, x)));
+        print_points(to, points->n, 2, points->x[0]);
         break;
     case PARAM_PLACES:
-        print_points(to, size, ((const struct param_places *)(const void *)at)->n, 3,
-                     (const double *)(const void *)(at + offsetof(struct param_places, x)));
+        print_points(to, places->n, 3, places->x[0]);
         break;
     default:
-        print_numbers(to, size, r, at, 3);
+        print_numbers(to, r, at, 3);
         break;
     }
-}
-
-/* Most bytes that a row takes as text. */
-static size_t room_of(const struct param *r)
-{
-    size_t room =
-        r->type == PARAM_POINTS || r->type == PARAM_PLACES ? 80 * (size_t)PARAM_POINTS_MAX : 640;
-    for (int k = 0; r->type == PARAM_LIST && k < r->list->nrows; k++)
-        room += (size_t)r->list->max * (room_of(r->list->rows + k) + 32);
-    return room;
 }
 
 /* The rows of one group; what is not given stands in comments. */
-static size_t print_rows(const struct params *p, const char *path, const struct param *rows,
-                         int nrows, const void *target, char *to, size_t room)
+static void print_rows(FILE *to, const struct params *p, const char *path, const struct param *rows,
+                       int nrows, const void *target)
 {
-    size_t n = 0;
-    char *value = mem_new(80 * (size_t)PARAM_POINTS_MAX, 1); /* the longest value */
     for (int r = 0; r < nrows; r++) {
         const struct param_list *l = rows[r].list;
         char key[160];
         snprintf(key, sizeof key, "%s.%s", path, rows[r].key);
         const bool given = params_given(p, key);
         if (!l) {
-            print_value(value, 80 * (size_t)PARAM_POINTS_MAX, rows + r, target);
-            n += (size_t)snprintf(to + n, room - n, "  %s%s = %s;\n", given ? "" : "# ",
-                                  rows[r].key, value);
+            fprintf(to, "  %s%s = ", given ? "" : "# ", rows[r].key);
+            print_value(to, rows + r, target);
+            fputs(";\n", to);
             continue;
         }
         const char *at = (const char *)target + rows[r].offset;
         const int count = given ? *(const int *)(const void *)at : 0;
         if (count > 0)
-            n +=
-                (size_t)snprintf(to + n, room - n, "  %s = %s", rows[r].key, l->max > 1 ? "(" : "");
+            fprintf(to, "  %s = %s", rows[r].key, l->max > 1 ? "(" : "");
         for (int k = 0; k < count; k++) {
             if (l->max > 1)
                 snprintf(key, sizeof key, "%s.%s.[%d]", path, rows[r].key, k);
-            n += (size_t)snprintf(to + n, room - n, "%s{\n", k ? ", " : "");
-            n += print_rows(p, key, l->rows, l->nrows, at + l->first + l->stride * (size_t)k,
-                            to + n, room - n);
-            n += (size_t)snprintf(to + n, room - n, "  }");
+            fprintf(to, "%s{\n", k ? ", " : "");
+            print_rows(to, p, key, l->rows, l->nrows, at + l->first + l->stride * (size_t)k);
+            fputs("  }", to);
         }
         if (count > 0)
-            n += (size_t)snprintf(to + n, room - n, "%s;\n", l->max > 1 ? ")" : "");
+            fputs(l->max > 1 ? ");\n" : ";\n", to);
     }
-    mem_free(value);
-    return n;
 }
 
-char *params_group_text(const struct params *p, const struct param_group *g)
+void params_print_group(FILE *to, const struct params *p, const struct param_group *g)
 {
-    size_t room = 256;
-    for (int r = 0; r < g->nrows; r++)
-        room += room_of(g->rows + r) * (size_t)(g->stride ? *g->count + 1 : 1);
-    char *text = mem_new(room, 1);
-    size_t n = (size_t)snprintf(text, room, "%s: %s\n", g->name, g->stride ? "(" : "{");
+    fprintf(to, "%s: %s\n", g->name, g->stride ? "(" : "{");
     for (int e = 0; e < (g->stride ? *g->count : 1); e++) {
         char path[80];
         snprintf(path, sizeof path, "%s", g->name);
-        if (g->stride)
+        if (g->stride) {
             snprintf(path, sizeof path, "%s.[%d]", g->name, e);
+            fprintf(to, "  %s{\n", e ? ", " : "");
+        }
+        print_rows(to, p, path, g->rows, g->nrows, (const char *)g->target + g->stride * (size_t)e);
         if (g->stride)
-            n += (size_t)snprintf(text + n, room - n, "  %s{\n", e ? ", " : "");
-        n += print_rows(p, path, g->rows, g->nrows, (const char *)g->target + g->stride * (size_t)e,
-                        text + n, room - n);
-        if (g->stride)
-            n += (size_t)snprintf(text + n, room - n, "  }\n");
+            fputs("  }\n", to);
     }
-    snprintf(text + n, room - n, "%s;\n", g->stride ? ")" : "}");
-    return text;
+    fprintf(to, "%s;\n", g->stride ? ")" : "}");
 }

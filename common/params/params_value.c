@@ -27,6 +27,19 @@ bool param_number(const config_setting_t *s, double *v)
     }
 }
 
+void param_place(const config_setting_t *s, const char *path, const char *name, char *place,
+                 size_t size)
+{
+    const char *file = s ? config_setting_source_file(s) : NULL;
+    const unsigned line = s ? config_setting_source_line(s) : 0;
+    if (s && line == 0)
+        snprintf(place, size, "command line: %s", name);
+    else if (s)
+        snprintf(place, size, "%s:%u: %s", file ? file : path, line, name);
+    else
+        snprintf(place, size, "%s: %s", path, name);
+}
+
 static void set_real(const struct param *r, void *target, int k, double v)
 {
     char *at = (char *)target + r->offset;

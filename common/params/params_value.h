@@ -11,6 +11,10 @@
 /* Sets *v to a number of any kind, or to the value of a text that is an expression (params_let.h);
  * false: the setting is neither. */
 bool param_number(const config_setting_t *s, double *v);
+/* Where a fault of `name' stands, for its message: the setting's file and line ("path" if libconfig
+ * names no file), "command line", or the path alone where s is NULL. place[size] is cut. */
+void param_place(const config_setting_t *s, const char *path, const char *name, char *place,
+                 size_t size);
 /* Reads a row's value into its member of `target', the group's struct, and checks its range. false:
  * why[size] says what is wrong and what is expected. Not for PARAM_LIST. */
 bool param_read(const struct param *r, const config_setting_t *s, void *target, char *why,
