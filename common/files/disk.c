@@ -47,6 +47,24 @@ void disk_failed(const char *path)
               path, reason);
 }
 
+FILE *disk_begin(const char *path)
+{
+    char part[1200];
+    snprintf(part, sizeof part, "%s.part", path);
+    FILE *f = fopen(part, "w");
+    if (!f)
+        disk_failed(part);
+    return f;
+}
+
+void disk_finish(FILE *f, const char *path)
+{
+    char part[1200];
+    snprintf(part, sizeof part, "%s.part", path);
+    if (fclose(f) != 0 || rename(part, path) != 0)
+        disk_failed(path);
+}
+
 void disk_room(const char *path, double bytes)
 {
     if (free_bytes(path) >= bytes + SPARE)

@@ -5,11 +5,18 @@
 #define COMMON_DISK_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 /* Ends the run with RUN_INPUT (fail_with): names the file, the system's reason from errno and
  * whether the disk is full (less than 1 MB free). If path ends in ".part" the unfinished file is
  * removed, which makes room for the failure report. From any rank; does not return. */
 _Noreturn void disk_failed(const char *path);
+/* Opens a file that is to take the place of `path' when it is complete, so that a reader never
+ * finds half of it: PATH.part. disk_failed if it cannot be. The caller hands it to disk_finish. */
+FILE *disk_begin(const char *path);
+/* Closes the file of disk_begin and gives it its name; disk_failed if what was written is not all
+ * there. */
+void disk_finish(FILE *f, const char *path);
 /* Calls disk_failed if fewer than `bytes' bytes and 64 kB of spare are free where path is. Asked
  * before a collective write: one that fails on a single rank may leave the others waiting inside
  * the library. */

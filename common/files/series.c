@@ -22,22 +22,16 @@ struct series {
  * takes the place of the old one by rename. */
 static void drop_later_rows(const char *path, double t)
 {
-    char *line = NULL, part[1100];
+    char *line = NULL;
     size_t room = 0;
-    FILE *in = fopen(path, "r"), *out = NULL;
-    snprintf(part, sizeof part, "%s.part", path);
-    if (in)
-        out = fopen(part, "w");
-    for (bool header = true; out && getline(&line, &room, in) > 0; header = false)
+    FILE *in = fopen(path, "r"), *out = disk_begin(path);
+    for (bool header = true; in && getline(&line, &room, in) > 0; header = false)
         if (strchr(line, '\n') && (header || atof(line) <= t * (1.0 + 1e-11)))
             fputs(line, out);
     free(line);
     if (in)
         fclose(in);
-    if (out) {
-        fclose(out);
-        rename(part, path);
-    }
+    disk_finish(out, path);
 }
 
 /* Who reads columns by their names finds each of them. */

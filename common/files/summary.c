@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../base/base.h"
@@ -16,7 +17,7 @@ struct entry {
     char key[96];
     bool number;
     double value;
-    char *text; /* JSON text of what is no double; owned */
+    char *text; /* JSON text of what is no double; the library's own, for free() */
 };
 
 struct summary {
@@ -29,7 +30,7 @@ struct summary *summary_create(void) { return NEW(struct summary, 1); }
 void summary_free(struct summary **s)
 {
     for (int k = 0; *s && k < (*s)->n; k++)
-        mem_free((*s)->of[k].text);
+        free((*s)->of[k].text);
     if (*s)
         mem_free((*s)->of);
     mem_free(*s);
@@ -41,7 +42,7 @@ static struct entry *entry(struct summary *s, const char *key)
 {
     for (int k = 0; k < s->n; k++)
         if (strcmp(s->of[k].key, key) == 0) {
-            mem_free(s->of[k].text);
+            free(s->of[k].text);
             s->of[k].text = NULL;
             return s->of + k;
         }
@@ -67,58 +68,54 @@ void summary_int(struct summary *s, const char *key, long long v)
     struct entry *e = entry(s, key);
     e->number = true;
     e->value = (double)v;
-    e->text = mem_new(32, 1);
-    snprintf(e->text, 32, "%lld", v);
+    require(asprintf(&e->text, "%lld", v) > 0);
 }
 
-/* v as a JSON string into `to', which needs 2 strlen(v) + 3 bytes; control characters become
- * blanks. Returns the length without the final zero. */
-static size_t quote(char *to, const char *v)
+/* v as a JSON string; control characters become blanks. */
+static void quote(FILE *to, const char *v)
 {
-    size_t n = 0;
-    to[n++] = '"';
+    fputc('"', to);
     for (; *v; v++) {
         if (*v == '"' || *v == '\\')
-            to[n++] = '\\';
-        to[n++] = (unsigned char)*v < 32 ? ' ' : *v;
+            fputc('\\', to);
+        fputc((unsigned char)*v < 32 ? ' ' : *v, to);
     }
-    to[n++] = '"';
-    to[n] = '\0';
-    return n;
+    fputc('"', to);
 }
 
 void summary_bool(struct summary *s, const char *key, bool v)
 {
     struct entry *e = entry(s, key);
     e->number = false;
-    e->text = mem_new(8, 1);
-    strcpy(e->text, v ? "true" : "false");
+    require(asprintf(&e->text, "%s", v ? "true" : "false") > 0);
+}
+
+/* n texts between `open' and `close'. */
+static void set_texts(struct summary *s, const char *key, const char *open, int n,
+                      const char *const *v, const char *close)
+{
+    size_t size;
+    struct entry *e = entry(s, key);
+    FILE *to = open_memstream(&e->text, &size);
+    require(to);
+    e->number = false;
+    fputs(open, to);
+    for (int k = 0; k < n; k++) {
+        fputs(k ? ", " : "", to);
+        quote(to, v[k]);
+    }
+    fputs(close, to);
+    require(fclose(to) == 0);
 }
 
 void summary_text(struct summary *s, const char *key, const char *v)
 {
-    struct entry *e = entry(s, key);
-    e->number = false;
-    e->text = mem_new(2 * strlen(v) + 3, 1);
-    quote(e->text, v);
+    set_texts(s, key, "", 1, &v, "");
 }
 
-/* Room: every character may need a backslash, and each text two quotes and ", ". */
 void summary_texts(struct summary *s, const char *key, int n, const char *const *v)
 {
-    struct entry *e = entry(s, key);
-    size_t room = 8, at = 1;
-    for (int k = 0; k < n; k++)
-        room += 2 * strlen(v[k]) + 5;
-    e->number = false;
-    e->text = mem_new(room, 1);
-    e->text[0] = '[';
-    for (int k = 0; k < n; k++) {
-        at += quote(e->text + at, v[k]);
-        if (k < n - 1)
-            at += (size_t)snprintf(e->text + at, room - at, ", ");
-    }
-    snprintf(e->text + at, room - at, "]");
+    set_texts(s, key, "[", n, v, "]");
 }
 
 bool summary_find(const struct summary *s, const char *key, double *v)
@@ -202,13 +199,8 @@ void summary_extrema(struct summary *s, const double found[3], const double know
 
 void summary_write(const struct summary *s, const char *path)
 {
-    char part[1200];
-    snprintf(part, sizeof part, "%s.part", path);
-    FILE *f = fopen(part, "w");
-    if (!f)
-        disk_failed(part);
+    FILE *f = disk_begin(path);
     print_object(f, s, "", 0);
     fputs("\n", f);
-    if (fclose(f) != 0 || rename(part, path) != 0)
-        disk_failed(path);
+    disk_finish(f, path);
 }

@@ -66,16 +66,14 @@ void files_snapshot(struct run_files *f, const char *what)
 /* Rank 0 of a program that runs alone: which restart file counts. */
 static void write_manifest(const struct run *r, int64_t n, const char *file)
 {
-    char path[1100], part[1110];
+    char path[1100];
     snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
-    snprintf(part, sizeof part, "%s.part", path);
-    FILE *f = fopen(part, "w");
-    if (!f)
-        disk_failed(part);
+    FILE *f = disk_begin(path);
     fprintf(f, "step %lld\nt %.17g\n%s %s\n", (long long)n, r->t, r->name, file);
     /* on the disk before the name is: else a crash of the machine may leave an empty manifest */
-    if (fflush(f) != 0 || fsync(fileno(f)) != 0 || fclose(f) != 0 || rename(part, path) != 0)
+    if (fflush(f) != 0 || fsync(fileno(f)) != 0)
         disk_failed(path);
+    disk_finish(f, path);
 }
 
 void files_checkpoint(struct run_files *f, int64_t n, char *file)
