@@ -225,31 +225,37 @@ TEST(walls_with_water_on_both_sides_stay)
         }
 }
 
+/* A line of four corners in a half-filled tank that lies on one of its sides, under gravity g: it
+ * is left as it is drawn, or has its fluid outside. */
+static void check_standing(int side, const double (*corners)[2], bool reversed, double g, bool left)
+{
+    static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
+    struct placing p = anywhere();
+    struct scene s;
+    p.angle = side * 0.5 * M_PI;
+    scene_at(&s, &p, sea, 4);
+    s.fluid.gravity[0] = g * sin(p.angle);
+    s.fluid.gravity[1] = -g * cos(p.angle);
+    s.nwalls = 2;
+    s.walls[0].points = placed(&p, corners, 4);
+    s.walls[1].side = SIDE_X_MIN;
+    if (reversed)
+        points_reverse(&s.walls[0].points);
+    scene_orient(&s);
+    const struct line l = line_of(&s.walls[0].points, true);
+    assert_true(left ? !s.walls[0].turned : line_area(&l) < 0.0);
+}
+
 /* A baffle from a side of a tank of walls, with water inside it, too, as a level draws it, and a
  * channel that is drawn into the same tank and holds half of its water. */
 TEST(baffles_have_their_fluid_outside)
 {
     static const double baffle[][2] = {{-1, 10}, {-1, -3}, {1, -3}, {1, 10}};
     static const double channel[][2] = {{-9, 10}, {-4, -9}, {4, -9}, {9, 10}};
-    static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
     for (int trial = 0; trial < 60; trial++)
         for (int reversed = 0; reversed < 2; reversed++)
             for (int side = 0; side < 4; side++) { /* the same tank on each of its sides */
-                struct placing p = anywhere();
-                struct scene s;
-                p.angle = side * 0.5 * M_PI;
-                scene_at(&s, &p, sea, 4);
-                s.nwalls = 2;
-                s.walls[0].points = placed(&p, trial % 2 ? channel : baffle, 4);
-                s.walls[1].side = SIDE_X_MIN;
-                if (reversed)
-                    points_reverse(&s.walls[0].points);
-                scene_orient(&s);
-                const struct line l = line_of(&s.walls[0].points, true);
-                if (trial % 2)
-                    assert_false(s.walls[0].turned);
-                else
-                    assert_true(line_area(&l) < 0.0);
+                check_standing(side, trial % 2 ? channel : baffle, reversed, 0.0, trial % 2);
             }
 }
 
@@ -259,27 +265,11 @@ TEST(dykes_have_their_fluid_outside)
 {
     static const double dyke[][2] = {{3, -11}, {1, 1}, {-1, 1}, {-3, -11}};
     static const double hood[][2] = {{8, -11}, {8, -1}, {-8, -1}, {-8, -11}};
-    static const double sea[][2] = {{-9.9, -9.9}, {9.9, -9.9}, {9.9, 0}, {-9.9, 0}};
     for (int trial = 0; trial < 60; trial++)
         for (int reversed = 0; reversed < 2; reversed++)
             for (int side = 0; side < 4; side++) {
-                struct placing p = anywhere();
-                struct scene s;
-                p.angle = side * 0.5 * M_PI;
-                scene_at(&s, &p, sea, 4);
-                s.fluid.gravity[0] = trial % 3 == 2 ? 0.0 : 9.81 * sin(p.angle);
-                s.fluid.gravity[1] = trial % 3 == 2 ? 0.0 : -9.81 * cos(p.angle);
-                s.nwalls = 2;
-                s.walls[0].points = placed(&p, trial % 3 == 1 ? hood : dyke, 4);
-                s.walls[1].side = SIDE_X_MIN;
-                if (reversed)
-                    points_reverse(&s.walls[0].points);
-                scene_orient(&s);
-                const struct line l = line_of(&s.walls[0].points, true);
-                if (trial % 3 > 0)
-                    assert_false(s.walls[0].turned);
-                else
-                    assert_true(line_area(&l) < 0.0);
+                check_standing(side, trial % 3 == 1 ? hood : dyke, reversed,
+                               trial % 3 == 2 ? 0.0 : 9.81, trial % 3 > 0);
             }
 }
 

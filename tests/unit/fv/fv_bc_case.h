@@ -10,14 +10,6 @@
 #include "../../../fv/output/output.h"
 #include "fv_case.h"
 
-static inline struct scene_wall *wall_add(struct fv_case *c, enum scene_side side,
-                                          enum wall_kind kind, double u)
-{
-    struct scene_wall *w = c->run.scene.walls + c->run.scene.nwalls++;
-    *w = (struct scene_wall){.side = side, .kind = kind, .velocity = {u, 0.0, 0.0}};
-    return w;
-}
-
 /* Largest difference of the velocity along x from the averages of 6 y (1 - y) over the layers,
  * which a channel of the unit square has. */
 static inline double parabola_error(const struct fv *s)

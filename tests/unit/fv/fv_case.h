@@ -89,6 +89,14 @@ static inline void fv_case_close(struct fv_case *c, enum wall_kind kind)
             scene->walls[scene->nwalls++] = (struct scene_wall){.side = side, .kind = kind};
 }
 
+static inline struct scene_wall *wall_add(struct fv_case *c, enum scene_side side,
+                                          enum wall_kind kind, double u)
+{
+    struct scene_wall *w = c->run.scene.walls + c->run.scene.nwalls++;
+    *w = (struct scene_wall){.side = side, .kind = kind, .velocity = {u, 0.0, 0.0}};
+    return w;
+}
+
 static inline struct fv *fv_case_start(struct fv_case *c, struct h5 *f)
 {
     c->s = fv_create(&c->run, f);

@@ -77,14 +77,32 @@ static inline void mesh_case_read(struct mesh_case *c, MPI_Comm comm, const char
     remove(c->path);
 }
 
+/* Checks the case as the program does, and starts it. */
+static inline struct fv *mesh_case_create(struct mesh_case *c, struct h5 *f)
+{
+    fv_params_check(&c->run, &c->faults);
+    if (params_report(&c->faults) > 0)
+        abort();
+    return fv_create(&c->run, f);
+}
+
+/* Checks a case that must be refused in this word, and ends it. */
+static inline void mesh_case_refuse(struct mesh_case *c, const char *word)
+{
+    if (c->faults.n == 0)
+        fv_params_check(&c->run, &c->faults);
+    assert_true(c->faults.n > 0);
+    if (c->run.rank == 0 && !strstr(c->faults.text, word))
+        fail_msg("'%s' is not in: %s", word, c->faults.text);
+    mem_free(c->faults.text);
+    params_free(&c->params);
+}
+
 static inline struct fv *mesh_case_start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
                                          const char *const *overrides)
 {
     mesh_case_read(c, comm, blocks, overrides);
-    fv_params_check(&c->run, &c->faults);
-    if (params_report(&c->faults) > 0)
-        abort();
-    return fv_create(&c->run, NULL);
+    return mesh_case_create(c, NULL);
 }
 
 static inline void mesh_case_end(struct mesh_case *c, struct fv **s)

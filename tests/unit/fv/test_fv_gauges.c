@@ -132,9 +132,7 @@ static double stretched_error(int n)
                                          "domain.periodic=(true,false)", NULL});
     for (int k = 0; k < 2; k++)
         add_gauge(&c.run.scene, PROBE_VELOCITY, y[k], 0.0);
-    fv_params_check(&c.run, &c.faults);
-    assert_int_equal(params_report(&c.faults), 0);
-    struct fv *s = fv_create(&c.run, NULL);
+    struct fv *s = mesh_case_create(&c, NULL);
     assert_true(mesh_case_run(s, 1000, 3.0)); /* exp(-pi^2 nu t) is 1e-13 */
     fv_probe(s, values);
     for (int k = 0; k < 2; k++)
@@ -166,9 +164,7 @@ TEST(levels_on_blocks)
         c.run.scene.shapes[c.run.scene.nshapes++] =
             (struct scene_shape){.form = SHAPE_BELOW, .level = at_rest};
         add_gauge(&c.run.scene, PROBE_LEVEL, 0.0, 0.0);
-        fv_params_check(&c.run, &c.faults);
-        assert_int_equal(params_report(&c.faults), 0);
-        struct fv *s = fv_create(&c.run, NULL);
+        struct fv *s = mesh_case_create(&c, NULL);
         fv_probe(s, &level);
         assert_close(level, at_rest, 1e-9);
         mesh_case_end(&c, &s);
@@ -191,9 +187,7 @@ TEST(rings_tell_the_level)
     for (int k = 0; k < 3; k++)
         c.run.scene.probes[c.run.scene.nprobes++] =
             (struct scene_probe){.kind = PROBE_LEVEL, .at = {x[k], -0.4, 0.0}};
-    fv_params_check(&c.run, &c.faults);
-    assert_int_equal(params_report(&c.faults), 0);
-    struct fv *s = fv_create(&c.run, NULL);
+    struct fv *s = mesh_case_create(&c, NULL);
     fv_probe(s, value);
     assert_close(value[0], -0.25, 1e-9);
     assert_close(value[1], -0.25, 1e-9);

@@ -59,9 +59,7 @@ TEST(growing_rest_ends_a_run)
         &c, MPI_COMM_WORLD, over,
         (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"", NULL});
     c.run.scene.shapes[c.run.scene.nshapes++] = water;
-    fv_params_check(&c.run, &c.faults);
-    assert_int_equal(params_report(&c.faults), 0);
-    struct fv *s = fv_create(&c.run, NULL);
+    struct fv *s = mesh_case_create(&c, NULL);
     for (int64_t k = 1; k <= 300 && !d.bad; k++) {
         const struct flow_energy e = {.kinetic = 1e-3 * pow(1.01 * 1.01, (double)k - 300.0),
                                       .volume = 0.4};
@@ -92,9 +90,7 @@ TEST(edges_make_no_energy)
                    (const char *const[]){"fluid.gravity=(0,-9.81)", "initial.field=\"rest\"",
                                          "domain.max=(2,1)", NULL});
     c.run.scene.shapes[c.run.scene.nshapes++] = water;
-    fv_params_check(&c.run, &c.faults);
-    assert_int_equal(params_report(&c.faults), 0);
-    struct fv *s = fv_create(&c.run, NULL);
+    struct fv *s = mesh_case_create(&c, NULL);
     while (!d.bad && c.run.step < (SANITIZED ? 30 : 160)) {
         c.run.t += integrate(s, 10.0, &d);
         c.run.step++;

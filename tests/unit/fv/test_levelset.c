@@ -323,9 +323,8 @@ TEST(films_run_as_theory_says)
                                           "fv.cells=(4,12)", of[k], NULL});
         c.run.scene.fluid.gravity[0] = sqrt(0.75);
         c.run.scene.fluid.gravity[1] = -0.5;
-        c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
-        c.run.scene.walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP};
-        c.run.scene.nwalls = 2;
+        wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+        wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
         c.run.scene.shapes[c.run.scene.nshapes++] =
             (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.5, 0}}};
         struct fv *s = fv_case_start(&c, NULL);
@@ -356,9 +355,8 @@ TEST(thin_films_rub_at_any_level)
                                           "fv.cells=(8,10)", NULL});
         c.run.scene.fluid.gravity[0] = 0.5;
         c.run.scene.fluid.gravity[1] = -sqrt(0.75);
-        c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_Y_MIN, .kind = WALL_NO_SLIP};
-        c.run.scene.walls[1] = (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP};
-        c.run.scene.nwalls = 2;
+        wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
+        wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
         c.run.scene.shapes[c.run.scene.nshapes++] =
             (struct scene_shape){.form = SHAPE_BOX, .box = {{-1, -1, 0}, {2, 0.1 * cells[k], 0}}};
         struct fv *s = fv_case_start(&c, NULL);
@@ -464,13 +462,10 @@ TEST(currents_pass_openings)
                         k == 1 ? "initial.field=\"rest\"" : "initial.field=\"uniform\"",
                         k == 1 ? "initial.U=0.1" : "initial.velocity=(0.5,0)", NULL});
         const double U = k == 1 ? 0.1 : 0.5;
-        const struct scene_wall walls[] = {
-            {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {U, 0.0, 0.0}},
-            {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW},
-            {.side = SIDE_Y_MIN, .kind = WALL_SLIP},
-            {.side = SIDE_Y_MAX, .kind = WALL_SLIP}};
-        memcpy(c.run.scene.walls, walls, sizeof walls);
-        c.run.scene.nwalls = 4;
+        wall_add(&c, SIDE_X_MIN, WALL_INFLOW, U);
+        wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0);
+        wall_add(&c, SIDE_Y_MIN, WALL_SLIP, 0.0);
+        wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
         c.run.scene.shapes[c.run.scene.nshapes++] =
             (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
         struct fv *s = fv_case_start(&c, NULL);

@@ -43,10 +43,7 @@ static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks, 
         {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .carried = carried}};
     memcpy(c->run.scene.walls, walls, sizeof walls);
     c->run.scene.nwalls = 2;
-    fv_params_check(&c->run, &c->faults);
-    if (params_report(&c->faults) > 0)
-        abort();
-    return fv_create(&c->run, f);
+    return mesh_case_create(c, f);
 }
 
 /* A vortex of Gaussian stream function in the uniform flow. */
@@ -144,9 +141,7 @@ TEST(each_opening_has_its_parabola)
                                                                   .profile = PROFILE_PARABOLIC};
     c.run.scene.walls[c.run.scene.nwalls++] =
         (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_OUTFLOW};
-    fv_params_check(&c.run, &c.faults);
-    assert_int_equal(params_report(&c.faults), 0);
-    struct fv *s = fv_create(&c.run, NULL);
+    struct fv *s = mesh_case_create(&c, NULL);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         double w[3];
         mesh_side_velocity(&c.run, s->m->block + places[k].block, 0,
@@ -172,9 +167,7 @@ static double fastest(double pressure)
         (struct scene_wall){.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {1.0, 0.0, 0.0}};
     c.run.scene.walls[c.run.scene.nwalls++] =
         (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .pressure = pressure};
-    fv_params_check(&c.run, &c.faults);
-    assert_int_equal(params_report(&c.faults), 0);
-    struct fv *s = fv_create(&c.run, NULL);
+    struct fv *s = mesh_case_create(&c, NULL);
     assert_true(mesh_case_run(s, 1000, 0.3));
     const double most = s->max.u[0];
     mesh_case_end(&c, &s);

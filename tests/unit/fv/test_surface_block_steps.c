@@ -39,21 +39,13 @@ static const char canal[] = "{ name = \"v\"; cells = (32, 32); max = (1.2, 1.2);
 static const char basin[] = "{ name = \"basin\"; mapping = \"annulus\"; radius = (0.3, 0.8); arc = "
                             "(180.0, 360.0); cells = (10, 40); " SLIP_I SLIP_J "}";
 
-static struct fv *check_and_start(struct mesh_case *c)
-{
-    fv_params_check(&c->run, &c->faults);
-    if (params_report(&c->faults) > 0)
-        abort();
-    return fv_create(&c->run, NULL);
-}
-
 static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
                         const char *const *overrides, const struct scene_shape *water)
 {
     mesh_case_read(c, comm, blocks, overrides);
     if (water)
         c->run.scene.shapes[c->run.scene.nshapes++] = *water;
-    return check_and_start(c);
+    return mesh_case_create(c, NULL);
 }
 
 static void is_still(const char *blocks, double level)
@@ -215,7 +207,7 @@ static struct fv *start_current(struct mesh_case *c, const char *blocks, const c
     c->run.scene.nwalls = 4;
     c->run.scene.shapes[c->run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
-    return check_and_start(c);
+    return mesh_case_create(c, NULL);
 }
 
 /* m/s: largest distance of the water's velocity from (U, 0). */

@@ -40,10 +40,7 @@ static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
     mesh_case_read(c, comm, blocks, overrides);
     if (water)
         c->run.scene.shapes[c->run.scene.nshapes++] = *water;
-    fv_params_check(&c->run, &c->faults);
-    if (params_report(&c->faults) > 0)
-        abort();
-    return fv_create(&c->run, NULL);
+    return mesh_case_create(c, NULL);
 }
 
 static void is_still(const char *blocks, double level, int dim)

@@ -177,13 +177,10 @@ TEST(currents_pass_openings)
                         "fv.surface=\"yes\"", CLOSED, "fluid.gravity=(0,-9.81)", "fv.cells=(20,12)",
                         "domain.max=(2,1)", "fluid.nu=1e-2", "initial.level=0.5", integrators[k],
                         "initial.field=\"uniform\"", "initial.velocity=(0.5,0)", NULL});
-        const struct scene_wall walls[] = {
-            {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}},
-            {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW},
-            {.side = SIDE_Y_MIN, .kind = WALL_SLIP},
-            {.side = SIDE_Y_MAX, .kind = WALL_SLIP}};
-        memcpy(c.run.scene.walls, walls, sizeof walls);
-        c.run.scene.nwalls = 4;
+        wall_add(&c, SIDE_X_MIN, WALL_INFLOW, 0.5);
+        wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0);
+        wall_add(&c, SIDE_Y_MIN, WALL_SLIP, 0.0);
+        wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
         c.run.scene.shapes[c.run.scene.nshapes++] =
             (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
         struct fv *s = fv_case_start(&c, NULL);

@@ -39,16 +39,12 @@ static const char short_one[] =
     "}, { kind = \"harmonic\"; axis = \"rz\"; amplitude = 0.5; period = 1.3; } ); }"
 
 static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
-                        const char *const *overrides, double level, struct h5 *f)
+                        const char *const *overrides, double level)
 {
     mesh_case_read(c, comm, blocks, overrides);
     c->run.scene.shapes[c->run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BELOW, .level = level};
-    fv_params_check(&c->run, &c->faults);
-    if (params_report(&c->faults) > 0)
-        abort();
-    (void)f;
-    return fv_create(&c->run, NULL);
+    return mesh_case_create(c, NULL);
 }
 
 /* Force along y on the bodies. */
@@ -75,7 +71,7 @@ TEST(a_body_at_rest_has_its_buoyancy)
         struct fv *s = start(&c, MPI_COMM_WORLD, k == 2 ? short_one : half,
                              (const char *const[]){k == 2 ? "fluid.gravity=(0,-9.81,0)" : HEAVY,
                                                    REST, k == 2 ? "domain.dim=3" : NULL, NULL},
-                             level, NULL);
+                             level);
         const double volume = surface_volume(s);
         assert_true(mesh_case_run(s, SANITIZED ? 2 : k == 2 ? 4 : 20, 100.0));
         assert_close(s->max.u[0], 0.0, 1e-10);
@@ -105,7 +101,7 @@ TEST(still_water_stays_where_a_block_moves)
     for (int q = 0; q < 3; q++) {
         struct mesh_case c;
         struct fv *s = start(&c, MPI_COMM_WORLD, SWINGS,
-                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363, NULL);
+                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363);
         double worst = 0.0;
         for (int k = 0; k < (q == 0 ? 8 : 4); k++) {
             assert_true(mesh_case_run(s, 3, 100.0));
@@ -134,7 +130,7 @@ TEST(a_body_that_speeds_up_has_its_added_mass)
         struct fv *s = start(
             &c, MPI_COMM_WORLD, blocks,
             (const char *const[]){"fluid.gravity=(0,-1e-6)", THIN, steps[q], "time.end=0.3", NULL},
-            0.0, NULL);
+            0.0);
         const double all = room(s), volume = surface_volume(s);
         bool good = true;
         for (int k = 1; k <= (SANITIZED ? 2 : 8); k++)
@@ -230,7 +226,7 @@ TEST(water_falls_with_its_tank)
     for (int q = 0; q < 3; q++) {
         struct mesh_case c;
         struct fv *s = start(&c, MPI_COMM_WORLD, falls,
-                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.5, NULL);
+                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.5);
         double off = 0.0;
         assert_true(mesh_case_run(s, 100, 0.2));
         FLOW_ROWS (s, k, n)
@@ -255,7 +251,7 @@ TEST(water_starts_and_stops_with_its_tank)
     for (int q = 0; q < (SANITIZED ? 1 : 3); q++) {
         struct mesh_case c;
         struct fv *s = start(&c, MPI_COMM_WORLD, falls,
-                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363, NULL);
+                             (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363);
         const double volume = surface_volume(s);
         assert_true(mesh_case_run(s, 1000, 0.1));
         s->sides->set = false;

@@ -96,6 +96,17 @@ static inline bool none_anywhere(long bad)
     return bad == 0;
 }
 
+/* The share of the support of each particle that no wall cuts off; mem_free. */
+static inline double *sph_case_gammas(struct sph *s)
+{
+    double *gamma = NEW(double, s->p.n);
+    integrate_prepare(s);
+    for (int i = 0; i < s->p.n; i++)
+        gamma[i] = 1.0;
+    s->walls->model->gammas(s, gamma);
+    return gamma;
+}
+
 static inline double max_anywhere(double v)
 {
     MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);

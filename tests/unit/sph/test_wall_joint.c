@@ -106,11 +106,7 @@ TEST(sides_of_a_tip_are_mirrors)
     struct sph_case c;
     double worst = 0.0;
     struct sph *s = tank(&c, 3, (double[][2]){{0.5, 0.0}, {0.3, 0.35}, {0.7, 0.35}});
-    integrate_prepare(s);
-    double *gamma = NEW(double, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        gamma[i] = 1.0;
-    s->walls->model->gammas(s, gamma);
+    double *gamma = sph_case_gammas(s);
     for (int i = 0; i < s->p.n; i++)
         if (hypot(prim_line(&s->p, i)[0] - 0.5, prim_line(&s->p, i)[1]) < 0.2)
             worst = fmax(worst, fabs(gamma_of_mirror(s, gamma, prim_line(&s->p, i)) - gamma[i]));

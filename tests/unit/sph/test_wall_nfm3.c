@@ -70,11 +70,7 @@ TEST(every_particle_finds_its_walls)
     tank(&c, 8, false);
     c.prm.noise = 0.4;
     struct sph *s = sph_case_start(&c, NULL);
-    integrate_prepare(s);
-    double *gamma = NEW(double, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        gamma[i] = 1.0;
-    s->walls->model->gammas(s, gamma);
+    double *gamma = sph_case_gammas(s);
     for (int i = 0; i < s->p.n; i++)
         worst = fmax(worst, fabs(gamma[i] - gamma_in_box(prim_line(&s->p, i), s->R)));
     assert_close(max_anywhere(worst), 0.0, 1e-11);
@@ -94,11 +90,7 @@ TEST(walls_go_on_beyond_periodic_sides)
     e->walls[2].side = SIDE_Z_MIN;
     e->walls[2].kind = WALL_NO_SLIP; /* in a mesh of its own */
     struct sph *s = sph_case_start(&c, NULL);
-    integrate_prepare(s);
-    double *gamma = NEW(double, s->p.n);
-    for (int i = 0; i < s->p.n; i++)
-        gamma[i] = 1.0;
-    s->walls->model->gammas(s, gamma);
+    double *gamma = sph_case_gammas(s);
     for (int i = 0; i < s->p.n; i++) {
         double x[3];
         memcpy(x, prim_line(&s->p, i), sizeof x);
