@@ -327,9 +327,10 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
     }
     for (int a = 0; a < s->dim; a++)
         u[a] = of->is->has_discharge ? 0.0 : of->is->velocity[a];
-    u[side / 2] = openings_inward(side) * velocity_in(s, of, side);
-    u[l->up] +=
-        l->sign * of->rate * fmax(0.0, fmin((height - of->bed) / fmax(of->depth, s->dx), 1.0));
+    const double in = openings_inward(side) * (x[side / 2] - (side % 2 ? s->hi : s->lo)[side / 2]);
+    const double rise = of->rate / fmax(of->depth, s->dx);
+    u[side / 2] = openings_inward(side) * (velocity_in(s, of, side) - rise * in);
+    u[l->up] += l->sign * rise * fmax(0.0, fmin(height - of->bed, of->depth));
 }
 
 double side_levels_level(const struct side_levels *l, int side) { return l->of[side].level; }

@@ -96,6 +96,12 @@ static inline bool particles_is_guard(const struct particles *p, int i)
     return (p->role[i] & ROLE_GUARD) != 0;
 }
 
+/* Whether the outer solution imposes the mass of particle i, in the buffer before an open side. */
+static inline bool particles_is_imposed(const struct particles *p, int i)
+{
+    return p->zone[i] == ZONE_BUFFER;
+}
+
 /* Makes room for `capacity' particles in 2 or 3 dimensions; there are none yet. The old contents of
  * *p are not freed. */
 void particles_create(struct particles *p, int dim, int capacity);

@@ -236,7 +236,7 @@ static void rates(struct sph *s)
     const struct fixed *m = s->walls->state;
     ghost_friction(s, &m->ghosts);
     if (s->prm.scheme == SCHEME_RIEMANN_ALE)
-        walls_keep_mass(s, 0, NULL);
+        walls_keep_mass_of_all(s);
 }
 
 static int behind(const struct sph *s, int *who)

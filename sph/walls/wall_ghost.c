@@ -177,7 +177,7 @@ static void rates(struct sph *s)
     const struct mirror *m = s->walls->state;
     ghost_friction(s, &m->ghosts);
     if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones && !s->guards)
-        walls_keep_mass(s, 0, NULL);
+        walls_keep_mass_of_all(s);
 }
 
 const struct wall_model wall_ghost = {.name = "mirrored_ghosts",

@@ -643,13 +643,13 @@ static void stop_before_walls(const struct sph *s, const struct wall_list *l, in
     }
 }
 
-/* Sums of pairs and walls over gamma. */
-INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
+/* Sums of pairs and walls over gamma. Returns the mass that this makes, kg/s. */
+INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
 {
     const struct wall_list *l = &m->list;
     const int who = l->who[k];
     if (is_idle(s, m, k))
-        return;
+        return 0.0;
     struct seen i = look(s, who, dim);
     i.mu = m->mu;
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
@@ -672,21 +672,23 @@ INLINE void add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     for (int a = 0; a < dim; a++)
         rate[dim + a] = (pairs[a] + i.w * all.q[a]) * gamma_1 + own[dim + a];
     const int V = at_volume(dim), M = at_mass(dim);
+    const double exchanged = rate[M];
     rate[V] = (rate[V] - own[V] + i.w * all.w) * gamma_1 + own[V];
     rate[M] = (rate[M] + i.w * all.m) * gamma_1;
     stop_before_walls(s, l, k, rate);
+    return rate[M] - exchanged;
 }
 
 /* Mass that walls have made or lost is given back with its momentum, which the walls gave or took
  * with it: what particles so lose is theirs. */
-static void give_mass_back(struct sph *s, const struct nfm *m)
+static void give_mass_back(struct sph *s, const struct nfm *m, double made)
 {
     const struct wall_list *l = &m->list;
-    const double share = walls_keep_mass(s, l->n, l->who);
+    const double share = walls_keep_mass(s, made, l->n, l->who);
     for (int k = 0; k < l->n; k++) {
         const double *y = state_row(&s->p, s->p.y, l->who[k]);
         double lost[3] = {0.0};
-        for (int a = 0; a < s->dim; a++)
+        for (int a = 0; a < s->dim && !particles_is_imposed(&s->p, l->who[k]); a++)
             lost[a] = share * y[s->dim + a];
         share_by_gamma(s, m, k, prim_line(&s->p, l->who[k]), lost, s->dim);
     }
@@ -699,12 +701,13 @@ static void rates(struct sph *s)
     if (s->places && !m->judged)
         judge(s, m);
     m->mu = s->prm.viscosity == VISCOSITY_MORRIS ? kernel_pair_viscosity(s) : s->rho0 * s->nu;
-    for (int k = 0; k < m->list.n && s->dim == 2; k++)
-        add_walls(s, m, k, 2);
-    for (int k = 0; k < m->list.n && s->dim == 3; k++)
-        add_walls(s, m, k, 3);
-    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->zones && !s->guards) /* else of all levels */
-        give_mass_back(s, m);
+    double made = 0.0;
+    for (int k = 0; k < m->list.n; k++) {
+        const double more = s->dim == 2 ? add_walls(s, m, k, 2) : add_walls(s, m, k, 3);
+        made += particles_is_imposed(&s->p, m->list.who[k]) ? 0.0 : more;
+    }
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->guards) /* else of all levels */
+        give_mass_back(s, m, made);
 }
 
 static void add_moments(const struct wall_list *l, int k, double *M, double *g, int dim)

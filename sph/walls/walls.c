@@ -431,20 +431,26 @@ double *walls_rooms(struct sph *s)
     return room;
 }
 
-double walls_keep_mass(struct sph *s, int n, const int *who)
+double walls_keep_mass(struct sph *s, double made, int n, const int *who)
 {
-    const int at = at_mass(s->dim);
-    double sums[2] = {0.0, 0.0};
-    n = who ? n : s->p.n;
-    for (int i = 0; i < s->p.n; i++)
-        sums[0] += state_row(&s->p, s->p.rate, i)[at];
+    double sums[2] = {made, 0.0};
     for (int k = 0; k < n; k++)
-        sums[1] += state_row(&s->p, s->p.y, who ? who[k] : k)[at];
+        if (!particles_is_imposed(&s->p, who ? who[k] : k))
+            sums[1] += state_row(&s->p, s->p.y, who ? who[k] : k)[at_mass(s->dim)];
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (int k = 0; k < n; k++)
-        particles_give_back(&s->p, s->p.rate, who ? who[k] : k, share);
+        if (!particles_is_imposed(&s->p, who ? who[k] : k))
+            particles_give_back(&s->p, s->p.rate, who ? who[k] : k, share);
     return share;
+}
+
+void walls_keep_mass_of_all(struct sph *s)
+{
+    double made = 0.0;
+    for (int i = 0; i < s->p.n; i++)
+        made += state_row(&s->p, s->p.rate, i)[at_mass(s->dim)];
+    walls_keep_mass(s, made, s->p.n, NULL);
 }
 
 /* The end of a part of a wall, which is the wall's own if it is that near. */

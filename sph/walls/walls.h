@@ -218,10 +218,14 @@ void walls_put_back_inside(struct sph *s);
  * caller (mem_free); 1 for all where the model does not report it. After moments. */
 double *walls_rooms(struct sph *s);
 /* Riemann-ALE near walls: dividing pair fluxes by gamma, or ghosts with the weight of a hydrostatic
- * column, destroys their antisymmetry. The mass that is so created or lost is given back to the
- * particles who[n] (NULL: all locals) in proportion to their masses, with its momentum. Returns
- * what share of theirs they give back, 1/s. Collective. */
-double walls_keep_mass(struct sph *s, int n, const int *who);
+ * column, destroys their antisymmetry. The mass that is so `made' (kg/s, this rank) is given back
+ * to the particles who[n] (NULL: the first n locals) in proportion to their masses, with its
+ * momentum; those whose mass is imposed take no part. Returns what share of theirs they give back,
+ * 1/s. Collective. */
+double walls_keep_mass(struct sph *s, double made, int n, const int *who);
+/* The same where nothing but walls exchanges mass with the particles: what they make is the sum of
+ * all rates. */
+void walls_keep_mass_of_all(struct sph *s);
 /* wall_ghost.c: the packed record that was mirrored to make record i, an earlier one; -1: i is no
  * mirror image. */
 int walls_mirrored(const struct sph *s, int i);
