@@ -311,26 +311,31 @@ static double velocity_in(const struct sph *s, const struct side_water *of, int 
 
 /* Outside a given level stands water at rest, out of which nothing comes faster than its head
  * allows: that keeps water which runs back from gaining. The level of an inflow is in the opening.
+ * As the level rises the water between x and the place whose velocity is known takes its share of
+ * what flows: that is at the side itself where a discharge is given, else in the bins of sides.c.
  */
 void side_levels_eval(const struct sph *s, const struct side_levels *l, int side, const double *x,
                       double *u, double *p, double *gp)
 {
     const struct side_water *of = l->of + side;
-    const double height = l->sign * x[l->up], out = side % 2 ? u[side / 2] : -u[side / 2];
+    const int n = side / 2;
+    const double height = l->sign * x[l->up], out = side % 2 ? u[n] : -u[n],
+                 sense = openings_inward(side), stretch = of->rate / fmax(of->depth, s->dx),
+                 known = has_level(of->is) ? s->zones->buffer + 0.25 * s->R : 0.0,
+                 deeper = sense * (x[n] - (side % 2 ? s->hi[n] : s->lo[n])) - known;
     *p = s->rho0 * l->g * (of->level - height);
     for (int a = 0; gp && a < 3; a++)
         gp[a] = a == l->up ? -s->rho0 * l->g * l->sign : 0.0;
     if (has_level(of->is)) {
         const double in = fmin(out, 0.0), all = fmin(of->mean, 0.0);
         *p += 0.5 * s->rho0 * ((of->is->kind == WALL_INFLOW ? all * all : 0.0) - in * in);
-        return;
+    } else {
+        for (int a = 0; a < s->dim; a++)
+            u[a] = of->is->has_discharge ? 0.0 : of->is->velocity[a];
+        u[n] = sense * velocity_in(s, of, side);
+        u[l->up] += l->sign * stretch * fmax(0.0, fmin(height - of->bed, of->depth));
     }
-    for (int a = 0; a < s->dim; a++)
-        u[a] = of->is->has_discharge ? 0.0 : of->is->velocity[a];
-    const double in = openings_inward(side) * (x[side / 2] - (side % 2 ? s->hi : s->lo)[side / 2]);
-    const double rise = of->rate / fmax(of->depth, s->dx);
-    u[side / 2] = openings_inward(side) * (velocity_in(s, of, side) - rise * in);
-    u[l->up] += l->sign * rise * fmax(0.0, fmin(height - of->bed, of->depth));
+    u[n] -= sense * stretch * deeper;
 }
 
 double side_levels_level(const struct side_levels *l, int side) { return l->of[side].level; }
