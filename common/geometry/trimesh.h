@@ -83,5 +83,16 @@ int trimesh_orient(struct trimesh *m);
 struct trimesh trimesh_box(const double lo[3], const double hi[3], int n);
 struct trimesh trimesh_sphere(const double centre[3], double radius, int level);
 struct trimesh trimesh_prism(int n, const double (*points)[2], double low, double high);
+/* Cuts the simple polygon of the corners p[left[0 .. n-1]], counter-clockwise, into n - 2 triangles
+ * of the same sense, and returns their number. A corner may be named twice, as at both ends of a
+ * bridge to a hole. Where no ear is found, which a polygon that crosses itself may bring about, the
+ * last corner is cut off. left is used up. */
+int trimesh_ears(int n, int *left, const double (*p)[2], int (*ear)[3]);
+
+/* Vertices within `near', m, of the plane across `axis' at `at', m, are put on it. What a connected
+ * closed mesh has beyond, on the high or on the low side, is then left out, and the mesh closed by
+ * its section, normals out. false, and the mesh stays as it is but for those vertices: nothing is
+ * beyond, or all of it, or the section is none of simple loops. */
+bool trimesh_end(struct trimesh *m, int axis, double at, bool high, double near);
 
 #endif

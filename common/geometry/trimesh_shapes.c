@@ -1,5 +1,5 @@
-/* trimesh_shapes.c - meshes of simple solids, normals out. Only tests make them: their volumes,
- * inertias and distances are known. Each ends connected (trimesh_connect).
+/* trimesh_shapes.c - meshes of simple solids, normals out, for bodies of simple form, and for
+ * tests, which know their volumes, inertias and distances. Each ends connected (trimesh_connect).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
 #include <string.h>
@@ -129,29 +129,7 @@ struct trimesh trimesh_sphere(const double centre[3], double radius, int level)
     return m;
 }
 
-static double turn(const double *a, const double *b, const double *c)
-{
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-/* Whether corner b of what is left of the polygon can be cut off: no other corner within abc. O(n),
- * so that a lid costs O(n^3) at worst: outlines have some hundred corners. */
-static bool is_ear(int n, const int *left, const double (*p)[2], int k)
-{
-    const double *a = p[left[(k + n - 1) % n]], *b = p[left[k]], *c = p[left[(k + 1) % n]];
-    if (!(turn(a, b, c) > 0.0))
-        return false;
-    for (int i = 0; i < n; i++) {
-        const double *q = p[left[i]];
-        if (q != a && q != b && q != c && turn(a, b, q) >= 0.0 && turn(b, c, q) >= 0.0 &&
-            turn(c, a, q) >= 0.0)
-            return false;
-    }
-    return true;
-}
-
-/* Sides first, two triangles each, then both lids, n - 2 triangles each. Where no ear is found,
- * which a polygon that crosses itself may bring about, the last corner is cut off. */
+/* Sides first, two triangles each, then both lids, n - 2 triangles each. */
 struct trimesh trimesh_prism(int n, const double (*points)[2], double low, double high)
 {
     struct trimesh m;
@@ -167,16 +145,13 @@ struct trimesh trimesh_prism(int n, const double (*points)[2], double low, doubl
         add(&m, i, n + (i + 1) % n, n + i);
     }
     m.nvertices = 2 * n;
-    for (int rest = n; rest > 2; rest--) { /* lids by cutting ears */
-        int k = 0;
-        while (k < rest - 1 && !is_ear(rest, left, points, k))
-            k++;
-        const int a = left[(k + rest - 1) % rest], b = left[k], c = left[(k + 1) % rest];
-        add(&m, a, c, b);
-        add(&m, n + a, n + b, n + c);
-        memmove(left + k, left + k + 1, (size_t)(rest - k - 1) * sizeof *left);
+    int(*ear)[3] = (int(*)[3])mem_new((size_t)n, sizeof *ear);
+    const int ears = trimesh_ears(n, left, points, ear);
+    for (int k = 0; k < ears; k++) {
+        add(&m, ear[k][0], ear[k][2], ear[k][1]);
+        add(&m, n + ear[k][0], n + ear[k][1], n + ear[k][2]);
     }
-    mem_free(left);
+    FREE(left, ear);
     trimesh_connect(&m);
     return m;
 }

@@ -99,6 +99,13 @@ static void cut_at(const struct line *wall, double near, struct scene_body *b)
     b->cut = true;
 }
 
+/* Whether a side of the domain, counted from x_min, is a wall. */
+static bool is_shut(const struct scene *s, int side)
+{
+    const struct scene_wall *w = scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + side));
+    return w && w->kind < WALL_INFLOW;
+}
+
 void scene_cut_at_walls(const struct scene *s, struct scene_body *b)
 {
     if (s->domain.dim > 2 || scene_body_moves(b) || b->points.n < 3)
@@ -112,14 +119,26 @@ void scene_cut_at_walls(const struct scene *s, struct scene_body *b)
         const int a = side / 2;
         const bool high = side % 2, forward = (a == 1) != high;
         const double *lo = s->domain.min, *hi = s->domain.max, L = hi[1 - a] - lo[1 - a];
-        const struct scene_wall *w = scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + side));
         double x[2][2];
         x[0][a] = x[1][a] = high ? hi[a] : lo[a];
         x[!forward][1 - a] = lo[1 - a] - L;
         x[forward][1 - a] = hi[1 - a] + L;
-        if (w && w->kind < WALL_INFLOW)
+        if (is_shut(s, side))
             cut_at(&(struct line){2, (const double(*)[2])x, false}, 1e-9 * (hi[a] - lo[a]), b);
     }
+}
+
+bool scene_cut_mesh(const struct scene *s, const struct scene_body *b, struct trimesh *m)
+{
+    const struct scene_domain *d = &s->domain;
+    bool any = false;
+    for (int side = 0; side < 6 && !scene_body_moves(b); side++) {
+        const int a = side / 2;
+        if (is_shut(s, side))
+            any |= trimesh_end(m, a, side % 2 ? d->max[a] : d->min[a], side % 2,
+                               1e-6 * (d->max[a] - d->min[a]));
+    }
+    return any;
 }
 
 /* Leaves out the end of an open line that is outside: its last points. */

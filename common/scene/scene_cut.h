@@ -4,6 +4,7 @@
 #ifndef COMMON_SCENE_CUT_H
 #define COMMON_SCENE_CUT_H
 
+#include "../geometry/geometry.h"
 #include "scene_groups.h"
 
 /* In 2D: leaves out what a body that never moves has beyond closed sides of the domain and behind
@@ -11,6 +12,9 @@
  * on their left. A body that moves, is all beyond, or crosses a wall more than twice (legs of a
  * table) stays as it is, for the checks of the program to refuse. */
 void scene_cut_at_walls(const struct scene *s, struct scene_body *b);
+/* In 3D the same with a body's connected mesh m and the closed sides, on which vertices of it are
+ * put that miss them by no more than a file's seven digits. Whether something was left out. */
+bool scene_cut_mesh(const struct scene *s, const struct scene_body *b, struct trimesh *m);
 /* In 2D: an open line that spans a period, as a bed does, keeps what lies within it, for its images
  * go on there. One that comes back through a periodic side stays as it is. */
 void scene_cut_at_periods(const struct scene *s, struct scene_wall *w);

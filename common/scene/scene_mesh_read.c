@@ -8,6 +8,7 @@
 #include "../base/base.h"
 #include "../geometry/geometry.h"
 #include "exact.h"
+#include "scene_cut.h"
 #include "scene_fluid.h"
 #include "scene_forms.h"
 #include "scene_mesh.h"
@@ -117,6 +118,8 @@ static bool prepare(const struct reading *r, const struct scene_surface *is, str
     trimesh_trim(t);
     trimesh_connect(t);
     m->reversed = trimesh_orient(t);
+    if (m->owner == MESH_OF_BODY)
+        r->s->bodies[m->index].cut = scene_cut_mesh(r->s, r->s->bodies + m->index, t);
     return true;
 }
 
@@ -344,11 +347,14 @@ static void read_one(const struct reading *r, enum mesh_owner owner, int k,
         trimesh_free(&m->mesh);
         return;
     }
-    int counts[3] = {m->welded, m->flat, m->reversed};
-    MPI_Bcast(counts, 3, MPI_INT, 0, r->comm);
+    const bool body = owner == MESH_OF_BODY;
+    int counts[4] = {m->welded, m->flat, m->reversed, body && r->s->bodies[k].cut};
+    MPI_Bcast(counts, 4, MPI_INT, 0, r->comm);
     m->welded = counts[0];
     m->flat = counts[1];
     m->reversed = counts[2];
+    if (body)
+        r->s->bodies[k].cut = counts[3];
     trimesh_broadcast(&m->mesh, r->comm);
     set_name(r->s, m, is);
     if (!is_sound(r, m, source)) {
@@ -359,7 +365,7 @@ static void read_one(const struct reading *r, enum mesh_owner owner, int k,
     orient(r, m);
     measure(r, m);
     r->s->meshes->n++;
-    if (owner == MESH_OF_BODY)
+    if (body)
         r->s->bodies[k].mesh = m;
     check_domain(r, m, source);
     if (owner == MESH_OF_WALL)

@@ -99,11 +99,9 @@ static const char *beyond_remedy(const struct run *r, int k, int axis)
     return r->scene.domain.periodic[axis]
                ? "a body may come up to it, not through it; shift the domain, or make it larger"
            : scene_body_moves(r->scene.bodies + k)
-               ? "make the domain larger, or the motion smaller; a flap that turns about a hinge "
-                 "on "
-                 "a side stands on a point there, as points = ((0, 0), (-0.1, 0.1), ...)"
-           : r->scene.domain.dim == 3
-               ? "end it on the side, or make the domain larger"
+               ? "make the domain larger, or the motion smaller; a flap that turns on a side "
+                 "stands on "
+                 "a point there, as points = ((0, 0), (-0.1, 0.1), ...)"
                : "make the domain larger, or end it on the side: one that crosses "
                  "a closed side once is cut there";
 }
@@ -266,7 +264,7 @@ static bool check_domain(const struct run *r, int k, const double *x, const char
 {
     const struct scene_domain *d = &r->scene.domain;
     for (int a = 0; a < 3; a++) {
-        const double small = 1e-9 * (d->max[a] - d->min[a]); /* a rotation's last digits */
+        const double small = 1e-6 * (d->max[a] - d->min[a]); /* a file's last digits */
         if (x[a] >= d->min[a] - small && x[a] <= d->max[a] + small)
             continue;
         params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g, %g) m, %s: %s",

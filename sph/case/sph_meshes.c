@@ -279,43 +279,6 @@ static void warn_pairs(const struct run *r)
         }
 }
 
-/* Whether a triangle that water bears on, up or down, ends on an upright closed side. */
-static bool is_shelf(const struct run *r, const struct exact *e, const struct scene_mesh *m, int t,
-                     double dx)
-{
-    const struct scene *c = &r->scene;
-    const int up = scene_still_axis(c);
-    double x[3], n[3];
-    bool ends = false;
-    trimesh_middle(&m->mesh, t, x);
-    trimesh_normal(&m->mesh, t, n);
-    for (int side = 0; side < 6 && up >= 0 && fabs(n[up]) > 0.5; side++) {
-        const int a = side / 2;
-        const struct scene_wall *w = scene_wall_of(c, (enum scene_side)(SIDE_X_MIN + side));
-        const double at = side % 2 ? c->domain.max[a] : c->domain.min[a];
-        for (int k = 0; a != up && w && w->kind < WALL_INFLOW && k < 3; k++)
-            ends = ends || fabs(m->mesh.x[m->mesh.vertex[t][k]][a] - at) < 0.1 * dx;
-    }
-    vec3_add(x, -0.1 * dx, n); /* normals point into the solid */
-    return ends && is_wet(c, e, x);
-}
-
-static void warn_shelf(const struct run *r, const struct scene_mesh *m, double dx)
-{
-    const struct exact e = exact_create(&r->scene);
-    double x[3];
-    int t = 0;
-    while (t < m->mesh.ntriangles && !is_shelf(r, &e, m, t, dx))
-        t++;
-    if (t == m->mesh.ntriangles)
-        return;
-    trimesh_middle(&m->mesh, t, x);
-    log_warn("body %s ends on an upright side, near (%g, %g, %g) m: there its lift is that of one "
-             "that reaches 0.3 to 0.36 sph.dx, some %.2g m, further. End it two sph.dx before the "
-             "side, or take a smaller sph.dx",
-             r->scene.bodies[m->index].name, x[0], x[1], x[2], 0.33 * dx);
-}
-
 void sph_meshes_warn(const struct run *r, const struct sph_params *used)
 {
     const struct scene *c = &r->scene;
@@ -338,8 +301,6 @@ void sph_meshes_warn(const struct run *r, const struct sph_params *used)
             log_warn("mesh %s: weld = %g m is more than sph.dx/100: it may close what is open",
                      m->name, scene_surface_of(c, m->owner, m->index)->weld);
         warn_gaps(r, m, dx);
-        if (m->owner == MESH_OF_BODY)
-            warn_shelf(r, m, dx);
     }
     if (c->meshes)
         warn_pairs(r);

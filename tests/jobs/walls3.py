@@ -1,7 +1,9 @@
 """Walls and bodies of triangles as a case has them: a body that goes with the stream, water beside a thin plate, tanks that are
 turned and cut otherwise. SPDX-License-Identifier: BSD-3-Clause"""
+import math
+
 import lib
-from lib import TANK, box_stl, changed, check, column, held, number, run_case, sides
+from lib import TANK, box_stl, changed, check, column, held, near, number, run_case, sides
 
 lib.scratch()
 FIVE = sides('x_min x_max y_min y_max z_min')
@@ -42,6 +44,16 @@ run_case('block', changed(TANK3, time='end = 0.3;', domain='dim = 3; min = (0.1,
 check(-485.1 < number('block', 'force.z') < -456.8, 'block: %g N, wanted -470.9 N within 3 %%' % number('block', 'force.z'))
 for way in 'x', 'y':
     check(abs(number('block', 'force.' + way)) < 1, 'block: pushed along %s by %g N' % (way, number('block', 'force.' + way)))
+# half of a ball stands in the floor, a cube in an upright side: their lift less the push of water on what is cut off, p A of
+# the cut within 3 %
+for name, body, lift, push in (
+        ('ball', 'centre = (0.5, 0.5, 0); radius = 0.25', 9810 * 2 / 3 * math.pi * 0.25 ** 3, 9810 * 0.7 * math.pi * 0.25 ** 2),
+        ('pier', 'box = ((-0.3, 0.3, 0.2), (0.4, 0.7, 0.5))', 9810 * 0.3 * 0.4 * 0.3, None)):
+    run_case(name, changed(TANK3, time='end = 0.3;', domain='dim = 3; min = (0.1, 0.1, 0); max = (0.9, 0.9, 1);',
+                           shapes='{ form = "below"; level = 0.7; }', bodies='{ name = "b"; %s; }' % body,
+                           sph='dx = "1/15"; R_dx = 3.0;'), words='what of it is beyond closed sides or behind lines is left out')
+    near(name + ': its lift', number(name, 'force.z'), lift - (push or 0), 0.03 * (push or 9810 * 0.35 * 0.4 * 0.3))
+    check(number(name, 'particles_returned') == 0, '%s: particles put back' % name)
 run_case('block', None, '--check', '-p', 'sph.R_dx=2.5', words='R_dx = 2.5: the lift of bodies under water is')
 
 # the same tank as sides of the domain, as a mesh, and turned by 30 degrees: nobody lost, and when what the start has

@@ -4,11 +4,13 @@
 #include "../test.h"
 
 #include "../../../sph/case/sph_state.h"
+#include "../../../sph/pairs/kernel.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
 #include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/facet.h"
 #include "../../../sph/walls/forces.h"
+#include "../../../sph/walls/wall_share.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 #include "sph_restart.h"
@@ -79,6 +81,45 @@ TEST(every_particle_finds_its_walls)
 }
 
 /* Periodic along y: as far from the ends of the walls as anywhere. */
+/* int_r^R W s^2 ds by midpoints. */
+static double moment_beyond(double r, double R)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 100; k++) {
+        const double q = r + (k + 0.5) / 100.0 * (R - r);
+        sum += kernel_w(3, q, R) * q * q * (R - r) / 100.0;
+    }
+    return sum;
+}
+
+/* What the water behind two sides would weigh between them and a face that leans: over the room
+ * behind them, n W g.z, less g n.z times the field of the kernel's mass, by midpoints of cubes. */
+TEST(weight_behind_a_corner)
+{
+    enum { N = 40 };
+    struct sph_case c;
+    tank(&c, 12, true);
+    struct sph *s = sph_case_start(&c, NULL);
+    const double R = s->R, cube = R / N, g[3] = {0.0, 0.0, -9.81};
+    const double x[3] = {6 * cube, 0.5, 8 * cube}, n[3] = {0.48, 0.6, 0.64};
+    double want[3] = {0.0, 0.0, 0.0}, out[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < 8 * N * N * N; k++) {
+        const double z[3] = {(k % (2 * N) - N + 0.5) * cube,
+                             (k / (2 * N) % (2 * N) - N + 0.5) * cube,
+                             (k / (4 * N * N) - N + 0.5) * cube};
+        const double r = vec3_length(z), dV = cube * cube * cube;
+        if (r >= R || (x[0] + z[0] > 0.0 && x[2] + z[2] > 0.0))
+            continue;
+        vec3_add(want, kernel_w(3, r, R) * vec3_dot(g, z) * dV, n);
+        vec3_add(want, -vec3_dot(n, z) * moment_beyond(r, R) / (r * r * r) * dV, g);
+    }
+    wall_share_weight(s, -1, x, n, out);
+    for (int a = 0; a < 3; a++)
+        assert_close(out[a], want[a], 2e-3 * 9.81 * R);
+    assert_true(vec3_length(want) > 0.02 * 9.81 * R);
+    sph_free(&c.s);
+}
+
 TEST(walls_go_on_beyond_periodic_sides)
 {
     struct sph_case c;
