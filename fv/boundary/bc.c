@@ -109,8 +109,12 @@ static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct ou
                                    int *count)
 {
     const struct block *b = &s->b;
-    const struct bc_side d = side_of(bc, b, k, true);
+    struct bc_side d = side_of(bc, b, k, true);
     struct outflow *o = carried_add(list, count, b->dim, k, d.a, d.in, bc->n[k], bc->n[k]);
+    for (int m = 0; m < 2 && bc->wall[k]->kind == WALL_INFLOW; m++) { /* ghosts of phi, too */
+        d.lo[m] = -b->g[d.t[m]];
+        d.hi[m] = b->n[d.t[m]] + b->g[d.t[m]];
+    }
     const double h = block_size(b, d.a, k % 2 ? b->n[1] - 1 : 0); /* a row, if it is along y */
     SIDE_PLACES (b, d, i, j, m, c) {
         o->place[o->n] = m;
@@ -143,7 +147,7 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     const int k = wall->side - SIDE_X_MIN, a = k / 2;
     if (a >= b->dim || b->periodic[a])
         return;
-    bc->kind[k] = side_of_wall(wall);
+    bc->kind[k] = carried_side(s, wall, side_of_wall(wall));
     bc->wall[k] = wall;
     bc->pressure_given = bc->pressure_given || bc->kind[k] == MESH_OUTFLOW;
     if (bc->kind[k] == MESH_OUTFLOW)
@@ -171,7 +175,8 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     if (bc->kind[k] == MESH_OUTFLOW && s->levels)
         list_places(s, bc, k, &s->levels->of, &s->levels->n);
     SIDE_PLACES (b, inner, i, j, m, c) {
-        bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
+        if (bc->kind[k] != MESH_CARRIED)
+            bc->outflux += (k % 2 ? 1.0 : -1.0) * face_area(b, &inner, i, j) * bc->w[k][a][m];
         (void)c;
     }
 }

@@ -9,24 +9,34 @@
 
 enum outflow_kind carried_kind(const struct scene_wall *w)
 {
-    return !w->has_discharge        ? OUTFLOW_CONVECTS
-           : w->kind == WALL_INFLOW ? OUTFLOW_GIVEN_IN
-                                    : OUTFLOW_GIVEN_OUT;
+    if (w->kind == WALL_INFLOW)
+        return w->has_discharge ? OUTFLOW_GIVEN_IN : OUTFLOW_STEADY;
+    return w->has_discharge ? OUTFLOW_GIVEN_OUT : OUTFLOW_CONVECTS;
+}
+
+enum mesh_side carried_side(const struct fv *s, const struct scene_wall *w, enum mesh_side kind)
+{
+    const bool listed = s->prm.water && s->prm.integrator != INTEGRATOR_NEWTON;
+    return w && listed && kind == MESH_INFLOW ? MESH_CARRIED : kind;
 }
 
 /* any and convects are the same on all ranks, so that collective calls are made by all or none. */
 void carried_create(struct fv *s)
 {
     const struct scene *scene = &s->run->scene;
-    bool any = false, convects = false;
+    bool any = false, convects = false, steady = false;
     for (int k = 0; k < scene->nwalls; k++) {
-        convects = convects || scene->walls[k].carried;
-        any = any || convects || scene->walls[k].has_discharge;
+        const struct scene_wall *w = scene->walls + k;
+        const bool listed = carried_side(s, w, side_of_wall(w)) == MESH_CARRIED;
+        convects = convects || w->carried;
+        steady = steady || (listed && carried_kind(w) == OUTFLOW_STEADY);
+        any = any || listed;
     }
     if (!any)
         return;
     s->outflows = NEW(struct outflows, 1);
     s->outflows->convects = convects;
+    s->outflows->steady = steady;
     for (int q = 0; q < s->dim; q++)
         s->outflows->kept[q] = NEW(double, s->size);
 }
@@ -59,9 +69,9 @@ void carried_free_list(struct outflow **list, int n)
 {
     for (int k = 0; k < n; k++) {
         struct outflow *o = *list + k;
-        FREE(o->place, o->cell, o->own, o->share, o->wet, o->h);
+        FREE(o->place, o->cell, o->own, o->share, o->wet, o->h, o->level, o->stood, o->full);
         for (int q = 0; q < 3; q++)
-            FREE(o->S[q], o->line[q], o->change[q]);
+            FREE(o->S[q], o->line[q], o->change[q], o->given[q]);
     }
     mem_free(*list);
     *list = NULL;
@@ -90,4 +100,22 @@ double carried_area(const struct outflow *o, int64_t i)
 {
     const double S[3] = {o->S[0][i], o->S[1][i], o->S[2] ? o->S[2][i] : 0.0};
     return vec3_length(S);
+}
+
+void carried_level_ghosts(const struct fv *s, double *phi)
+{
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n && o->stood; i++)
+            for (int m = 1; m <= GHOSTS && o->stood[i] > 0.0; m++) {
+                double *q = phi + o->cell[i] - m * o->in;
+                *q = fmin(*q, o->level[i]);
+            }
+}
+
+void carried_share_ghosts(const struct fv *s, double *C)
+{
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n && o->stood; i++)
+            for (int m = 1; m <= GHOSTS && o->stood[i] > 0.0; m++)
+                C[o->cell[i] - m * o->in] = o->full[i];
 }

@@ -6,8 +6,9 @@
 
 #include "../fv.h"
 
-/* Convective, or with a discharge that the case gives. */
-enum outflow_kind { OUTFLOW_CONVECTS, OUTFLOW_GIVEN_IN, OUTFLOW_GIVEN_OUT };
+/* Convective; with a discharge that the case gives; an inflow under a surface with a velocity that
+ * it gives. */
+enum outflow_kind { OUTFLOW_CONVECTS, OUTFLOW_GIVEN_IN, OUTFLOW_GIVEN_OUT, OUTFLOW_STEADY };
 
 /* One opening of this rank, a side of its block or of one of its parts. Arrays are [n] and
  * owned. */
@@ -29,6 +30,11 @@ struct outflow {
     enum outflow_kind kind;
     double discharge;  /* m^dim/s: given, outwards through the whole side, now */
     double *change[3]; /* [places of the side] m/s: of w at the last outflow_set */
+    /* Of held inflows (surface/held_inflow.h), [n]; else NULL: */
+    double *level;    /* m: phi of the cell inside at the start */
+    double *stood;    /* -: share of water in it then; 0: the face is closed */
+    double *full;     /* -: of what comes in now */
+    double *given[3]; /* m/s: w of the start */
 };
 
 /* All openings of this rank with the figures of each side of the domain, which are equal on all
@@ -49,9 +55,12 @@ struct outflows {
     double lacks[6];        /* m^dim: what has not passed yet; equal on all ranks */
     double lacks_before[6]; /* when a step began that may be taken back */
     double area[6];         /* m^(dim-1): of the water in each side of the domain */
+    bool held[6];           /* the inflow brings in the water of the start (held_inflow.h) */
     bool convects;          /* one of them does, on any rank */
+    bool steady;            /* one is an inflow of given velocity */
     bool level_free;        /* a surface takes the difference of what comes in and leaves */
-    double *kept[3]; /* m/s: fields: w in the first ghost behind the side, for restart files */
+    double *kept[3]; /* fields, for restart files: w, m/s, in the first ghost behind the side;
+                      * kept[0]: full in the second one */
     double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */
     double all;      /* with these */
 };
@@ -63,6 +72,15 @@ struct outflows {
 
 /* The kind of an opening of the scene. */
 enum outflow_kind carried_kind(const struct scene_wall *w);
+/* The kind of a side whose wall is w (NULL: none) in this run: inflows of given velocity under a
+ * surface are listed, too. */
+enum mesh_side carried_side(const struct fv *s, const struct scene_wall *w, enum mesh_side kind);
+/* -: of what comes in through a held inflow beside cell c that is water; 0: no such face. in:
+ * offset one cell inwards. */
+static inline double carried_held(const struct fv *s, int64_t c, int64_t in)
+{
+    return s->outflows ? s->outflows->kept[0][c - 2 * in] : 0.0;
+}
 /* Makes s->outflows if some side's velocity changes; on all ranks alike. */
 void carried_create(struct fv *s);
 /* Adds an opening with room for n cells, none filled, to *list; a: the axis across it, in: offset
@@ -74,5 +92,9 @@ void carried_free_list(struct outflow **list, int n);
 /* Flow outwards through face i of an opening, m^dim/s, and the size of the face, m^(dim-1). */
 double carried_flux(const struct outflow *o, int dim, int64_t i);
 double carried_area(const struct outflow *o, int64_t i);
+/* Lowers phi, m, in the ghosts behind the water of held inflows to that of the start. */
+void carried_level_ghosts(const struct fv *s, double *phi);
+/* Sets C, shares of water, in these ghosts. */
+void carried_share_ghosts(const struct fv *s, double *C);
 
 #endif

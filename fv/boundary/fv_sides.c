@@ -90,7 +90,7 @@ void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face 
 /* What add_passing needs. */
 struct passing {
     const struct fv *s;
-    double (*share)(const struct fv *s, int64_t c);
+    double (*share)(const struct fv *s, int64_t c, int64_t in);
     double *sums;
 };
 
@@ -101,12 +101,12 @@ static void add_passing(const struct side_face *f, void *with)
     if (f->kind != MESH_INFLOW && f->kind != MESH_OUTFLOW && f->kind != MESH_CARRIED)
         return;
     const double in = (f->side % 2 ? -1.0 : 1.0) * f->flow_area * p->s->U[f->a][f->face] *
-                      p->share(p->s, f->cell);
+                      p->share(p->s, f->cell, f->in);
     p->sums[0] += in;
     p->sums[1] += fabs(in);
 }
 
-void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
+void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c, int64_t in),
                    double sums[2])
 {
     sides_visit(s, add_passing, &(struct passing){s, share, sums});

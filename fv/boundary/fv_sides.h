@@ -27,8 +27,9 @@ void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, vo
 void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                        void *with);
 /* Flow through this rank's openings, m^dim/s: adds inflow minus outflow to sums[0] and inflow plus
- * outflow to sums[1], of each face the share of the cell inside that counts. */
-void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c),
+ * outflow to sums[1], of each face the share of the cell inside that counts (in: offset one cell
+ * inwards). */
+void sides_passing(const struct fv *s, double (*share)(const struct fv *s, int64_t c, int64_t in),
                    double sums[2]);
 
 #endif

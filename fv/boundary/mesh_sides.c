@@ -231,6 +231,9 @@ void mesh_bc_create(struct fv *s)
     bc->side = NEW(struct side, 6 * m->nparts);
     carried_create(s);
     levels_create(s);
+    for (int k = 0; k < m->nblocks; k++)
+        for (int q = 0; q < 2 * m->dim; q++)
+            s->m->block[k].side[q] = carried_side(s, m->block[k].wall[q], m->block[k].side[q]);
     for (int turn = 0; turn < m->dim;
          turn++) /* axis by axis: corners take the values of the first */
         for (int q = 0; q < m->nparts; q++)

@@ -73,10 +73,14 @@ static void balance(struct fv *s)
 /* Copies w to the field `kept', for restart files. */
 static void keep(struct fv *s)
 {
+    double *const *kept = s->outflows->kept;
     OUTFLOWS (s, o)
-        for (int q = 0; q < s->dim; q++)
-            for (int64_t i = 0; i < o->n; i++)
-                s->outflows->kept[q][o->cell[i] - o->in] = o->w[q][o->place[i]];
+        for (int64_t i = 0; i < o->n; i++) {
+            for (int q = 0; q < s->dim; q++)
+                kept[q][o->cell[i] - o->in] = o->w[q][o->place[i]];
+            if (o->stood)
+                kept[0][o->cell[i] - 2 * o->in] = o->stood[i] > 0.0 ? o->full[i] : 0.0;
+        }
 }
 
 /* m/s: of a given discharge, over all of a side's water; the air above it moves along. */
@@ -86,9 +90,33 @@ static double discharged(const struct fv *s, const struct outflow *o, int q, int
     return size > 0.0 && all > 0.0 ? o->discharge / all * o->S[q][i] / size : 0.0;
 }
 
+/* Sets w of an inflow on face i. What a held one brings in is less pure water the more stands
+ * inside; where it is closed the water beside slides along it. */
+static void set_inflow(const struct fv *s, struct outflow *o, int64_t i)
+{
+    const double share = o->stood ? o->stood[i] / o->full[i] : 1.0, area = carried_area(o, i);
+    double out = 0.0;
+    for (int q = 0; q < s->dim && area > 0.0; q++)
+        out += s->u[q][o->cell[i]] * o->S[q][i] / area;
+    for (int q = 0; q < s->dim; q++) {
+        double *w = o->w[q] + o->place[i];
+        if (o->stood && o->stood[i] == 0.0)
+            *w = area > 0.0 ? s->u[q][o->cell[i]] - out * o->S[q][i] / area : 0.0;
+        else if (o->kind == OUTFLOW_GIVEN_IN)
+            *w = share * discharged(s, o, q, i);
+        else if (o->stood)
+            *w = share * o->given[q][i];
+    }
+}
+
+static bool is_inflow(const struct outflow *o)
+{
+    return o->kind == OUTFLOW_GIVEN_IN || o->kind == OUTFLOW_STEADY;
+}
+
 bool outflow_pushes(const struct fv *s)
 {
-    bool any = false;
+    bool any = s->outflows && s->outflows->steady;
     for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * s->dim; side++) {
         const struct scene_wall *w = scene_wall_of(&s->run->scene, side);
         any = any || (w && w->has_discharge && wall_discharge(w, s->t) != 0.0);
@@ -102,15 +130,19 @@ void outflow_start(struct fv *s)
         return;
     outflow_set_discharges(s, s->t);
     OUTFLOWS (s, o)
-        for (int q = 0; q < s->dim; q++)
-            for (int64_t i = 0; i < o->n; i++) {
+        for (int64_t i = 0; i < o->n; i++) {
+            for (int q = 0; q < s->dim; q++) {
                 const double *u = s->u[q] + o->cell[i];
-                o->w[q][o->place[i]] =
-                    o->kind != OUTFLOW_CONVECTS
-                        ? discharged(s, o, q, i)
-                        : (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
+                if (!is_inflow(o))
+                    o->w[q][o->place[i]] =
+                        o->kind == OUTFLOW_GIVEN_OUT
+                            ? discharged(s, o, q, i)
+                            : (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
                 o->change[q][o->place[i]] = 0.0;
             }
+            if (is_inflow(o))
+                set_inflow(s, o, i);
+        }
     balance(s);
     keep(s);
 }
@@ -120,9 +152,12 @@ void outflow_restore(struct fv *s)
     if (!s->outflows)
         return;
     OUTFLOWS (s, o)
-        for (int q = 0; q < s->dim; q++)
-            for (int64_t i = 0; i < o->n; i++)
+        for (int64_t i = 0; i < o->n; i++) {
+            for (int q = 0; q < s->dim; q++)
                 o->w[q][o->place[i]] = s->outflows->kept[q][o->cell[i] - o->in];
+            if (o->stood && o->stood[i] > 0.0)
+                o->full[i] = carried_held(s, o->cell[i], o->in);
+        }
     sum_up(s);
 }
 
@@ -251,10 +286,11 @@ void outflow_set(struct fv *s, double dt)
             for (int q = 0; q < s->dim; q++) {
                 double *w = o->w[q] + o->place[i];
                 o->change[q][o->place[i]] = -*w;
-                *w = o->kind == OUTFLOW_GIVEN_IN
-                         ? discharged(s, o, q, i)
-                         : along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
+                if (!is_inflow(o))
+                    *w = along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
             }
+            if (is_inflow(o))
+                set_inflow(s, o, i);
         }
     balance(s);
     OUTFLOWS (s, o)

@@ -21,7 +21,11 @@
 /* Of water that leaves, over the speed of its waves: none that is drawn away passes faster. */
 #define FASTEST 1.4
 
-static bool is_given(const struct outflow *o) { return o->kind != OUTFLOW_CONVECTS; }
+/* What a held inflow brings in is what is given. */
+static bool is_given(const struct outflow *o)
+{
+    return o->kind != OUTFLOW_CONVECTS && o->kind != OUTFLOW_STEADY && !o->stood;
+}
 
 /* m^dim/s: outwards, by the case; 0: none is given. */
 static double discharge_of(const struct fv *s, int side, double t)
@@ -87,14 +91,15 @@ void outflow_count_volumes(struct fv *s, int a, const double *volume)
                     (o->in < 0 ? 1.0 : -1.0) * volume[o->cell[i] + o->face];
 }
 
-void outflow_count_flows(struct fv *s, double dt, double (*share)(const struct fv *s, int64_t c))
+void outflow_count_flows(struct fv *s, double dt,
+                         double (*share)(const struct fv *s, int64_t c, int64_t in))
 {
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n && is_given(o); i++) {
             const double size = s->m ? 1.0 : carried_area(o, i);
             if (o->own[i])
                 s->outflows->passed[o->side] += (o->in < 0 ? dt : -dt) * size *
-                                                share(s, o->cell[i]) *
+                                                share(s, o->cell[i], o->in) *
                                                 s->U[o->a][o->cell[i] + o->face];
         }
 }
@@ -115,7 +120,7 @@ void outflow_settle(struct fv *s, double dt)
         const double given = 0.5 * (discharge_of(s, k, s->t - dt) + discharge_of(s, k, s->t));
         const double most = MOST * SETTLE * dt * fabs(given);
         const double lacks = all->lacks[k] + dt * given - passed[k];
-        all->lacks[k] = fmax(-most, fmin(most, lacks));
+        all->lacks[k] = all->held[k] ? 0.0 : fmax(-most, fmin(most, lacks));
     }
     for (int k = 0; k < 6; k++)
         tell_shortage(s, k, s->t);

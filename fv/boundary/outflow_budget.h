@@ -8,8 +8,10 @@
 
 /* Counts water that went up through the lower faces along axis a: volume, a field. */
 void outflow_count_volumes(struct fv *s, int a, const double *volume);
-/* Counts what the projected fluxes carry within dt, s; share: of the cell inside that is water. */
-void outflow_count_flows(struct fv *s, double dt, double (*share)(const struct fv *s, int64_t c));
+/* Counts what the projected fluxes carry within dt, s; share: of the cell inside that is
+ * water, as of sides_passing. */
+void outflow_count_flows(struct fv *s, double dt,
+                         double (*share)(const struct fv *s, int64_t c, int64_t in));
 /* After a step of dt: what has not passed is still to come. Collective. */
 void outflow_settle(struct fv *s, double dt);
 /* Sets the discharges to those given at time t, s, and what is still to come of them. */

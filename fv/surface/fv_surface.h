@@ -5,6 +5,7 @@
 #define FV_SURFACE_DOOR_H
 
 #include "fraction.h"
+#include "held_inflow.h"
 #include "level_ops.h"
 #include "levelset.h"
 #include "mesh_view.h"

@@ -19,9 +19,17 @@
  * is two halves of one part each. */
 static const double PART_MOST = 0.6;
 
-void surface_ghosts(const struct fv *s, double *phi) { s->surface->ops->ghosts(s, phi); }
+void surface_ghosts(const struct fv *s, double *phi)
+{
+    s->surface->ops->ghosts(s, phi);
+    carried_level_ghosts(s, phi);
+}
 
-void surface_mirror(const struct fv *s, double *q) { s->surface->ops->mirror(s, q); }
+void surface_mirror(const struct fv *s, double *q)
+{
+    s->surface->ops->mirror(s, q);
+    carried_share_ghosts(s, q);
+}
 
 void level_blend(const struct fv *s, double w, const double *p, double dt, const double *rate,
                  double *q)
@@ -39,6 +47,7 @@ static void advance(struct fv *s, double dt)
     memcpy(f->phi_new, f->phi, (size_t)s->size * sizeof(double));
     for (int k = 0; k < 3; k++) {
         f->ops->stage_ghosts(s, k == 0, f->phi_new);
+        carried_level_ghosts(s, f->phi_new);
         f->ops->rate(s, f->phi_new, f->rate);
         level_blend(s, w[k], f->phi, dt, f->rate, f->phi_new);
     }

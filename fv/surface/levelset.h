@@ -111,7 +111,7 @@ struct surface *levelset_create(const struct fv *s);
 void levelset_free(struct surface **w);
 /* Ghosts of a level set: halo, and mirrored (zero gradient) beyond closed sides. Collective. */
 void surface_ghosts(const struct fv *s, double *phi);
-/* The same for any field that belongs to cells. */
+/* The same for shares of water. */
 void surface_mirror(const struct fv *s, double *q);
 /* Advects phi by dt, s, with u as it is; returns the number of parts that the step was cut into. */
 int surface_advance(struct fv *s, double dt);

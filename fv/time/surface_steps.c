@@ -38,8 +38,8 @@ static bool add_velocity(struct fv *s, int64_t c, const double *x)
     return any;
 }
 
-/* Velocities that shapes add to the field's. */
-static void add_velocities(struct fv *s)
+/* Velocities that shapes add to the field's; whether the fluxes must follow. */
+static bool add_velocities(struct fv *s)
 {
     bool any = false;
     double x[3];
@@ -47,19 +47,10 @@ static void add_velocities(struct fv *s)
         grid_place(&s->grid, c, x);
         any = add_velocity(s, c, x) || any;
     }
-    if (!ranks_any(s->comm, any) && !s->m)
-        return;
-    extension_apply(s, s->u, EXTEND_FREE, LAYERS);
-    sides_velocity(s, BC_GIVEN, s->u);
-    s->ops->face_velocities(s, s->u, s->U);
-}
-
-void surface_extend(struct fv *s, int layers)
-{
-    extension_apply(s, s->u, EXTEND_SHEAR, layers);
-    surface_set_pressure(s);
-    sides_velocity(s, BC_GIVEN, s->u);
-    s->ops->dry_fluxes(s);
+    any = ranks_any(s->comm, any) || s->m;
+    if (any)
+        extension_apply(s, s->u, EXTEND_FREE, LAYERS);
+    return any;
 }
 
 /* p = 0 at the highest water, if the case does not say where. */
@@ -92,7 +83,7 @@ static void measure_water(const struct fv *s, struct outflow *o, double *wet)
 {
     for (int64_t i = 0; i < o->n; i++) {
         o->share[i] = s->surface->layer[o->cell[i]] == 0;
-        o->wet[i] = o->own[i] ? surface_share(s, o->cell[i]) : 0.0;
+        o->wet[i] = !o->own[i] ? 0.0 : o->stood ? o->stood[i] : surface_share(s, o->cell[i]);
         wet[o->side] += o->own[i] ? o->wet[i] * carried_area(o, i) : 0.0;
     }
 }
@@ -131,6 +122,7 @@ static void set_openings(struct fv *s)
 {
     double wet[LEVEL_GROUPS] = {0.0};
     set_outflows(s);
+    held_measure(s);
     if (!s->levels)
         return;
     for (int k = 0; k < s->levels->n; k++)
@@ -139,6 +131,28 @@ static void set_openings(struct fv *s)
     for (int side = 0; side < 6; side++)
         s->levels->waves[side] = sqrt(s->surface->g * wet[side] / width_of(s, side));
     measure_basins(s, wet);
+}
+
+/* The openings as the first step finds them, and the fluxes through them. */
+static void start_openings(struct fv *s, bool fluxes)
+{
+    set_openings(s);
+    held_choose(s);
+    outflow_start(s);
+    if (fluxes) {
+        sides_velocity(s, BC_GIVEN, s->u);
+        s->ops->face_velocities(s, s->u, s->U);
+    }
+    outflow_meet_level(s);
+    levels_start(s);
+}
+
+void surface_extend(struct fv *s, int layers)
+{
+    extension_apply(s, s->u, EXTEND_SHEAR, layers);
+    surface_set_pressure(s);
+    sides_velocity(s, BC_GIVEN, s->u);
+    s->ops->dry_fluxes(s);
 }
 
 void surface_interface_moved(struct fv *s, double before)
@@ -161,11 +175,7 @@ void surface_start(struct fv *s)
     if (f->fraction)
         fraction_note_layers(s);
     set_level(s);
-    add_velocities(s);
-    set_openings(s);
-    outflow_start(s);
-    outflow_meet_level(s);
-    levels_start(s);
+    start_openings(s, add_velocities(s));
     surface_extend(s, LAYERS);
 }
 
@@ -249,10 +259,11 @@ static void add_outline(const struct fv *s, double sums[2])
         }
 }
 
-/* Of a cell: water in it that counts. */
-static double share_that_counts(const struct fv *s, int64_t c)
+/* Of a cell beside an opening: what counts as water of what passes. */
+static double share_that_counts(const struct fv *s, int64_t c, int64_t in)
 {
-    return surface_counted(s, c, surface_share(s, c));
+    const double held = carried_held(s, c, in);
+    return surface_counted(s, c, held > 0.0 ? held : surface_share(s, c));
 }
 
 /* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without
@@ -450,7 +461,7 @@ void surface_back(struct fv *s)
 
 const char *surface_trouble(const struct fv *s)
 {
-    const bool fills = sides_kinds(s) & 1u << MESH_INFLOW;
+    const bool fills = sides_kinds(s) & 1u << MESH_INFLOW || (s->outflows && s->outflows->steady);
     if (s->surface->cuts == 0 && fills && !sides_give_pressure(s))
         return "the domain is full of water, and more flows in";
     const bool leaves = sides_kinds(s) & 1u << MESH_OUTFLOW; /* then it may all have left */

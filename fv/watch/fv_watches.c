@@ -174,9 +174,11 @@ static void momentum_of_row(const struct fv *s, const struct part *p, int64_t c,
 }
 
 /* m^2/s^2: kinetic energy and pressure of the water in a cell at an opening, times its share. */
-static double head_of(const struct fv *s, int64_t c)
+static double head_of(const struct fv *s, int64_t c, int64_t in)
 {
-    double share = surface_counted(s, c, surface_water(s, c)), square = 0.0, x[3];
+    const double held = carried_held(s, c, in),
+                 share = surface_counted(s, c, held > 0.0 ? held : surface_water(s, c));
+    double square = 0.0, x[3];
     if (s->surface->layer[c] || share == 0.0)
         return 0.0;
     for (int a = 0; a < s->dim; a++)
@@ -357,7 +359,7 @@ static void look_for_surface(struct fv *s, int64_t step)
     w->filled = true;
     log_warn("t = %.4g s, step %lld: no free surface is left, the domain is full of water%s", s->t,
              (long long)step,
-             sides_kinds(s) & 1u << MESH_INFLOW
+             sides_kinds(s) & 1u << MESH_INFLOW || (s->outflows && s->outflows->steady)
                  ? ": the velocity of an inflow is given whatever the level, so more comes in the "
                    "higher it rises; a higher domain, or less inflow"
                  : "");

@@ -1,0 +1,107 @@
+/* held_inflow.c - inflows of given velocity or discharge that are faster than their waves. Nothing
+ * that happens inside runs up to such an opening, so two things are given there: the velocity and
+ * the water that stood in it at the start. What splashes to the side or stands on the current is
+ * not fed; above the water of the start the side is closed. Water comes in through a face by
+ *   U C = u C_0 |S|,   C = max(C_0, share of the cell inside),   U = u C_0/C |S|,
+ * C_0 the share of the start: what a jump that has come to the opening covers is fed by a jet.
+ * Behind the face the level is no lower than that of the start.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "held_inflow.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../../common/base/base.h"
+#include "../boundary/fv_boundary.h"
+#include "fraction.h"
+#include "level_ops.h"
+#include "levelset.h"
+
+static bool comes_in(const struct outflow *o)
+{
+    return o->kind == OUTFLOW_GIVEN_IN || o->kind == OUTFLOW_STEADY;
+}
+
+/* Shares of water of the cells beside inflows, those of other ranks included: a field. Of phi they
+ * are in scratch. */
+static const double *shares(const struct fv *s)
+{
+    const struct surface *f = s->surface;
+    if (f->fraction && f->fraction->carries > 0.0)
+        return f->fraction->C;
+    memset(f->kept, 0, (size_t)s->size * sizeof(double));
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            if (comes_in(o) && o->own[i])
+                f->kept[o->cell[i]] = surface_share(s, o->cell[i]);
+    f->ops->mirror(s, f->kept);
+    return f->kept;
+}
+
+/* m/s: mean velocity inwards of the water at each side of the domain where it is given. area:
+ * m^(dim-1), of that water. Collective. */
+static void speeds_of(const struct fv *s, const double *share, const double area[6], double V[6])
+{
+    memset(V, 0, 6 * sizeof *V);
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n; i++)
+            if (o->own[i] && o->kind == OUTFLOW_STEADY)
+                V[o->side] -= share[o->cell[i]] * carried_flux(o, s->dim, i);
+    MPI_Allreduce(MPI_IN_PLACE, V, 6, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < 6; k++) {
+        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + k);
+        if (w && w->kind == WALL_INFLOW && w->has_discharge)
+            V[k] = wall_discharge(w, s->t);
+        V[k] /= fmax(area[k], 1e-300);
+    }
+}
+
+/* Takes the water of now for that of the start. */
+static void hold(const struct fv *s, const double *share, struct outflow *o)
+{
+    o->level = NEW(double, o->n);
+    o->stood = NEW(double, o->n);
+    o->full = NEW(double, o->n);
+    for (int64_t i = 0; i < o->n; i++) {
+        o->level[i] = s->surface->phi[o->cell[i]];
+        o->full[i] = o->stood[i] = fmin(share[o->cell[i]], 1.0);
+    }
+    for (int q = 0; q < s->dim; q++) {
+        o->given[q] = NEW(double, o->n);
+        for (int64_t i = 0; i < o->n; i++)
+            o->given[q][i] = o->w[q][o->place[i]];
+    }
+}
+
+void held_choose(struct fv *s)
+{
+    struct outflows *all = s->outflows;
+    double V[6];
+    if (!all)
+        return;
+    const double *share = shares(s);
+    speeds_of(s, share, all->area, V);
+    for (int k = 0; k < 6; k++) {
+        all->held[k] = all->area[k] > 0.0 && V[k] > all->waves[k];
+        if (all->held[k])
+            log_say("%s: %.3g m/s, waves run at %.3g m/s: what stands in it at the start comes in, "
+                    "whatever the level inside; above it the side is closed",
+                    scene_side_names[k], V[k], all->waves[k]);
+    }
+    OUTFLOWS (s, o)
+        if (comes_in(o) && all->held[o->side])
+            hold(s, share, o);
+}
+
+void held_measure(struct fv *s)
+{
+    bool any = false;
+    for (int k = 0; k < 6 && s->outflows; k++)
+        any = any || s->outflows->held[k];
+    if (!any)
+        return;
+    const double *share = shares(s);
+    OUTFLOWS (s, o)
+        for (int64_t i = 0; i < o->n && o->stood; i++)
+            o->full[i] = fmax(o->stood[i], fmin(1.0, share[o->cell[i]]));
+}
