@@ -72,6 +72,11 @@ struct outflows {
 
 /* The kind of an opening of the scene. */
 enum outflow_kind carried_kind(const struct scene_wall *w);
+/* Whether its velocity inwards is given. */
+static inline bool carried_comes_in(const struct outflow *o)
+{
+    return o->kind == OUTFLOW_GIVEN_IN || o->kind == OUTFLOW_STEADY;
+}
 /* The kind of a side whose wall is w (NULL: none) in this run: inflows of given velocity under a
  * surface are listed, too. */
 enum mesh_side carried_side(const struct fv *s, const struct scene_wall *w, enum mesh_side kind);

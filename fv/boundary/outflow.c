@@ -109,11 +109,6 @@ static void set_inflow(const struct fv *s, struct outflow *o, int64_t i)
     }
 }
 
-static bool is_inflow(const struct outflow *o)
-{
-    return o->kind == OUTFLOW_GIVEN_IN || o->kind == OUTFLOW_STEADY;
-}
-
 bool outflow_pushes(const struct fv *s)
 {
     bool any = s->outflows && s->outflows->steady;
@@ -133,14 +128,14 @@ void outflow_start(struct fv *s)
         for (int64_t i = 0; i < o->n; i++) {
             for (int q = 0; q < s->dim; q++) {
                 const double *u = s->u[q] + o->cell[i];
-                if (!is_inflow(o))
+                if (!carried_comes_in(o))
                     o->w[q][o->place[i]] =
                         o->kind == OUTFLOW_GIVEN_OUT
                             ? discharged(s, o, q, i)
                             : (11.0 * u[0] - 7.0 * u[o->in] + 2.0 * u[2 * o->in]) / 6.0;
                 o->change[q][o->place[i]] = 0.0;
             }
-            if (is_inflow(o))
+            if (carried_comes_in(o))
                 set_inflow(s, o, i);
         }
     balance(s);
@@ -286,10 +281,10 @@ void outflow_set(struct fv *s, double dt)
             for (int q = 0; q < s->dim; q++) {
                 double *w = o->w[q] + o->place[i];
                 o->change[q][o->place[i]] = -*w;
-                if (!is_inflow(o))
+                if (!carried_comes_in(o))
                     *w = along_line(o, q, i, s->outflows->flow[o->side] * dt) + more * o->S[q][i];
             }
-            if (is_inflow(o))
+            if (carried_comes_in(o))
                 set_inflow(s, o, i);
         }
     balance(s);

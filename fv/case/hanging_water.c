@@ -44,6 +44,10 @@ void surface_check_hanging(const struct run *r, struct faults *f)
     const int up = axis_of_gravity(s), one = up == 0 ? 1 : 0, other = up == 2 ? 1 : 2;
     if (up < 0 || mesh_given_count > 0 || fv_params_nboxes(r) > 0 || r->coupled)
         return;
+    const struct scene_wall *above =
+        scene_wall_of(s, SIDE_X_MIN + 2 * up + (s->fluid.gravity[up] < 0.0));
+    if (above && above->kind == WALL_INFLOW) /* it falls from there */
+        return;
     const struct exact e = exact_create(s);
     const bool down = s->fluid.gravity[up] > 0.0;
     int found[3] = {0};
@@ -57,7 +61,8 @@ void surface_check_hanging(const struct run *r, struct faults *f)
     }
     if (found[1] > 0 && found[2] == 0)
         params_fault(r->params, f, "shapes",
-                     "water touches the side %c_%s with nothing but air below it: a side lets no "
-                     "water go, it would hang there; leave a gap, or raise the domain",
-                     "xyz"[up], down ? "min" : "max");
+                     "water touches the side %c_%s with nothing but air below it (gravity is along "
+                     "%c%c): a side lets no water go, it would hang there; leave a gap, or raise "
+                     "the domain",
+                     "xyz"[up], down ? "min" : "max", down ? '+' : '-', "xyz"[up]);
 }

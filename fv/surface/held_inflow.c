@@ -1,8 +1,8 @@
-/* held_inflow.c - inflows of given velocity or discharge that are faster than their waves. Nothing
- * that happens inside runs up to such an opening, so two things are given there: the velocity and
- * the water that stood in it at the start. What splashes to the side or stands on the current is
- * not fed; above the water of the start the side is closed. Water comes in through a face by
- *   U C = u C_0 |S|,   C = max(C_0, share of the cell inside),   U = u C_0/C |S|,
+/* held_inflow.c - inflows of given velocity or discharge that are faster than their waves, or lie
+ * across gravity. Nothing that happens inside runs up to such an opening, so two things are given
+ * there: the velocity and the water that stood in it at the start. What splashes to the side or
+ * stands on the current is not fed; above the water of the start the side is closed. Water comes in
+ * through a face by U C = u C_0 |S|,   C = max(C_0, share of the cell inside),   U = u C_0/C |S|,
  * C_0 the share of the start: what a jump that has come to the opening covers is fed by a jet.
  * Behind the face the level is no lower than that of the start.
  * SPDX-License-Identifier: BSD-3-Clause */
@@ -17,11 +17,6 @@
 #include "level_ops.h"
 #include "levelset.h"
 
-static bool comes_in(const struct outflow *o)
-{
-    return o->kind == OUTFLOW_GIVEN_IN || o->kind == OUTFLOW_STEADY;
-}
-
 /* Shares of water of the cells beside inflows, those of other ranks included: a field. Of phi they
  * are in scratch. */
 static const double *shares(const struct fv *s)
@@ -32,7 +27,7 @@ static const double *shares(const struct fv *s)
     memset(f->kept, 0, (size_t)s->size * sizeof(double));
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n; i++)
-            if (comes_in(o) && o->own[i])
+            if (carried_comes_in(o) && o->own[i])
                 f->kept[o->cell[i]] = surface_share(s, o->cell[i]);
     f->ops->mirror(s, f->kept);
     return f->kept;
@@ -73,23 +68,40 @@ static void hold(const struct fv *s, const double *share, struct outflow *o)
     }
 }
 
+/* Of inlets that water has not come to: they cannot begin. */
+static void tell_dry(const struct fv *s)
+{
+    for (int k = 0; k < s->run->scene.nwalls; k++) {
+        const struct scene_wall *w = s->run->scene.walls + k;
+        const int side = w->side - SIDE_X_MIN;
+        if (w->kind != WALL_INFLOW || w->side == SIDE_NONE || !s->levels || s->surface->g == 0.0)
+            continue;
+        if ((w->has_level ? s->levels->waves : s->outflows->waves)[side] == 0.0)
+            log_warn("%s: no water stands in this inflow at the start: nothing comes in before "
+                     "water runs there; a shape beside it lets it begin at once",
+                     scene_side_names[side]);
+    }
+}
+
 void held_choose(struct fv *s)
 {
     struct outflows *all = s->outflows;
     double V[6];
+    tell_dry(s);
     if (!all)
         return;
     const double *share = shares(s);
     speeds_of(s, share, all->area, V);
     for (int k = 0; k < 6; k++) {
-        all->held[k] = all->area[k] > 0.0 && V[k] > all->waves[k];
+        const bool lies = k / 2 == still_upright(&s->run->scene); /* no level stands in it */
+        all->held[k] = all->area[k] > 0.0 && V[k] > (lies ? 0.0 : all->waves[k]);
         if (all->held[k])
-            log_say("%s: %.3g m/s, waves run at %.3g m/s: what stands in it at the start comes in, "
-                    "whatever the level inside; above it the side is closed",
-                    scene_side_names[k], V[k], all->waves[k]);
+            log_say("%s: %.3g m/s%s: what stands in it at the start comes in, whatever happens "
+                    "inside; beside that water the side is closed",
+                    scene_side_names[k], V[k], lies ? "" : ", faster than its waves");
     }
     OUTFLOWS (s, o)
-        if (comes_in(o) && all->held[o->side])
+        if (carried_comes_in(o) && all->held[o->side])
             hold(s, share, o);
 }
 

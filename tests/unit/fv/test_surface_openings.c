@@ -21,16 +21,18 @@ static const char stretched[] =
 
 static bool floor_is_of_block;           /* of the next start: y_min is no wall of the scene */
 static const struct blocked_params *box; /* of the next start; NULL: none */
+static const struct scene_wall *tap;     /* likewise: an inflow above, with 0.3 m of its water */
 
 /* Water DEPTH deep between an opening on the left and one on the right, from rest or in uniform
  * flow; blocks: "" for the uniform grid. */
 static void read_case(struct mesh_case *c, const char *blocks, const char *const *with, double U,
                       const struct scene_wall *left, const struct scene_wall *right)
 {
-    const struct scene_wall walls[] = {*left,
-                                       *right,
-                                       {.side = SIDE_Y_MAX, .kind = WALL_SLIP},
-                                       {.side = SIDE_Y_MIN, .kind = WALL_SLIP}};
+    const struct scene_wall walls[] = {
+        *left,
+        *right,
+        tap ? *tap : (struct scene_wall){.side = SIDE_Y_MAX, .kind = WALL_SLIP},
+        {.side = SIDE_Y_MIN, .kind = WALL_SLIP}};
     mesh_case_read(
         c, MPI_COMM_WORLD, blocks,
         (const char *const[]){
@@ -43,6 +45,11 @@ static void read_case(struct mesh_case *c, const char *blocks, const char *const
     c->run.scene.nwalls = floor_is_of_block ? 3 : 4;
     c->run.scene.shapes[c->run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BELOW, .level = DEPTH};
+    if (tap)
+        c->run.scene.shapes[c->run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BOX,
+                                 .box = {{0.8, 0.7, 0.0}, {1.2, 1.0, 0.0}},
+                                 .velocity = {0.0, -2.0, 0.0}};
     blocked_given_count = box != NULL;
     if (box)
         blocked_given[0] = *box;
@@ -292,6 +299,30 @@ TEST(fast_inflow_feeds_nothing_but_its_own_water)
         const double passed = surface_volume(s) - before;
         print_message("%.6g m^2 of %g, put back %.2g\n", passed, q * end, s->surface->returned);
         assert_close(passed, q * end, 1e-3 * q * end);
+        mesh_case_end(&c, &s);
+    }
+}
+
+/* Water falls from an inflow above into a pool. */
+TEST(water_falls_from_an_inflow_above)
+{
+    const double u = 2.0, width = 0.4, end = SANITIZED ? 0.05 : 0.5;
+    const struct scene_wall above = {.side = SIDE_Y_MAX,
+                                     .kind = WALL_INFLOW,
+                                     .discharge = u * width,
+                                     .has_discharge = true},
+                            left = {.side = SIDE_X_MIN, .kind = WALL_SLIP},
+                            right = {.side = SIDE_X_MAX, .kind = WALL_SLIP};
+    for (int k = 0; k < 3; k++) {
+        struct mesh_case c;
+        tap = &above;
+        struct fv *s = start(&c, grids[k].blocks, grids[k].with, 0.0, &left, &right);
+        const double before = surface_volume(s);
+        assert_true(mesh_case_run(s, 10000, end));
+        const double passed = surface_volume(s) - before;
+        print_message("%.6g m^2 of %g\n", passed, u * width * end);
+        assert_close(passed, u * width * end, 1e-3 * u * width * end);
+        tap = NULL;
         mesh_case_end(&c, &s);
     }
 }
