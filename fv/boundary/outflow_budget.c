@@ -82,11 +82,11 @@ void outflow_set_discharges(struct fv *s, double t)
             all->of[k].discharge = out[all->of[k].side];
 }
 
-void outflow_count_volumes(struct fv *s, int a, const double *volume)
+void outflow_count_volumes(struct fv *s, const int *axis, const double *volume)
 {
     OUTFLOWS (s, o)
-        for (int64_t i = 0; i < o->n && o->a == a && is_given(o); i++)
-            if (o->own[i])
+        for (int64_t i = 0; i < o->n && is_given(o); i++)
+            if (o->own[i] && o->a == axis[grid_part(&s->grid, o->cell[i], NULL)->block])
                 s->outflows->passed[o->side] +=
                     (o->in < 0 ? 1.0 : -1.0) * volume[o->cell[i] + o->face];
 }

@@ -6,8 +6,9 @@
 
 #include "../fv.h"
 
-/* Counts water that went up through the lower faces along axis a: volume, a field. */
-void outflow_count_volumes(struct fv *s, int a, const double *volume);
+/* Counts water that went up through the lower faces along axis axis[b] of block b: volume, a
+ * field. */
+void outflow_count_volumes(struct fv *s, const int *axis, const double *volume);
 /* Counts what the projected fluxes carry within dt, s; share: of the cell inside that is
  * water, as of sides_passing. */
 void outflow_count_flows(struct fv *s, double dt,

@@ -53,7 +53,7 @@ static const struct param rows[] = {
     PARAM(P, extrema,      "m/s", "(0.0, 0.0, 0.0)", -1e6, 1e6, "known least u on the vertical, largest and least v on the horizontal centre line: for error.extrema",
           USED(WHERE(fv_has_extrema, "the first of them", "the first of them is 0")), .numbers = 3, .comparison = true),
     CHOICE(P, surface, "no|yes|auto", "auto", "free surface; auto: with shapes or a wave; in a coupled job where sph.box ends in the water at an upright side"),
-    CHOICE(P, volume, "auto|shift|fraction", "auto", "how a free surface keeps its water: fraction: the share of water of each cell is carried by the fluxes, and phi follows it where the water is not calm; shift: phi is shifted as a whole; auto: fraction where blocks do not overlap, are not joined with their indices turned and there is no partner, else shift",
+    CHOICE(P, volume, "auto|shift|fraction", "auto", "how a free surface keeps its water: fraction: the share of water of each cell is carried by the fluxes, and phi follows it where the water is not calm; shift: phi is shifted as a whole; auto: fraction where blocks do not overlap and there is no partner, else shift",
           USED(NEED(SURFACE, "without a free surface no cell holds less water than another")), .comparison = true),
     PARAM(P, force,        "-", "(0.0, 0.0, 0.0)", -1e9, 1e9, "known mean of the force x on the walls of blocks, amplitude of force y (N), its frequency (1/s), over the second half of the run: for error.force",
           USED(NEED(FORCES, "no block has a side that is a \"wall\"")), .numbers = 3, .comparison = true),

@@ -22,17 +22,41 @@ static bool any_curved(const struct mesh *m)
     return ranks_any(m->comm, curved);
 }
 
-/* Whether indices change where blocks join: planes of a neighbour's cells stand in its own. */
-static bool any_turned(const struct mesh *m)
+/* Gives block k, and those joined to it, the axes of its cells that the sweeps along axes `as' go
+ * along; false: those that meet round a corner want different ones. */
+static bool order_from(const struct mesh *m, int k, const int as[3], struct sweep_axes *to)
 {
-    bool turned = false;
-    for (int k = 0; k < m->nblocks; k++)
-        for (int side = 0; side < 2 * m->dim; side++) {
-            const struct mesh_join *j = m->block[k].join + side;
-            for (int a = 0; a < m->dim && j->block >= 0; a++)
-                turned = turned || j->axis[a] != a || j->sign[a] < 0;
-        }
-    return turned;
+    bool fits = true;
+    for (int a = 0; a < 3; a++) {
+        fits = fits && (!to->known[k] || to->axis[a][k] == as[a]);
+        to->axis[a][k] = as[a];
+    }
+    if (to->known[k])
+        return fits;
+    to->known[k] = true;
+    for (int side = 0; side < 2 * m->dim; side++) {
+        const struct mesh_join *j = m->block[k].join + side;
+        int theirs[3];
+        for (int a = 0; a < 3 && j->block >= 0; a++)
+            theirs[a] = j->axis[as[a]];
+        if (j->block >= 0 && !order_from(m, j->block, theirs, to))
+            return false;
+    }
+    return true;
+}
+
+/* Blocks whose indices run different ways are swept at the same time along the lines of cells that
+ * meet: their common faces have one flux. */
+static bool order_axes(const struct mesh *m, struct sweep_axes *to)
+{
+    static const int as[3] = {0, 1, 2};
+    memset(to, 0, sizeof *to);
+    for (int k = 0; k < (m ? m->nblocks : 0); k++)
+        if (!to->known[k] && !order_from(m, k, as, to))
+            return false;
+    for (int a = 0; a < 3 && !m; a++)
+        to->axis[a][0] = a;
+    return true;
 }
 
 /* Why a scene cannot have shares, for the log; NULL: it can. m: blocks, NULL: uniform cells; least:
@@ -46,8 +70,9 @@ static const char *obstacle(const struct run *r, const struct mesh *m, double le
         return "a partner has part of the water";
     if (m && m->has_fringe)
         return "blocks overlap";
-    if (m && any_turned(m))
-        return "blocks are joined whose indices run different ways";
+    struct sweep_axes axes;
+    if (!order_axes(m, &axes))
+        return "lines of cells change their axes round a corner where three or five blocks meet";
     const bool falls = still[0] != 0.0 || still[1] != 0.0 || still[2] != 0.0;
     if (falls && still_creep(still, r->scene.fluid.nu, least) > STILL_CREEPS)
         return "the water creeps: nu/(h sqrt(g h)) is above 10";
@@ -182,6 +207,7 @@ void fraction_start(struct fv *s)
         s->surface->fraction->passed[a] = NEW(double, s->size);
     s->surface->fraction->boxes = has_boxes(s);
     s->surface->fraction->first = first_axis(s);
+    order_axes(s->m, &s->surface->fraction->axes);
     fraction_take(s);
 }
 
@@ -305,6 +331,26 @@ static void set_plane(const struct fv *s, const struct part *p, int64_t c)
     f->alpha[c] = plane_alpha(s->dim, n, f->C[c]);
 }
 
+/* Behind a joined side normals come in the neighbour's axes. */
+static void turn_normals(const struct fv *s, const struct part *p, int side)
+{
+    const struct mesh_block *b = s->m->block + p->block;
+    const struct mesh_join *j = b->join + side;
+    const int a = side / 2;
+    int down[3] = {0, 0, 0}, up[3] = {0, 0, 0};
+    if (j->block < 0 || (side % 2 ? p->lo[a] + p->n[a] < b->n[a] : p->lo[a] > 0))
+        return;
+    down[a] = side % 2 ? -p->n[a] : 1;
+    up[a] = side % 2 ? 1 : -p->n[a];
+    PART_ROWS (p, down, up, c, len)
+        for (int64_t i = c; i < c + len; i++) {
+            double *const *n = s->surface->fraction->n;
+            const double theirs[3] = {n[0][i], n[1][i], n[2] ? n[2][i] : 0.0};
+            for (int k = 0; k < s->dim; k++)
+                n[k][i] = j->sign[k] * theirs[j->axis[k]];
+        }
+}
+
 /* Planes of the mixed cells, with ghosts. */
 static void find_planes(struct fv *s)
 {
@@ -320,9 +366,18 @@ static void find_planes(struct fv *s)
         }
     double *fields[4] = {f->alpha, f->n[0], f->n[1], f->n[2]};
     grid_fill(&s->grid, 1 + s->dim, fields);
+    for (const struct part *p = s->grid.part; s->m && p < s->grid.part + s->grid.nparts; p++)
+        for (int side = 0; side < 2 * s->dim; side++)
+            turn_normals(s, p, side);
 }
 
 /* --- fluxes --- */
+
+/* The axis of a part's cells in the sweep along a. */
+static int axis_of(const struct fv *s, const struct part *p, int a)
+{
+    return s->surface->fraction->axes.axis[a][p->block];
+}
 
 static double plane_in(const struct fv *s, int64_t c, int a, double lo, double hi)
 {
@@ -371,14 +426,16 @@ static void fluxes_of_piece(const struct fv *s, int64_t c, int64_t d, int a, dou
     }
 }
 
-static void find_fluxes(const struct fv *s, int a, double dt)
+static void find_fluxes(const struct fv *s, int sweep, double dt)
 {
-    int up[3] = {0, 0, 0};
-    up[a] = 1;
-    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++) {
+        const int a = axis_of(s, p, sweep);
+        int up[3] = {0, 0, 0};
+        up[a] = 1;
         PART_NEAR (p, no_layers, up, c, len)
             for (int64_t i = 0; i < len; i += PIECE)
                 fluxes_of_piece(s, c + i, p->stride[a], a, dt, piece(i, len));
+    }
 }
 
 /* Sum over a row of what comes in through the lower faces less what leaves through the upper. */
@@ -414,12 +471,13 @@ static void sweep(struct fv *s, int a, double dt, double per)
     find_planes(s);
     memset(f->flux, 0, (size_t)s->size * sizeof(double)); /* beside cells near water, too */
     find_fluxes(s, a, dt);
-    outflow_count_volumes(s, a, f->flux);
+    outflow_count_volumes(s, f->axes.axis[a], f->flux);
     for (int64_t i = 0; f->passed[a] && i < s->size; i++)
         f->passed[a][i] += f->flux[i] * per;
     FLOW_NEAR_AT (s, part, j, c, n) {
-        const int64_t d = part->stride[a];
-        update_row(f, a, c, d, dt, n);
+        const int along = axis_of(s, part, a);
+        const int64_t d = part->stride[along];
+        update_row(f, along, c, d, dt, n);
         f->entered += gain_of_row(f->flux + c, d, n); /* all faces within cancel */
     }
     surface_mirror(s, f->C);

@@ -18,6 +18,12 @@ struct air_cell {
     double out;         /* m^2/s: its divergence over its conductance */
 };
 
+/* The axis of each block's cells, of uniform ones as block 0, in the sweeps along axis 0, 1, 2. */
+struct sweep_axes {
+    int axis[3][MESH_BLOCKS_MAX];
+    bool known[MESH_BLOCKS_MAX];
+};
+
 /* The shares and the planes (plane.h) that reconstruct the interface. Fields have the size of phi
  * and are owned. */
 struct fraction {
@@ -43,8 +49,9 @@ struct fraction {
     struct air_cell *air;
     unsigned char *smooth; /* 1: phi resolves the surface here */
     bool boxes;            /* boxes are cut out of this rank's cells */
-    double carries;      /* 1: phi follows the shares; 0: the water is calm, and they follow phi */
-    double calm;         /* steps since the water became calm */
+    double carries; /* 1: phi follows the shares; 0: the water is calm, and they follow phi */
+    double calm;    /* steps since the water became calm */
+    struct sweep_axes axes;
     double first;        /* axis of the next sweep */
     double first_before; /* at the start of a step */
     /* m^dim: moved to neighbours, as cells were fuller than full or less than empty; this rank. */

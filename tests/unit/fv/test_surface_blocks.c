@@ -15,6 +15,7 @@
 #define SLIP_I "i_min = \"slip\"; i_max = \"slip\"; "
 #define SLIP_J "j_min = \"slip\"; j_max = \"slip\"; "
 #define SLIP_K "k_min = \"slip\"; k_max = \"slip\"; "
+#define MIDDLE "centre = (0.75, 0.35); "
 #define HEAVY "fluid.gravity=(0,-9.81)"
 #define REST "initial.field=\"rest\"", "fluid.nu=0"
 #define WAVE                                                                                       \
@@ -403,4 +404,42 @@ TEST(water_that_falls_in_a_ring_is_kept)
     assert_close(s->surface->returned / volume, 0.0, 1e-3);
     assert_close(surface_volume(s) / volume, 1.0, 1e-9);
     mesh_case_end(&c, &s);
+}
+
+/* Of joined blocks the right one is turned by so many right angles about its middle: the column
+ * that falls on it does as on blocks whose indices run alike, and its water is kept where it is. */
+TEST(water_falls_over_a_join_of_turned_blocks)
+{
+    static const char *const right[4] = {
+        "min = (0.5, 0.0); max = (1.0, 0.7); cells = (20, 28); i_min = \"joined\"; i_max = "
+        "\"slip\"; " SLIP_J,
+        "min = (0.4, 0.1); max = (1.1, 0.6); cells = (28, 20); angle = 90.0; " MIDDLE
+        "j_max = \"joined\"; "
+        "j_min = \"slip\"; " SLIP_I,
+        "min = (0.5, 0.0); max = (1.0, 0.7); cells = (20, 28); angle = 180.0; " MIDDLE "i_max = "
+        "\"joined\"; i_min = \"slip\"; " SLIP_J,
+        "min = (0.4, 0.1); max = (1.1, 0.6); cells = (28, 20); angle = 270.0; " MIDDLE "j_min = "
+        "\"joined\"; j_max = \"slip\"; " SLIP_I};
+    const struct scene_shape water = {.form = SHAPE_BOX, .box = {{0.0, 0.0}, {0.4, 0.4}}};
+    double energy[4];
+    for (int k = 0; k < 4; k++) {
+        struct mesh_case c;
+        char blocks[600];
+        snprintf(blocks, sizeof blocks,
+                 "{ name = \"l\"; max = (0.5, 0.7); cells = (20, 28); i_max = \"joined\"; i_min "
+                 "= \"slip\"; " SLIP_J "}, { name = \"r\"; %s}",
+                 right[k]);
+        struct fv *s =
+            start(&c, MPI_COMM_WORLD, blocks, (const char *const[]){HEAVY, REST, NULL}, &water);
+        const double volume = surface_volume(s);
+        assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.02 : 0.2));
+        energy[k] = surface_energy(s);
+        assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.03 : 1.0));
+        print_message("turned by %d degrees: energy %.7g, put back %.2g\n", 90 * k, energy[k],
+                      s->surface->returned / volume);
+        assert_close(energy[k], energy[0], 1e-3 * energy[0]);
+        assert_close(s->surface->returned / volume, 0.0, 1e-3);
+        assert_close(surface_volume(s) / volume, 1.0, 1e-9);
+        mesh_case_end(&c, &s);
+    }
 }
