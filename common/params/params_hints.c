@@ -136,6 +136,46 @@ const struct hint_name *hint_name_next(const char *word, const struct hint_name 
     return NULL;
 }
 
+/* Likewise of values; the first of a word that a row has is meant. */
+static const struct hint_name values[] = {
+    {"no_slip", "wall", ""},    {"noslip", "wall", ""},     {"wall", "no_slip", ""},
+    {"solid", "no_slip", ""},   {"inlet", "inflow", ""},    {"outlet", "outflow", ""},
+    {"open", "outflow", ""},    {"free", "outflow", ""},    {"symmetry", "slip", ""},
+    {"left", "x_min", ""},      {"right", "x_max", ""},     {"circle", "disc", ""},
+    {"cylinder", "disc", ""},   {"rectangle", "box", ""},   {"height", "level", ""},
+    {"elevation", "level", ""}, {"flux", "discharge", ""},  {"flow", "discharge", ""},
+    {"p", "pressure", ""},      {"implicit", "newton", ""}, {"rk4", "rk3", ""},
+    {"ring", "annulus", ""}};
+
+/* Whether `choices', words between |, has this one. */
+static bool has_choice(const char *choices, const char *word)
+{
+    const size_t n = strlen(word);
+    for (const char *c = strstr(choices, word); c; c = strstr(c + 1, word))
+        if ((c == choices || c[-1] == '|') && (c[n] == '|' || c[n] == '\0'))
+            return true;
+    return false;
+}
+
+void hint_choice(const char *choices, const char *word, char *text, size_t size)
+{
+    const char *best = NULL;
+    char one[64];
+    for (size_t k = 0; k < sizeof values / sizeof values[0] && !best; k++)
+        if (strcmp(values[k].word, word) == 0 && has_choice(choices, values[k].key))
+            best = values[k].key;
+    int least = hint_nearest_start(word).distance;
+    snprintf(text, size, best ? "; did you mean `%s'?" : "", best);
+    for (const char *c = choices; *c && !best; c += strcspn(c, "|"), c += *c == '|') {
+        struct hint_nearest near = hint_nearest_start(word);
+        snprintf(one, sizeof one, "%.*s", (int)strcspn(c, "|"), c);
+        hint_nearest_try(&near, one);
+        if (near.distance < least)
+            snprintf(text, size, "; did you mean `%s'?", one);
+        least = near.distance < least ? near.distance : least;
+    }
+}
+
 void hint_keys(const struct param_group *g, char *text, size_t size)
 {
     size_t n = 0;

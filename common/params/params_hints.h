@@ -37,6 +37,10 @@ struct hint_name {
  * memory. */
 const struct hint_name *hint_name_next(const char *word, const struct hint_name *after);
 
+/* Writes "; did you mean `x'?" to text[size] where one of choices, words between |, is near to a
+ * word that is none of them, or is what other codes call so; else nothing. */
+void hint_choice(const char *choices, const char *word, char *text, size_t size);
+
 /* Writes the names of a group's keys, "a, b, c", to text[size]; cut if need be. */
 void hint_keys(const struct param_group *g, char *text, size_t size);
 

@@ -112,8 +112,11 @@ static bool get_choice(const struct param *r, const config_setting_t *s, void *t
             break;
         c = end + 1;
     }
-    snprintf(why, size, "%s%s%sexpected one of %s", word ? "`" : "", word ? word : "",
-             word ? "' is not known: " : "", r->choices);
+    char hint[120] = "";
+    if (word)
+        hint_choice(r->choices, word, hint, sizeof hint);
+    snprintf(why, size, "%s%s%sexpected one of %s%s", word ? "`" : "", word ? word : "",
+             word ? "' is not known: " : "", r->choices, hint);
     return false;
 }
 

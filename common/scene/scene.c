@@ -151,7 +151,7 @@ static const struct param wall_rows[] = {
                NEED(FULL, "under a free surface an inflow is uniform over its water"))),
     PARAM(P, pressure, "Pa",  "0.0", -1e12, 1e12, "at an outflow; with weight at the height initial.level, by default the top of the domain (sph: between outflows at different heights at the middle of each)",
           USED(ONLY(kind, ~ONE(WALL_SLIP) & ~ONE(WALL_NO_SLIP), "a wall has none; outflow and absorbing have"),
-               ONLY(kind, ONE(WALL_OUTFLOW) | ONE(WALL_ABSORBING), "the velocity is given here, the pressure follows"),
+               ONLY(kind, ONE(WALL_OUTFLOW) | ONE(WALL_ABSORBING), "the velocity is given here, the pressure follows: an opening of given pressure is an outflow"),
                WITHOUT(carried, "of a convective outflow (carried) it is part of the solution"),
                NEED(FULL, "under a free surface the level says it (walls.level)"))),
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): convective outflow, dw/dt + U dw/dn = 0, the pressure is not given",

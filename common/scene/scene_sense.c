@@ -104,12 +104,12 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
             across);
 }
 
-/* Of an inflow that nothing is given of. Sides of blocks may take the initial velocity instead. */
+/* Of an inflow that nothing is given of; of a pressure its row tells. Sides of blocks may take the initial velocity instead. */
 static void check_inflow(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     const struct scene_wall *w = s->walls + k;
     if (w->kind == WALL_INFLOW && w->side != SIDE_NONE && !w->has_level && !w->has_discharge &&
-        vec3_length(w->velocity) == 0.0 && !params_given(p, "blocks"))
+        vec3_length(w->velocity) == 0.0 && w->pressure == 0.0 && !params_given(p, "blocks"))
         params_fault(p, f, key_text("walls.[%d].velocity", k),
                      "an inflow of 0 m/s lets nothing in: give it a velocity into the domain%s",
                      scene_has_surface(s) ? ", a discharge or a level" : "");
