@@ -104,7 +104,8 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
             across);
 }
 
-/* Of an inflow that nothing is given of; of a pressure its row tells. Sides of blocks may take the initial velocity instead. */
+/* Of an inflow that nothing is given of; of a pressure its row tells. Sides of blocks may take the
+ * initial velocity instead. */
 static void check_inflow(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     const struct scene_wall *w = s->walls + k;
