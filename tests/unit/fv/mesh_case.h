@@ -4,6 +4,7 @@
 #define TESTS_MESH_CASE_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -86,16 +87,17 @@ static inline struct fv *mesh_case_create(struct mesh_case *c, struct h5 *f)
     return fv_create(&c->run, f);
 }
 
-/* Checks a case that must be refused in this word, and ends it. */
-static inline void mesh_case_refuse(struct mesh_case *c, const char *word)
+/* Whether a case is refused in this word; ends it. */
+static inline bool mesh_case_refused(struct mesh_case *c, const char *word)
 {
     if (c->faults.n == 0)
         fv_params_check(&c->run, &c->faults);
-    assert_true(c->faults.n > 0);
-    if (c->run.rank == 0 && !strstr(c->faults.text, word))
-        fail_msg("'%s' is not in: %s", word, c->faults.text);
+    const bool told = c->faults.n > 0 && (c->run.rank > 0 || strstr(c->faults.text, word));
+    if (!told)
+        printf("'%s' is not in: %s\n", word, c->faults.text);
     mem_free(c->faults.text);
     params_free(&c->params);
+    return told;
 }
 
 static inline struct fv *mesh_case_start(struct mesh_case *c, MPI_Comm comm, const char *blocks,

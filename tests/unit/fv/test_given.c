@@ -188,5 +188,5 @@ TEST(a_box_without_cells_is_a_fault)
     snprintf(text, sizeof text, waving, 16, 16);
     mesh_case_read(&c, MPI_COMM_WORLD, text,
                    (const char *const[]){"fv.hole=((0.3,0.3),(0.32,0.32))", NULL});
-    mesh_case_refuse(&c, "no cell of the blocks");
+    assert_true(mesh_case_refused(&c, "no cell of the blocks"));
 }

@@ -544,7 +544,7 @@ static void finds(const char *blocks, const char *word)
 {
     struct mesh_case c;
     mesh_case_read(&c, MPI_COMM_WORLD, blocks, NULL);
-    mesh_case_refuse(&c, word);
+    assert_true(mesh_case_refused(&c, word));
 }
 
 TEST(faults_are_told)

@@ -219,6 +219,6 @@ TEST(faults_are_told)
         mesh_case_read(&c, MPI_COMM_WORLD, of[k].blocks,
                        (const char *const[]){"initial.field=\"rest\"", "domain.min=(-1,-1)",
                                              "domain.max=(1,1)", of[k].override, NULL});
-        mesh_case_refuse(&c, of[k].wanted);
+        assert_true(mesh_case_refused(&c, of[k].wanted));
     }
 }

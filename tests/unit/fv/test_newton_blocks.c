@@ -179,5 +179,5 @@ TEST(a_wall_without_a_block_is_refused)
     mesh_case_read(&c, MPI_COMM_WORLD, plain, (const char *const[]){NEWTON, NULL});
     c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_X_MIN, .kind = WALL_NO_SLIP};
     c.run.scene.nwalls = 1;
-    mesh_case_refuse(&c, "no side of a block");
+    assert_true(mesh_case_refused(&c, "no side of a block"));
 }

@@ -185,5 +185,5 @@ TEST(orphans_are_named)
         "\"wall\"; j_max = \"wall\"; }, "
         "{ name = \"outside\"; cells = (16, 16); min = (0.5, 0.5); max = (1.5, 1.5); }",
         (const char *const[]){"domain.periodic=(false,false)", NULL});
-    mesh_case_refuse(&c, "orphan");
+    assert_true(mesh_case_refused(&c, "orphan"));
 }
