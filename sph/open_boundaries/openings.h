@@ -48,8 +48,7 @@ struct openings {
     double *shift; /* m: place of the incoming lattice behind each face */
     int64_t born, gone,
         refused; /* number of particles created, removed, not created for lack of room; this rank */
-    double born_mass, gone_mass, inflow; /* kg: since the start, this rank */
-    double through[6]; /* kg: of particles created less removed at each side, too */
+    double through[6]; /* kg: fluxes of the faces of each side, less drops; this rank */
     int64_t first_id;  /* ids of created particles: first_id + time in ticks * faces + face */
     double tick;       /* s: far below a step */
     int nghost, first_ghost,

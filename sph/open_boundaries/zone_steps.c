@@ -290,7 +290,7 @@ void zones_gauge(struct sph *s)
     struct zones *z = s->zones;
     const double *G = s->gravity, g = vec3_length(G);
     struct openings *o = z->openings;
-    double inflow;
+    double inflow = 0.0;
     z->gauge = 0.0;
     if (z->surface) /* one pressure, 0 on the surface of both */
         return;
@@ -298,7 +298,9 @@ void zones_gauge(struct sph *s)
         openings_let_out(o, gained(s));
     if (!s->surface || g == 0.0)
         return;
-    MPI_Allreduce(&o->inflow, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    for (int side = 0; side < 2 * s->dim; side++)
+        inflow += o->through[side];
+    MPI_Allreduce(MPI_IN_PLACE, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double layer = (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
     const double level = level_inside(s);
     z->level = isnan(z->level) ? level : z->level + (level - z->level) / level_memory;
@@ -353,7 +355,6 @@ void zones_blend(struct sph *s)
             u[a] = y[dim + a] / m;
         (all ? draw_all : draw)(s, k, side, alpha, &p, u);
         impose(s, i, u, eos_rho(p, s->rho0, s->c0, s->gamma));
-        z->blended += y[at_mass(dim)] - m;
     }
 }
 
@@ -372,10 +373,8 @@ void zones_save(struct sph *s, struct h5 *f)
     const int64_t rows = s->run->rank == 0 ? openings_faces(o) : 0;
     h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
     h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
-    const double booked[4] = {s->zones->blended, o->born_mass, o->gone_mass, o->inflow};
     const double level[1] = {s->zones->level}, deficit[1] = {o->deficit};
     const int64_t counted[3] = {o->born, o->gone, o->refused};
-    h5_write_real(f, "zones_booked", "kg", 4, 1, booked, false);
     h5_write_real(f, "zones_through", "kg", 6, 1, o->through, false);
     h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
     h5_write_real(f, "zones_owed", "kg", 1, 1, deficit, false);
@@ -410,7 +409,7 @@ bool zones_load(struct sph *s, struct h5 *f)
 {
     struct openings *o = s->zones->openings;
     const int faces = openings_faces(o);
-    double booked[4], way[3];
+    double way[3];
     int64_t counted[3], n;
     double *mass = h5_read_all_real(f, "faces_mass", 1, &n);
     const bool same_faces = mass && n == faces;
@@ -418,7 +417,6 @@ bool zones_load(struct sph *s, struct h5 *f)
         memcpy(o->mass, mass, (size_t)faces * sizeof *mass);
     mem_free(mass);
     if (!same_faces || !h5_read_parts(f, "faces_flux", faces, o->flux) ||
-        !h5_read_parts(f, "zones_booked", 4, booked) ||
         !h5_read_parts(f, "zones_through", 6, o->through) ||
         !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
         !h5_read_same(f, "zones_owed", 1, &o->deficit) || !h5_read_same(f, "zones_way", 3, way) ||
@@ -426,10 +424,6 @@ bool zones_load(struct sph *s, struct h5 *f)
         !load_counts(s, f, counted) || (s->zones->update && !sides_load(s, f)) ||
         (s->zones->gap && !level_gap_load(s, f)) || !wet_faces_load(s, f))
         return false;
-    s->zones->blended = booked[0];
-    o->born_mass = booked[1];
-    o->gone_mass = booked[2];
-    o->inflow = booked[3];
     o->born = counted[0];
     o->gone = counted[1];
     o->refused = counted[2];

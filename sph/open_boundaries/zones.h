@@ -57,7 +57,6 @@ struct zones {
     double gauge;
     double R, weight; /* m, Pa: the support, and rho g R where rest_excess is added; else 0 */
     double level;     /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
-    double blended;   /* kg: mass that blending added on this rank since the start */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */
     int capacity;
     int *who;

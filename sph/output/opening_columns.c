@@ -1,7 +1,8 @@
 /* opening_columns.c - what has passed inlets, outlets and sides where water falls out. For each
  * such side the mass that has come in less what has gone out since the start, kg, and with a free
  * surface the level outside, m: columns of the series, sums of the summary, and the balance of the
- * run's mass.
+ * run's mass. At zones that is what the outer solution brings: particles there exchange mass with
+ * the lattice behind the faces, too, so that those which leave do not tell it.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "opening_columns.h"
 
@@ -53,7 +54,7 @@ static const bool *open_sides(const struct sph *s)
 static void sum_through(const struct sph *s, double through[6])
 {
     for (int side = 0; side < 6; side++) {
-        through[side] = open_sides(s)[side] ? s->zones->openings->through[side] : 0.0;
+        through[side] = s->zones ? s->zones->openings->through[side] : 0.0;
         for (const struct sph *q = s; q; q = q->finer)
             through[side] -= q->total.fallen[side];
     }
@@ -75,30 +76,15 @@ double *opening_row(const struct sph *s, double *values)
     return values;
 }
 
-/* Around a region with a surface that the flow outside crosses, particles alone are not its water:
- * faces hold what has come in and is no whole particle yet. What all of that and the drops that
- * left over the water differ from the start and what has flown through the faces, over the start.
- */
-static void budget_summary(const struct sph *s, struct summary *to)
-{
-    const struct openings *o = s->zones->openings;
-    const double held = openings_held(s);
-    double sums[2] = {o->inflow, o->rain[0]};
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    summary_real(to, "faces_hold", held / s->start.mass);
-    summary_real(to, "drift.budget",
-                 (zones_mass(s) + held + sums[1] - sums[0]) / s->start.mass - 1.0);
-}
-
-/* drift.budget: the mass at the end less that of the start and what has passed, over what was there
- * and came in. */
+/* drift.budget: the mass at the end, with what faces hold that has come in and is no whole particle
+ * yet, less that of the start and what has passed, over what was there and came in. */
 void opening_summary(const struct sph *s, struct summary *to)
 {
+    const double held = s->zones ? openings_held(s) : 0.0;
     double through[6], sum = 0.0, in = s->start.mass;
-    bool any = false;
-    const bool around = s->prm.outer == OUTER_EXACT && s->zones && s->zones->surface;
-    if (around)
-        budget_summary(s, to);
+    bool any = s->prm.outer == OUTER_EXACT && s->zones && s->zones->surface;
+    if (any)
+        summary_real(to, "faces_hold", held / s->start.mass);
     sum_through(s, through);
     for (int side = 0; side < 2 * s->dim; side++) {
         sum += through[side]; /* what has gone over a side without a wall, too */
@@ -108,6 +94,6 @@ void opening_summary(const struct sph *s, struct summary *to)
         any = true;
         summary_real(to, key_text("through.%s", scene_side_names[side]), through[side]);
     }
-    if (any && !around)
-        summary_real(to, "drift.budget", (zones_mass(s) - sum - s->start.mass) / in);
+    if (any)
+        summary_real(to, "drift.budget", (zones_mass(s) + held - sum - s->start.mass) / in);
 }

@@ -88,8 +88,9 @@ enum { KEPT = SUM_COUNT + 5 };
 static void take_sums(struct sph_case *c, double *sums)
 {
     const struct openings *o = c->s->zones ? c->s->zones->openings : NULL;
-    double counts[4] = {c->s->total.lost, o ? (double)o->born : 0.0, o ? o->inflow : 0.0,
-                        o ? o->born_mass - o->gone_mass : 0.0};
+    double counts[4] = {c->s->total.lost, o ? (double)o->born : 0.0, o ? (double)o->gone : 0.0};
+    for (int side = 0; o && side < 6; side++)
+        counts[3] += o->through[side];
     sph_sums(c->s, sums);
     MPI_Allreduce(MPI_IN_PLACE, counts, 4, MPI_DOUBLE, MPI_SUM, c->run.comm);
     memcpy(sums + SUM_COUNT, counts, sizeof counts);
