@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../base/base.h"
 #include "scene_geometry.h"
 
 /* Where an outline crosses a wall: between its corner i and the next, in a segment of the wall. */
@@ -106,25 +107,73 @@ static bool is_shut(const struct scene *s, int side)
     return w && w->kind < WALL_INFLOW;
 }
 
+/* A closed side in the plane: the axis across it, where it is, m, and its sense along the other
+ * axis with the fluid on its left. */
+struct cut_side {
+    int axis;
+    double at, sense;
+};
+
+static struct cut_side side_of(const struct scene_domain *d, int side)
+{
+    const int a = side / 2;
+    const bool high = side % 2;
+    return (struct cut_side){a, high ? d->max[a] : d->min[a], (a == 1) != high ? 1.0 : -1.0};
+}
+
+/* Where a line ends at x on a closed side, the wall goes on along that, as the floor does at the
+ * toe of a bed. Sets y, far beyond x (way 1) or before it (-1). */
+static bool goes_on(const struct scene *s, const double *x, double way, double near, double y[2])
+{
+    const struct scene_domain *d = &s->domain;
+    for (int side = 0; side < 4; side++) {
+        const struct cut_side is = side_of(d, side);
+        const int b = 1 - is.axis;
+        const double along = way * is.sense;
+        if (!is_shut(s, side) || fabs(x[is.axis] - is.at) > near ||
+            !(along > 0.0 ? x[b] < d->max[b] - near : x[b] > d->min[b] + near))
+            continue;
+        y[is.axis] = is.at;
+        y[b] = x[b] + 2.0 * along * (d->max[b] - d->min[b]);
+        return true;
+    }
+    return false;
+}
+
+/* By an open line, with the sides that it ends on. */
+static void cut_at_line(const struct scene *s, const struct line *l, struct scene_body *b)
+{
+    const double near = 1e-9 * line_size(l);
+    double(*x)[2] = (double(*)[2])mem_new((size_t)l->n + 2, sizeof *x);
+    int n = goes_on(s, l->x[0], -1.0, near, x[0]);
+    memcpy(x + n, l->x, (size_t)l->n * sizeof *x);
+    n += l->n;
+    n += goes_on(s, l->x[l->n - 1], 1.0, near, x[n]);
+    cut_at(&(struct line){n, (const double(*)[2])x, false}, near, b);
+    mem_free(x);
+}
+
 void scene_cut_at_walls(const struct scene *s, struct scene_body *b)
 {
-    if (s->domain.dim > 2 || scene_body_moves(b) || b->points.n < 3)
+    const struct scene_domain *d = &s->domain;
+    if (d->dim > 2 || scene_body_moves(b) || b->points.n < 3)
         return;
     for (int k = 0; k < s->nwalls; k++) {
         const struct line l = line_of(&s->walls[k].points, false);
         if (l.n > 1 && !s->walls[k].closed)
-            cut_at(&l, 1e-9 * line_size(&l), b);
+            cut_at_line(s, &l, b);
     }
     for (int side = 0; side < 4; side++) {
-        const int a = side / 2;
-        const bool high = side % 2, forward = (a == 1) != high;
-        const double *lo = s->domain.min, *hi = s->domain.max, L = hi[1 - a] - lo[1 - a];
+        const struct cut_side is = side_of(d, side);
+        const int a = is.axis;
+        const double L = d->max[1 - a] - d->min[1 - a];
         double x[2][2];
-        x[0][a] = x[1][a] = high ? hi[a] : lo[a];
-        x[!forward][1 - a] = lo[1 - a] - L;
-        x[forward][1 - a] = hi[1 - a] + L;
+        x[0][a] = x[1][a] = is.at;
+        x[is.sense < 0.0][1 - a] = d->min[1 - a] - L;
+        x[is.sense > 0.0][1 - a] = d->max[1 - a] + L;
         if (is_shut(s, side))
-            cut_at(&(struct line){2, (const double(*)[2])x, false}, 1e-9 * (hi[a] - lo[a]), b);
+            cut_at(&(struct line){2, (const double(*)[2])x, false}, 1e-9 * (d->max[a] - d->min[a]),
+                   b);
     }
 }
 

@@ -512,11 +512,15 @@ static void drop_dry(struct basins *b)
 {
     int64_t *cells = count_cells(b);
     unsigned char *wet = NEW(unsigned char, b->nruns);
+    int64_t counts = 0; /* the water may be one drop */
     find_wet(b, cells, wet);
+    for (int r = 0; r < b->nruns; r++)
+        if (r == basin_part(b, r) && wet[r] && cells[r] > counts)
+            counts = cells[r] < LEAST_CELLS ? cells[r] : LEAST_CELLS;
     for (int r = 0; r < b->nruns; r++) {
         const int part = basin_part(b, r);
         b->runs[r].dropped = !wet[part];
-        b->wet += r == part && wet[part] && cells[part] >= LEAST_CELLS;
+        b->wet += r == part && wet[part] && cells[part] >= counts;
         b->dry += r == part && !wet[part] && cells[part] >= LEAST_CELLS;
     }
     FREE(cells, wet);

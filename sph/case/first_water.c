@@ -23,20 +23,20 @@ static bool is_open_above(const struct scene *c, const double *x)
     return size > 0.0 && !sph_falls_stopped(c, x, up);
 }
 
-struct first_water first_water_look(const struct run *r, const struct sph_params *used)
+/* By m[a] samples along each axis. */
+static struct first_water sample(const struct run *r, const struct sph_params *used, const int *m)
 {
     const struct scene *c = &r->scene;
-    const int dim = c->domain.dim, m = dim == 2 ? 96 : 24;
-    const int samples = dim == 2 ? m * m : m * m * m;
+    const int dim = c->domain.dim, samples = m[0] * m[1] * m[2];
     const double one = 1.0 / samples;
     const bool lines = scene_has_open_lines(c);
     const struct exact e = exact_create(c);
     struct first_water is = {0.0, 0.0, 0.0};
     for (int k = 0; k < samples; k++) {
-        const int at[3] = {k % m, k / m % m, k / m / m};
+        const int at[3] = {k % m[0], k / m[0] % m[1], k / m[0] / m[1]};
         double x[3] = {0.0, 0.0, 0.0};
         for (int a = 0; a < dim; a++)
-            x[a] = used->box[0][a] + (at[a] + 0.5) / m * (used->box[1][a] - used->box[0][a]);
+            x[a] = used->box[0][a] + (at[a] + 0.5) / m[a] * (used->box[1][a] - used->box[0][a]);
         if (scene_matter(c, &e, x) != MATTER_FLUID || !scene_is_room(c, x))
             continue;
         const bool behind = lines && scene_is_behind_lines(c, x);
@@ -45,6 +45,21 @@ struct first_water first_water_look(const struct run *r, const struct sph_params
         is.open += behind && is_open_above(c, x) ? one : 0.0;
     }
     return is;
+}
+
+/* Where a few thousand find less than a particle, each place of one is asked: there may be a drop.
+ */
+struct first_water first_water_look(const struct run *r, const struct sph_params *used)
+{
+    const int dim = r->scene.domain.dim, few = dim == 2 ? 96 : 24;
+    const struct first_water is = sample(r, used, (const int[]){few, few, dim == 2 ? 1 : few});
+    int m[3] = {1, 1, 1};
+    double all = 1.0;
+    for (int a = 0; a < dim; a++) {
+        m[a] = (int)fmin(ceil((used->box[1][a] - used->box[0][a]) / used->dx - 1e-6), 1e6);
+        all *= m[a];
+    }
+    return is.kept * all >= 1.0 || all > 1e7 ? is : sample(r, used, m);
 }
 
 static bool has_wall_sides(const struct scene *c)

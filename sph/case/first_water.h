@@ -12,7 +12,7 @@ struct sph_params;
 struct first_water {
     double kept, behind, open;
 };
-/* By a few thousand samples. */
+/* By a few thousand samples, or where these find less than a particle at each place of one. */
 struct first_water first_water_look(const struct run *r, const struct sph_params *used);
 /* Warns where open lines leave out water that the shapes draw: more than half of it, or, with
  * nothing above it, 2 %. */

@@ -14,7 +14,7 @@ static const double least_angle = 0.02; /* rad: less is no fluid but a face on a
 
 /* What leaves a joint along a segment, to its end b (on: the fluid is on the left) or a. */
 struct ray {
-    int piece;
+    int piece, body;
     bool on;
     double angle, from, to; /* m along the segment */
 };
@@ -32,6 +32,22 @@ static double distance_to(const struct segment *g, const double *x, double *alon
     return hypot(d[0] - *along * g->t[0], d[1] - *along * g->t[1]);
 }
 
+/* Angle of the way along t, so that ways that are alike have angles that are. */
+static double angle_of(double tx, double ty)
+{
+    const double angle = atan2(ty, tx);
+    return angle < M_PI - least_angle ? angle : angle - 2.0 * M_PI;
+}
+
+/* Whether p comes before q counter-clockwise. Where faces of two owners lie on each other there is
+ * no fluid between them: solids are before the first, which has its fluid on its left, and beyond
+ * the other. */
+static bool is_before(const struct ray *p, const struct ray *q)
+{
+    const double turn = q->angle - p->angle;
+    return fabs(turn) < least_angle && p->body != q->body && p->on != q->on ? p->on : turn > 0.0;
+}
+
 static int find_rays(const struct walls *w, const double *x, double near, struct ray *ray)
 {
     int n = 0;
@@ -41,12 +57,12 @@ static int find_rays(const struct walls *w, const double *x, double near, struct
         if (fabs(x[0] - g->a[0]) > g->length + near || distance_to(g, x, &at) > near)
             continue;
         if (at > near && n < JOINT_RAYS)
-            ray[n++] = (struct ray){k, false, atan2(-g->t[1], -g->t[0]), 0.0, at};
+            ray[n++] = (struct ray){k, g->body, false, angle_of(-g->t[0], -g->t[1]), 0.0, at};
         if (at < g->length - near && n < JOINT_RAYS)
-            ray[n++] = (struct ray){k, true, atan2(g->t[1], g->t[0]), at, g->length};
+            ray[n++] = (struct ray){k, g->body, true, angle_of(g->t[0], g->t[1]), at, g->length};
     }
     for (int k = 1; k < n; k++)
-        for (int i = k; i > 0 && ray[i].angle < ray[i - 1].angle; i--) {
+        for (int i = k; i > 0 && is_before(ray + i, ray + i - 1); i--) {
             const struct ray r = ray[i];
             ray[i] = ray[i - 1];
             ray[i - 1] = r;
@@ -152,7 +168,8 @@ static bool make_joint(const struct walls *w, const double *x, double near, doub
     int fluid[JOINT_RAYS], nfluids = 0;
     for (int k = 0; k < n; k++) {
         const struct ray *r = ray + k, *q = ray + (k + 1) % n;
-        const double turn = q->angle - r->angle, width = turn < 0.0 ? turn + 2.0 * M_PI : turn;
+        const double turn = q->angle - r->angle,
+                     width = turn < -least_angle ? turn + 2.0 * M_PI : turn;
         fluid[k] = r->on && !q->on && width > least_angle ? nfluids++ : -1;
     }
     if (nfluids < 2)

@@ -336,33 +336,51 @@ static int owner_of(const struct walls *w, const struct wall_touch *t, int dim)
     return dim == 2 ? w->segments[t->piece].body : w->meshes[t->of].body;
 }
 
-/* Whether one is the back of the other, which lies on it. */
-static bool lies_on(const struct sph *s, const struct wall_touch *t, const struct wall_touch *o)
+/* Whether one is the back of the other, and lies on it. */
+static bool is_back_of(const struct sph *s, const struct wall_touch *t, const struct wall_touch *o)
 {
     double turn = 0.0;
+    if (!(t->height * o->height < 0.0 && fabs(t->height + o->height) < 0.1 * s->dx))
+        return false;
     for (int a = 0; a < s->dim; a++)
         turn += t->n[a] * o->n[a];
-    if (!(o->height > 0.0 && turn < -0.99))
-        return false;
     const int of = owner_of(s->walls, t, s->dim), on = owner_of(s->walls, o, s->dim);
     const double near = (walls_sealed(s, of, on) ? walls_shut(s->walls, of, on) : 0.1) * s->dx;
-    return fabs(t->height + o->height) < near;
+    return turn < -0.99 && fabs(t->height + o->height) < near;
 }
 
-/* Which of those in [from, to) it lies on, counted from the first; -1: on none. */
-static int lies_on_one(const struct sph *s, const struct wall_touch *t,
-                       const struct wall_touch *from, const struct wall_touch *to)
+/* Of all pieces joined with it. */
+static double weight_of_plane(const struct wall_touch *begin, const struct wall_touch *t)
 {
-    if (!(t->height < 0.0 && (t->is.W > 0.0 || t->joined)))
+    const struct wall_touch *first = begin;
+    while (t->joined && (first->of != t->of || first->plane != t->plane || first->joined))
+        first++;
+    return t->joined ? first->is.W : t->is.W;
+}
+
+/* Which of those in [from, to) it lies on, counted from the first: of two faces back to back within
+ * the support the one lies on the other that has less of it, or of two alike the one that is seen
+ * from behind. -1: on none. */
+static int lies_on_one(const struct sph *s, const struct wall_touch *begin,
+                       const struct wall_touch *t, const struct wall_touch *from,
+                       const struct wall_touch *to)
+{
+    const double more = 1.0 + 1e-9;
+    if (t->is.W == 0.0 && !t->joined)
         return -1;
-    for (const struct wall_touch *o = from; o < to; o++)
-        if (lies_on(s, t, o))
+    for (const struct wall_touch *o = from; o < to; o++) {
+        if (!is_back_of(s, t, o))
+            continue;
+        const double mine = weight_of_plane(begin, t), other = weight_of_plane(begin, o);
+        if (other > 0.0 && (t->height < 0.0 ? mine <= more * other : more * mine < other))
             return (int)(o - from);
+    }
     return -1;
 }
 
 /* A face that stands on that of another owner is seen from behind by the fluid beside it, and the
- * other on through it. Together they are nothing, so both have one owner. */
+ * other on through it. Together they are nothing, so both have one owner: that of the face which
+ * goes on where the other ends. */
 static void own_covered(const struct sph *s, struct wall_list *l, int k)
 {
     struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1], *next;
@@ -374,8 +392,8 @@ static void own_covered(const struct sph *s, struct wall_list *l, int k)
         for (next = run; next < end && next->body == run->body; next++)
             ;
         for (struct wall_touch *t = run; t < next; t++) {
-            const int before = lies_on_one(s, t, begin, run);
-            const int behind = before < 0 ? lies_on_one(s, t, next, end) : -1;
+            const int before = lies_on_one(s, begin, t, begin, run);
+            const int behind = before < 0 ? lies_on_one(s, begin, t, next, end) : -1;
             t->on = before >= 0 ? before : behind >= 0 ? (int)(next - begin) + behind : -1;
         }
     }

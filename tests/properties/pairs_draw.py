@@ -175,6 +175,24 @@ def wedge_body(rng):
     return s
 
 
+def body_stack(rng):
+    """A block that stands on another one, free in the water, off it to either side by up to all but three spacings: no water
+    between, so each has its buoyancy less, or more, p on what they share."""
+    s = tank2(rng, "sides", wide=(32, 40), deep=(22, 28))
+    w, v, low, h = rng.uniform(4, 9) * s.dx, rng.uniform(4, 9) * s.dx, 5 * s.dx, rng.uniform(4, 6) * s.dx
+    x = 0.5 * (s.hi[0] - w)
+    y = x + rng.uniform(3 * s.dx - v, w - 3 * s.dx)
+    s.block("c", [x, low], [x + w, low + h])
+    s.block("b", [y, low + h], [y + v, low + 2 * h])
+    shared = min(x + w, y + v) - max(x, y)
+    p = 1000 * G * (s.depth - low - h)
+    volumes = [1000 * G * volume for _, volume, _ in s.laws.pop("solids")]
+    s.laws["pushed"] = [(name, [0.0, lift + sign * p * shared], max(p * shared, lift))
+                        for name, lift, sign in (("c", volumes[0], 1), ("b", volumes[1], -1))]
+    s.gauges([s.hi[0] - 5 * s.dx])
+    return s
+
+
 def kept(points, before):
     """The part of a polygon where a linear function of the place is not negative."""
     out = []
@@ -628,6 +646,7 @@ PAIRS = [
     ("wedge-floor", "corner of a body on the floor, a side or both, with wedges of water beside it", 0, wedge_floor),
     ("flap-floor", "flap that stands on a point, fixed or hinged there", 1, flap_floor),
     ("wedge-body", "corner of a body on another", 0, wedge_body),
+    ("body-stack", "body on a body, off it to a side", 1, body_stack),
     ("body-sunk", "body that stands in a side", 0, body_sunk),
     ("body-surface", "body x free surface", 1, body_surface),
     ("body-lid", "top of a body x free surface", 1, body_lid),

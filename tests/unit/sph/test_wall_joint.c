@@ -7,31 +7,62 @@
 
 enum { CELLS = 20 };
 
-/* A tank of 1 m, dx 0.05 m, half full, and a body. */
-static struct sph *tank(struct sph_case *c, int n, double x[][2])
+/* A tank of 1 m, dx 0.05 m, half full, and a body; bed: a line from there to there, unless NULL. */
+static struct sph *tank_with(struct sph_case *c, double (*bed)[2], int n, double x[][2])
 {
-    struct scene *e = sph_case_tank(c, CELLS, 9.81, 3);
+    struct scene *e = sph_case_tank(c, CELLS, 9.81, bed ? 4 : 3);
     e->initial.level = 0.0;
     e->nshapes = 1;
     e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
     e->nbodies = 1;
     e->bodies[0].points.n = n;
     memcpy(e->bodies[0].points.x, x, (size_t)n * sizeof *x);
+    if (bed) {
+        e->walls[e->nwalls].side = SIDE_NONE;
+        e->walls[e->nwalls].points.n = 2;
+        memcpy(e->walls[e->nwalls++].points.x, bed, 2 * sizeof *bed);
+    }
     c->prm.scheme = SCHEME_RIEMANN;
     c->prm.surface = true;
     c->prm.c0 = 40.0;
     return sph_case_start(c, NULL);
 }
 
-static int joints_of(int n, double x[][2])
+static struct sph *tank(struct sph_case *c, int n, double x[][2])
+{
+    return tank_with(c, NULL, n, x);
+}
+
+static int joints_with(double (*bed)[2], int n, double x[][2])
 {
     struct sph_case c;
     struct wall_joints found = {0};
-    wall_joints_find(tank(&c, n, x), &found);
+    wall_joints_find(tank_with(&c, bed, n, x), &found);
     const int joints = found.n;
     wall_joints_free(&found);
     sph_free(&c.s);
     return joints;
+}
+
+static int joints_of(int n, double x[][2]) { return joints_with(NULL, n, x); }
+
+/* A body over the toe of a bed, whose faces lie on floor and bed, or the same upside down: there is
+ * no fluid at the toe, whatever the last digits of the slopes make of which face comes first. */
+TEST(no_fluid_is_at_the_toe_of_a_bed_under_a_body)
+{
+    for (int k = 0; k < 80; k++) {
+        const double slope = 0.05 * (k / 4 + 1),
+                     up = 0.2 * slope * (1.0 + (k % 2 ? 1e-12 : -1e-12));
+        double bed[2][2] = {{0.5, 0.0}, {1.0, 0.5 * slope}};
+        double body[5][2] = {{0.45, 0.0}, {0.45, 0.4}, {0.7, 0.4}, {0.7, up}, {0.5, 0.0}};
+        for (int i = 0; i < 5 && k / 2 % 2; i++)
+            for (int a = 0; a < 2; a++) {
+                body[i][a] = 1.0 - body[i][a];
+                if (i < 2)
+                    bed[i][a] = 1.0 - bed[i][a];
+            }
+        assert_int_equal(joints_with(bed, 5, body), 0);
+    }
 }
 
 TEST(walls_that_part_are_found)
