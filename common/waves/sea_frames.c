@@ -111,15 +111,15 @@ static void make_row(struct waves *w, double t, struct wave_table *to, int row)
         e[c] = q->a * cexp(I * (along * first + q->k * q->way[1] * y - q->w * t + q->phase));
         step[c] = cexp(I * (along * to->gap));
     }
+    const size_t at = (size_t)row * (size_t)to->n;
     for (int i = 0; i < to->n; i++) {
-        const size_t at = (size_t)row * (size_t)to->n + (size_t)i;
-        make_column(w, e, to, at);
-        if (w->second)
-            second_order_add(w->second, first + i * to->gap, t, to->eta + at,
-                             to->u + at * WAVE_NODES * 2);
+        make_column(w, e, to, at + (size_t)i);
         for (int c = 0; c < w->ncomponents; c++)
             e[c] *= step[c];
     }
+    if (w->second)
+        second_order_add(w->second, t, first, to->gap, to->n, to->eta + at,
+                         to->u + at * WAVE_NODES * 2);
 }
 
 /* Frames of a nonlinear field are read off its state; all others are summed from components. */
@@ -221,8 +221,8 @@ static double level_at_focus(struct waves *w, double t)
         eta +=
             w->components[c].a * cos((w->components[c].w + w->components[c].k * w->of.current) * t);
     if (w->second)
-        second_order_add(w->second, w->of.at[0] - w->of.current * (w->of.at[1] + t),
-                         w->of.at[1] + t, &eta, u);
+        second_order_add(w->second, w->of.at[1] + t,
+                         w->of.at[0] - w->of.current * (w->of.at[1] + t), 0.0, 1, &eta, u);
     return eta;
 }
 

@@ -5,17 +5,24 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "../base/base.h"
 #include "imposed_waves.h"
 
-enum { FREQUENCIES = 40, LEVELS = 16 };
+enum {
+    FREQUENCIES = 40,
+    LEVELS = 16,
+    COLUMNS =
+        16 /* summed side by side: the kernels, larger than the nearest cache, are read once */
+};
 
 /* Of p <= q, halves and both orders counted: what the sum and the difference of their phases make
- * of the level and of the velocities along and up at the levels. */
+ * of the level and of the velocities along and up at the levels. In single precision, as is what
+ * pairs are summed in: rounding is far below what the cubics err by. */
 struct kernel {
-    double eta[2], along[2][LEVELS], up[2][LEVELS];
+    float eta[2], along[2][LEVELS], up[2][LEVELS];
 };
 struct share {
     int first; /* of four frequencies */
@@ -29,8 +36,9 @@ struct second_order {
     double *w;                 /* [n]: the frequencies between which pairs are told */
     struct kernel *kernels;    /* [npairs] */
     struct share node[WAVE_NODES];
-    double mean[1 + LEVELS]; /* level and velocities to be taken out */
-    double complex *E, *pairs;
+    double mean[1 + LEVELS];  /* level and velocities to be taken out */
+    double complex *e, *step; /* [ncomponents]: a e^(i th) at a column; what leads to the next */
+    float (*E)[2][COLUMNS];   /* [n]: real and imaginary parts */
 };
 
 struct bound_wave bound_wave_of(const double k1[2], const double k2[2], double w1, double w2, int s,
@@ -87,12 +95,12 @@ static void make_kernels(struct second_order *s, double g, double h, const doubl
             for (int k = 0; k < 2; k++) {
                 const struct bound_wave b = along_line(s->w[p], s->w[q], k ? -1 : 1, g, h);
                 const double count = p == q ? 0.5 : 1.0;
-                to->eta[k] = count * b.eta;
+                to->eta[k] = (float)(count * b.eta);
                 for (int j = 0; j < LEVELS; j++) {
                     double c, d;
                     decay(b.K, level[j], h, &c, &d);
-                    to->along[k][j] = count * b.u * c;
-                    to->up[k][j] = count * b.w * d;
+                    to->along[k][j] = (float)(count * b.u * c);
+                    to->up[k][j] = (float)(count * b.w * d);
                 }
             }
         }
@@ -139,9 +147,9 @@ static void find_mean(struct second_order *s)
             for (int q = p; q < s->n; q++, at++) {
                 if (own[p] == 0.0 || own[q] == 0.0)
                     continue;
-                s->mean[0] += own[p] * own[q] * s->kernels[at].eta[1];
+                s->mean[0] += own[p] * own[q] * (double)s->kernels[at].eta[1];
                 for (int j = 0; j < LEVELS; j++)
-                    s->mean[1 + j] += own[p] * own[q] * s->kernels[at].along[1][j];
+                    s->mean[1 + j] += own[p] * own[q] * (double)s->kernels[at].along[1][j];
             }
     }
 }
@@ -160,8 +168,9 @@ struct second_order *second_order_create(int n, const struct wave_component *of,
     s->shares = NEW(struct share, n);
     s->w = NEW(double, s->n);
     s->kernels = NEW(struct kernel, s->npairs);
-    s->E = NEW(double complex, s->n);
-    s->pairs = NEW(double complex, (size_t)s->npairs * 2);
+    s->e = NEW(double complex, n);
+    s->step = NEW(double complex, n);
+    s->E = mem_new((size_t)s->n, sizeof *s->E);
     for (int j = 0; j < LEVELS; j++) {
         const double at = (double)j / (LEVELS - 1); /* nodes close up towards the surface */
         level[j] = nodes[WAVE_NODES - 1] * at * at;
@@ -179,7 +188,7 @@ void second_order_free(struct second_order **s)
 {
     if (!*s)
         return;
-    FREE((*s)->of, (*s)->shares, (*s)->w, (*s)->kernels, (*s)->E, (*s)->pairs, *s);
+    FREE((*s)->of, (*s)->shares, (*s)->w, (*s)->kernels, (*s)->e, (*s)->step, (*s)->E, *s);
     *s = NULL;
 }
 
@@ -187,53 +196,92 @@ int second_order_frequencies(const struct second_order *s) { return s->n; }
 
 double second_order_products(const struct second_order *s)
 {
-    return 4.0 * s->npairs * (LEVELS + 1) + 200.0 * s->ncomponents;
+    return 4.0 * s->npairs * (LEVELS + 1) + 20.0 * s->ncomponents;
 }
 
-/* --- a column --- */
+/* --- columns --- */
 
-/* E_p E_q and E_p E_q*. Pairs in the order of the kernels, p <= q. */
-static void make_pairs(struct second_order *s, double x, double t)
+static void begin_row(struct second_order *s, double t, double x, double gap)
 {
-    for (int p = 0; p < s->n; p++)
-        s->E[p] = 0.0;
     for (int i = 0; i < s->ncomponents; i++) {
         const struct wave_component *c = s->of + i;
-        const struct share *is = s->shares + i;
-        const double complex e = c->a * cexp(I * (c->k * x - c->w * t + c->phase));
-        for (int k = 0; k < 4 && is->first + k < s->n; k++)
-            s->E[is->first + k] += is->weight[k] * e;
+        s->e[i] = c->a * cexp(I * (c->k * x - c->w * t + c->phase));
+        s->step[i] = cexp(I * (c->k * gap));
     }
-    double complex *to = s->pairs;
-    for (int p = 0; p < s->n; p++)
-        for (int q = p; q < s->n; q++) {
-            *to++ = s->E[p] * s->E[q];
-            *to++ = s->E[p] * conj(s->E[q]);
+}
+
+/* E of the next columns: one complex product turns a component from each to the one after it. */
+static void next_columns(struct second_order *s)
+{
+    memset(s->E, 0, (size_t)s->n * sizeof *s->E);
+    for (int i = 0; i < s->ncomponents; i++) {
+        const struct share *is = s->shares + i;
+        float re[COLUMNS], im[COLUMNS];
+        for (int c = 0; c < COLUMNS; c++, s->e[i] *= s->step[i]) {
+            re[c] = (float)creal(s->e[i]);
+            im[c] = (float)cimag(s->e[i]);
+        }
+        for (int k = 0; k < 4 && is->first + k < s->n; k++) {
+            const float weight = (float)is->weight[k];
+            for (int c = 0; c < COLUMNS; c++) {
+                s->E[is->first + k][0][c] += weight * re[c];
+                s->E[is->first + k][1][c] += weight * im[c];
+            }
+        }
+    }
+}
+
+/* What pairs make in COLUMNS columns. */
+struct bound_columns {
+    float eta[COLUMNS], along[LEVELS][COLUMNS], up[LEVELS][COLUMNS];
+};
+
+/* Sums cos (of the level and the velocity along) and sin (of the velocity up) of one pair, by the
+ * parts of E_p E_q and E_p E_q*. */
+static void add_pair(const struct kernel *k, float (*p)[COLUMNS], float (*q)[COLUMNS],
+                     struct bound_columns *restrict to)
+{
+    float sum[2][COLUMNS], less[2][COLUMNS];
+    for (int c = 0; c < COLUMNS; c++) {
+        sum[0][c] = p[0][c] * q[0][c] - p[1][c] * q[1][c];
+        sum[1][c] = p[1][c] * q[0][c] + p[0][c] * q[1][c];
+        less[0][c] = p[0][c] * q[0][c] + p[1][c] * q[1][c];
+        less[1][c] = p[1][c] * q[0][c] - p[0][c] * q[1][c];
+        to->eta[c] += k->eta[0] * sum[0][c] + k->eta[1] * less[0][c];
+    }
+    for (int j = 0; j < LEVELS; j++)
+        for (int c = 0; c < COLUMNS; c++) {
+            to->along[j][c] += k->along[0][j] * sum[0][c] + k->along[1][j] * less[0][c];
+            to->up[j][c] += k->up[0][j] * sum[1][c] + k->up[1][j] * less[1][c];
         }
 }
 
-/* Sums cos (of the level and the velocity along) and sin (of the velocity up) of each pair, at
- * LEVELS heights, then cubics to the nodes. */
-void second_order_add(struct second_order *s, double x, double t, double *eta, double *u)
+/* From LEVELS heights of column c by cubics to the nodes. */
+static void add_column(const struct second_order *s, const struct bound_columns *is, int c,
+                       double *eta, double *u)
 {
-    double along[LEVELS], up[LEVELS] = {0.0};
-    make_pairs(s, x, t);
-    *eta -= s->mean[0];
-    for (int j = 0; j < LEVELS; j++)
-        along[j] = -s->mean[1 + j];
-    for (int at = 0; at < s->npairs; at++) {
-        const struct kernel *k = s->kernels + at;
-        const double complex sum = s->pairs[2 * at], less = s->pairs[2 * at + 1];
-        const double c[2] = {creal(sum), creal(less)}, d[2] = {cimag(sum), cimag(less)};
-        *eta += k->eta[0] * c[0] + k->eta[1] * c[1];
-        for (int j = 0; j < LEVELS; j++) {
-            along[j] += k->along[0][j] * c[0] + k->along[1][j] * c[1];
-            up[j] += k->up[0][j] * d[0] + k->up[1][j] * d[1];
-        }
-    }
+    *eta += (double)is->eta[c] - s->mean[0];
     for (int i = 0; i < WAVE_NODES; i++)
         for (int k = 0; k < 4; k++) {
-            u[2 * i] += s->node[i].weight[k] * along[s->node[i].first + k];
-            u[2 * i + 1] += s->node[i].weight[k] * up[s->node[i].first + k];
+            const int j = s->node[i].first + k;
+            u[2 * i] += s->node[i].weight[k] * ((double)is->along[j][c] - s->mean[1 + j]);
+            u[2 * i + 1] += s->node[i].weight[k] * (double)is->up[j][c];
         }
+}
+
+/* Pairs in the order of the kernels, p <= q. */
+void second_order_add(struct second_order *s, double t, double x, double gap, int n, double *eta,
+                      double *u)
+{
+    begin_row(s, t, x, gap);
+    for (int i = 0; i < n; i += COLUMNS) {
+        struct bound_columns is = {.eta = {0.0F}};
+        const struct kernel *k = s->kernels;
+        next_columns(s);
+        for (int p = 0; p < s->n; p++)
+            for (int q = p; q < s->n; q++)
+                add_pair(k++, s->E[p], s->E[q], &is);
+        for (int c = 0; c < COLUMNS && i + c < n; c++)
+            add_column(s, &is, c, eta + i + c, u + (ptrdiff_t)(i + c) * 2 * WAVE_NODES);
+    }
 }

@@ -169,6 +169,8 @@ static struct wave_spec sea_of(double height, double length, double depth)
     return of;
 }
 
+enum { ROW = 11 }; /* columns, of which the last one is looked at */
+
 /* More components than frequencies, shallow and deep, level and velocities on it, against the
  * double sum. */
 TEST(interpolated_pairs_are_pairs)
@@ -185,8 +187,9 @@ TEST(interpolated_pairs_are_pairs)
         assert_true(second_order_frequencies(s) < n);
         for (int at = 0; at < 30; at++) {
             const double x = 0.37 * at, t = 1.7 * at;
-            double is[3] = {0.0}, told = 0.0, u[WAVE_NODES * 2] = {0.0};
-            second_order_add(s, x, t, &told, u);
+            double is[3] = {0.0}, level[ROW] = {0.0}, row[ROW][WAVE_NODES * 2] = {{0.0}};
+            second_order_add(s, t, x - (ROW - 1) * 0.02, 0.02, ROW, level, row[0]);
+            const double told = level[ROW - 1], *u = row[ROW - 1];
             for (int i = 0; i < n; i++)
                 for (int j = i; j < n; j++)
                     for (int q = -1; q <= 1; q += 2) {

@@ -50,7 +50,7 @@ static void compare(double height, double depth, int evolve, double *first, doub
         for (int c = 0; c < w->ncomponents; c++)
             linear += w->components[c].a *
                       cos(w->components[c].k * x - w->components[c].w * t + w->components[c].phase);
-        second_order_add(bound, x, t, &more, u);
+        second_order_add(bound, t, x, 0.0, 1, &more, u);
         *first = fmax(*first, fabs(waves_eta(w, x, 0.0) - linear));
         *second = fmax(*second, fabs(waves_eta(w, x, 0.0) - linear - more));
     }
