@@ -196,43 +196,22 @@ static double power_of_openings(const struct fv *s)
     return sums[0];
 }
 
-/* m^dim+2/s^3: work over rho that zones do which make waves. rate (u_w - u).u per volume, over the
- * water. */
-static double power_of_zones(struct fv *s)
-{
-    double sum = 0.0;
-    if (!s->wave_zones || !wave_zones_drive(s->wave_zones))
-        return 0.0;
-    FLOW_ROWS_AT (s, part, j, c, n) {
-        const double *weight = weights_of_row(s, c, n, j);
-        double row = 0.0;
-        for (int64_t i = c; i < c + n; i++) {
-            double x[3], u_w[3], uf = 0.0;
-            grid_place(&s->grid, i, x);
-            const double rate = weight[i - c] > 0.0 ? wave_zones_rate(s->wave_zones, x, u_w) : 0.0;
-            for (int a = 0; a < s->dim && rate > 0.0; a++)
-                uf += rate * (u_w[a] - s->u[a][i]) * s->u[a][i];
-            row += weight[i - c] * uf;
-        }
-        sum += volume_of_row(s, j) * row;
-    }
-    return sum;
-}
-
 /* sums[0 .. 2] momentum, [3] kinetic energy, [4] volume, [5] power; this rank. */
 static void sum_energy(struct fv *s, double sums[6])
 {
     FLOW_NEAR_AT (s, part, j, c, n) {
-        double row[5] = {0.0};
+        double row[6] = {0.0};
         const double *weight = weights_of_row(s, c, n, j);
         add_row(s, c, n, weight, row);
         if (s->surface)
             momentum_of_row(s, part, c, n, weight, row);
-        for (int m = 0; m < 5; m++)
+        if (s->watches->zone_power)
+            row[5] = lanes_dot_any(weight, s->watches->zone_power + c, n);
+        for (int m = 0; m < 6; m++)
             sums[m] += volume_of_row(s, j) * row[m];
     }
     if (s->surface)
-        sums[5] = power_of_openings(s) + power_of_zones(s);
+        sums[5] += power_of_openings(s);
     else if (!s->watches->periodic)
         sums[5] = flow_power(s);
 }

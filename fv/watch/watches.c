@@ -127,6 +127,8 @@ struct watches *watches_create(const struct run *r, const struct fv_params *p, b
 
 void watches_free(struct watches **w)
 {
+    if (*w)
+        mem_free((*w)->zone_power);
     mem_free(*w);
     *w = NULL;
 }

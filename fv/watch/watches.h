@@ -33,6 +33,9 @@ struct watches {
     double damping;                    /* 1/s: of the slowest wave by viscosity, pi^2 nu/L^2 */
     double work, power, t;             /* m^(dim+2)/s^2, of the last look, its time */
     double work_least, work_most, kinetic_most;
+    /* m^2/s^3: work over rho and volume of zones that make waves under a surface, at the end of a
+     * step (relax.c); NULL: there are none. */
+    double *zone_power;
     double balance; /* m^(dim+2)/s^2: kinetic energy less the work, of the last look */
     double least;   /* with a surface: of the energy that the scene's velocity makes, what counts */
     double least_square; /* of the scene's velocity squared, what counts at least */
