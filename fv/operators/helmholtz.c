@@ -13,15 +13,19 @@
 #include "../../common/base/base.h"
 #include "viscous_solver.h"
 
-/* fv.tol_viscous if given; else 1e-3 (blocks 1e-4, partners 1e-5), falling as 1/n^2 beyond 32 cells
- * a side. */
-double helmholtz_tolerance(const struct fv *s)
+/* fv.tol_viscous if given; else `most', falling as 1/n^2 beyond 32 cells a side. */
+static double tolerance(const struct fv *s, double most)
 {
     const double side = 32.0 / s->viscous->cells_a_side;
-    if (s->prm.tol_viscous > 0.0)
-        return s->prm.tol_viscous;
-    return fmin(s->forcing ? 1e-5 : s->m ? 1e-4 : 1e-3, 1e-3 * side * side);
+    return s->prm.tol_viscous > 0.0 ? s->prm.tol_viscous : fmin(most, 1e-3 * side * side);
 }
+
+double helmholtz_tolerance(const struct fv *s)
+{
+    return tolerance(s, s->forcing ? 1e-5 : s->m ? 1e-4 : 1e-3);
+}
+
+double helmholtz_plain_tolerance(const struct fv *s) { return tolerance(s, 1e-3); }
 
 double helmholtz_dot(const struct fv *s, const double *x, const double *y)
 {

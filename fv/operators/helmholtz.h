@@ -32,10 +32,13 @@ struct helmholtz {
                                Chebyshev's iteration the first two, BiCGStab all */
 };
 
-/* fv.tol_viscous, or its default. What a solve leaves is in the shortest waves: h^2 of the
+/* fv.tol_viscous, or its default: 1e-3 (blocks 1e-4, closed sides and partners 1e-5), less on
+ * finer cells. What a solve leaves is in the shortest waves: h^2 of the
  * increment at the first two levels keeps velocity and vorticity at the order of the cells
  * (Taylor-Green to 512^2). */
 double helmholtz_tolerance(const struct fv *s);
+/* The same where neither sides nor imposed cells make a change of their own. */
+double helmholtz_plain_tolerance(const struct fv *s);
 
 /* Sum of x y over this rank's cells. */
 double helmholtz_dot(const struct fv *s, const double *x, const double *y);

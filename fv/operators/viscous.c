@@ -393,7 +393,7 @@ static bool solve_weak(const struct helmholtz *h, double tol, double *const delt
         return false;
     for (int a = 0; a < s->dim; a++)
         surface_zero(s, rhs[a]);
-    if (helmholtz_is_nothing(h, tol))
+    if (helmholtz_is_nothing(h, greater(tol, helmholtz_plain_tolerance(s))))
         for (int a = 0; a < s->dim; a++)
             helmholtz_add(s, 1.0, rhs[a], delta[a]);
     else
