@@ -159,7 +159,7 @@ static void add_target(const struct wave_zones *z, int k, double rate, const dou
 static double rate_of(const struct wave_zones *z, int k, const double *x)
 {
     const double chi = 1.0 - (x[z->zone[k].axis] - z->zone[k].edge) * z->zone[k].per;
-    return chi > 0.0 ? z->zone[k].rate * fmin(chi * chi, 1.0) : 0.0;
+    return chi > 0.0 ? z->zone[k].rate * lesser(chi * chi, 1.0) : 0.0;
 }
 
 /* Where zones meet, u_w is their mean by their rates. */

@@ -82,6 +82,7 @@ struct waves {
     struct wave_table rise;  /* of sums: integral of dw/dt from each node up (wave_pressure.h); n =
                               * 0:  nobody asks for the pressure */
     double dt, now;          /* s */
+    double grown;            /* -: share of the waves that are there now */
 };
 
 /* true if there is no such wave: *key (static) is the key at fault and text[size] the rest of the
@@ -112,8 +113,6 @@ void waves_need_pressure(struct waves *w);
 /* Pressure over the density, m^2/s^2, at (x, y), z, where waves_velocity gives u; 0 on the surface.
  * While the waves grow from rest, to first order in their height. */
 double waves_pressure(const struct waves *w, double x, double y, double z, const double u[3]);
-/* Share of the waves that are there: none before t = 0, all after `start' periods. */
-double waves_grown(const struct waves *w);
 /* Height from trough to crest of the highest wave of that length over that depth, m (Fenton
  * 1990). */
 double waves_limit(double depth, double length);

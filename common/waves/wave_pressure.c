@@ -83,5 +83,5 @@ double waves_pressure(const struct waves *w, double x, double y, double z, const
         return hydrostatic + kinetic - w->celerity * (top[0] - u[0]);
     wave_table_velocity(&w->rise, x, y, z, here);
     wave_table_velocity(&w->rise, x, y, eta, there);
-    return hydrostatic + kinetic + waves_grown(w) * (here[0] - there[0]);
+    return hydrostatic + kinetic + w->grown * (here[0] - there[0]);
 }

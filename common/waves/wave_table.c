@@ -89,8 +89,8 @@ struct about {
 static void along_row(const struct wave_table *t, double x, int column[4], double weight[4])
 {
     const double at = (x - t->first) / t->gap;
-    const double lowest = t->periodic ? floor(at) : fmin(fmax(floor(at), 1.0), t->n - 3.0);
-    const double s = t->periodic ? at - lowest : fmin(fmax(at - lowest, -1.0), 2.0);
+    const double lowest = t->periodic ? floor(at) : lesser(greater(floor(at), 1.0), t->n - 3.0);
+    const double s = t->periodic ? at - lowest : lesser(greater(at - lowest, -1.0), 2.0);
     int c = (int)(t->periodic ? lowest - t->n * floor(lowest / t->n) : lowest) - 1;
     for (int k = 0; k < 4; k++, c++)
         column[k] = !t->periodic ? c : c < 0 ? c + t->n : c >= t->n ? c - t->n : c;
@@ -103,12 +103,13 @@ static void columns_about(const struct wave_table *t, double x, double y, struct
     along_row(t, x, a->column, a->weight);
     if (t->rows == 1)
         return;
-    const double at = (y - t->first_row) / t->gap, lowest = fmin(fmax(floor(at), 1.0), t->rows - 3);
+    const double at = (y - t->first_row) / t->gap,
+                 lowest = lesser(greater(floor(at), 1.0), t->rows - 3);
     double across[4], along[4];
     int column[4];
     memcpy(along, a->weight, sizeof along);
     memcpy(column, a->column, sizeof column);
-    wave_table_cubic(fmin(fmax(at - lowest, -1.0), 2.0), across);
+    wave_table_cubic(lesser(greater(at - lowest, -1.0), 2.0), across);
     a->n = 16;
     for (int k = 0; k < 16; k++) {
         a->column[k] = column[k % 4] + t->n * ((int)lowest - 1 + k / 4);
@@ -135,12 +136,12 @@ double wave_table_eta(const struct wave_table *t, double x, double y)
 static int layered_nodes_about(const struct wave_table *t, double top, double z, double weight[4])
 {
     const bool upper = z > -t->still;
-    const double share = upper ? fmax(top - z, 0.0) / (top + t->still)
-                               : fmin((-t->still - z) / (t->reach - t->still), 1.0),
+    const double share = upper ? greater(top - z, 0.0) / (top + t->still)
+                               : lesser((-t->still - z) / (t->reach - t->still), 1.0),
                  down = upper ? share * (WAVE_UPPER - 1)
                               : WAVE_UPPER - 1 + sqrt(share) * (WAVE_NODES - WAVE_UPPER);
     const double first = upper ? 1.0 : WAVE_UPPER, last = (upper ? WAVE_UPPER : WAVE_NODES) - 3.0;
-    const int node = (int)fmin(fmax(floor(down), first), last);
+    const int node = (int)lesser(greater(floor(down), first), last);
     wave_table_cubic(down - node, weight);
     return node - 1;
 }
@@ -151,9 +152,9 @@ static int nodes_about(const struct wave_table *t, double top, double z, double 
 {
     if (t->still > 0.0)
         return layered_nodes_about(t, top, z, weight);
-    const double share = fmin(fmax((top - z) / (top + t->reach), 0.0), 1.0),
+    const double share = lesser(greater((top - z) / (top + t->reach), 0.0), 1.0),
                  down = (t->flat ? sqrt(share) : share) * (WAVE_NODES - 1);
-    const int node = (int)fmin(fmax(floor(down), 1.0), WAVE_NODES - 3.0);
+    const int node = (int)lesser(greater(floor(down), 1.0), WAVE_NODES - 3.0);
     wave_table_cubic(down - node, weight);
     return node - 1;
 }
@@ -184,7 +185,7 @@ void wave_table_velocity(const struct wave_table *t, double x, double y, double 
     double along[4];
     columns_about(t, x, y, &at);
     const double eta = !t->flat || t->slope ? eta_of(t, &at) : 0.0;
-    const double top = t->flat ? 0.0 : eta, over = t->slope ? fmin(z, eta) : 0.0;
+    const double top = t->flat ? 0.0 : eta, over = t->slope ? lesser(z, eta) : 0.0;
     const int node = nodes_about(t, top, t->slope ? over : z, along);
     u[0] = u[1] = u[2] = 0.0;
     if (t->parts == 2)

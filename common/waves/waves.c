@@ -305,21 +305,23 @@ void waves_share(struct waves *w, const struct waves *owner)
     w->shares = true;
 }
 
+/* Share of the waves that are there: none before t = 0, all after `start' periods. */
+static double grown_at(const struct waves *w, double t)
+{
+    const double T = w->of.start * w->period;
+    if (!(T > 0.0) || t >= T)
+        return 1.0;
+    return t <= 0.0 ? 0.0 : 0.5 * (1.0 - cos(M_PI * t / T));
+}
+
 void waves_at(struct waves *w, double t)
 {
     if (t == w->now)
         return;
     w->now = t;
+    w->grown = grown_at(w, t);
     if (w->of.kind != WAVE_REGULAR)
         sea_at(w, w->of.kind == WAVE_FILE ? t - w->of.at[1] : t);
-}
-
-double waves_grown(const struct waves *w)
-{
-    const double T = w->of.start * w->period;
-    if (!(T > 0.0) || w->now >= T)
-        return 1.0;
-    return w->now <= 0.0 ? 0.0 : 0.5 * (1.0 - cos(M_PI * w->now / T));
 }
 
 /* x in the frame of a table that travels. */
@@ -333,12 +335,12 @@ static double place(const struct waves *w, double x)
 
 double waves_eta(const struct waves *w, double x, double y)
 {
-    return waves_grown(w) * wave_table_eta(&w->table, place(w, x), y);
+    return w->grown * wave_table_eta(&w->table, place(w, x), y);
 }
 
 void waves_velocity(const struct waves *w, double x, double y, double z, double u[3])
 {
-    const double r = waves_grown(w) * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
+    const double r = w->grown * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
     wave_table_velocity(&w->table, place(w, x), y, z, u);
     u[0] = r * (u[0] + w->current) + w->of.current;
     u[1] *= r;
