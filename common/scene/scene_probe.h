@@ -6,6 +6,10 @@
 
 #include "scene_groups.h"
 
+/* What both programs of a coupled job say of a gauge of a level, %s its name: the same words are
+ * printed once. */
+#define PROBE_NO_SURFACE "%s: there is no free surface"
+
 /* Whether a gauge measures at one point: pressure or velocity. */
 bool probe_is_point(const struct scene_probe *g);
 /* Whether the scene has a gauge of this kind (enum probe_kind). */

@@ -161,18 +161,19 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
                      h->level, low, high,
                      h->level > high ? ": raise domain.max, or lower the level" : "");
     scene_shape_extent(h, lo, hi);
-    for (int a = 0; a < 2; a++) {
+    for (int a = 0; a < d->dim; a++) {
         const double size = 1e-6 * (d->max[a] - d->min[a]);
+        const int up = still[a] <= -0.7 * g ? 1 : still[a] >= 0.7 * g ? -1 : 0;
+        const double top = up > 0 ? hi[a] : lo[a], roof = up > 0 ? d->max[a] : d->min[a];
         if (hi[a] <= d->min[a] || lo[a] >= d->max[a])
             params_fault(p, f, key,
                          "lies outside the domain: %c from %g to %g m, domain %g to %g m", axes[a],
                          lo[a], hi[a], d->min[a], d->max[a]);
-        else if (!h->hole && s->fluid.gravity[a] <= -0.7 * g && g > 0.0 && isfinite(hi[a]) &&
-                 hi[a] > d->max[a] + size)
+        else if (!h->hole && g > 0.0 && isfinite(top) && up * (top - roof) > size)
             params_fault(p, f, key,
-                         "its water stands above the domain: %c up to %g m, domain to %g m: raise "
-                         "domain.max, or end the shape there",
-                         axes[a], hi[a], d->max[a]);
+                         "its water stands above the domain: %c up to %g m, domain to %g m: move "
+                         "domain.%s, or end the shape there",
+                         axes[a], top, roof, up > 0 ? "max" : "min");
     }
 }
 

@@ -216,7 +216,8 @@ int main(int argc, char **argv)
     snprintf(name[1], CPL_NAME, "sph.%s.load", argv[2]);
     must(cpl_field(c, set, name[0], "m", 4, CPL_PUT, 0, &motion));
     must(cpl_field(c, set, name[1], "N", 2, CPL_GET, CPL_NEAREST | CPL_CONSERVATIVE, &pushed));
-    must(cpl_ready(c, 0.0, INFINITY));
+    /* resist h of `step' is then at most 1: beside fv a coupling step would be many of sph's */
+    must(cpl_ready(c, 0.0, of[2] > 0.0 ? of[1] / of[2] : INFINITY));
     must(cpl_move(c, set, npoints, *x, ids, ones));
     printf("t, deflection, velocity, load\n"); /* of the top; all of the load along x */
     for (;;) {

@@ -33,8 +33,8 @@ void fv_scene_describe(const struct run *r);
 void fv_scene_check(const struct run *r, struct faults *f);
 /* The same of its free surface alone, on any grid. */
 void surface_check(const struct run *r, struct faults *f);
-/* Whether a gauge of the level has a surface to read: this program's or a partner's. */
-bool levels_are_read(const struct run *r);
+/* Faults of gauges of the level without a surface to read, this program's or a partner's. */
+void probes_check_surface(const struct run *r, struct faults *f);
 /* Why newton has no outflow outside of which nothing stands, or less than elsewhere. */
 const char *surface_newton_lacks(bool falls);
 /* hanging_water.c: of water that would hang from the side of the domain above it. */

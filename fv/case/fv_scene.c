@@ -191,41 +191,17 @@ static void check_falling(const struct run *r, struct faults *f)
 
 /* --- free surface --- */
 
-/* Water beyond the highest side would be lost in silence; beyond the others walls hold it. */
+/* Water up to the highest side has no surface. */
 static void check_shape(const struct run *r, struct faults *f, int k)
 {
-    const struct scene *s = &r->scene;
-    const struct scene_shape *h = s->shapes + k;
-    const double *min = s->domain.min, *max = s->domain.max;
-    const int dim = s->domain.dim;
-    double lo[3], hi[3], g[3], bottom, top;
-    const double size = scene_still_gravity(s, g);
-    const char *key = key_text("shapes.[%d]", k);
-    scene_heights(s, &bottom, &top);
-    if (h->form == SHAPE_BELOW && !(h->level > bottom && h->level < top))
-        params_fault(r->params, f, key,
-                     "shape %d: its level, %g m, lies outside the domain, which reaches from %g to "
-                     "%g m against gravity",
-                     k + 1, h->level, bottom, top);
-    scene_shape_extent(h, lo, hi);
-    for (int a = 0; a < dim; a++) {
-        const double eps = 1e-9 * (max[a] - min[a]);
-        const bool up = size > 0.0 && fabs(g[a]) > 0.7 * size;
-        if (!(hi[a] > min[a] + eps && lo[a] < max[a] - eps))
-            params_fault(r->params, f, key, "shape %d: it lies outside the domain along %c", k + 1,
-                         axes[a]);
-        else if (!h->hole && up && isfinite(hi[a]) &&
-                 (g[a] < 0.0 ? hi[a] > max[a] + eps : lo[a] < min[a] - eps))
-            params_fault(r->params, f, key,
-                         "shape %d: its water reaches above the domain, %g m along %c: raise "
-                         "domain.%s or cut the shape",
-                         k + 1, g[a] < 0.0 ? hi[a] : lo[a], axes[a], g[a] < 0.0 ? "max" : "min");
-    }
-}
-
-bool levels_are_read(const struct run *r)
-{
-    return surface_wanted(r) || (r->coupled && scene_has_surface(&r->scene));
+    const struct scene_shape *h = r->scene.shapes + k;
+    double bottom, top;
+    scene_heights(&r->scene, &bottom, &top);
+    if (h->form == SHAPE_BELOW && h->level >= top)
+        params_fault(r->params, f, key_text("shapes.[%d]", k),
+                     "shape %d: its level, %g m, is the domain's top: leave the shape out, or "
+                     "raise domain.max",
+                     k + 1, h->level);
 }
 
 const char *surface_newton_lacks(bool falls)
@@ -511,27 +487,30 @@ static void check_field(const struct run *r, struct faults *f)
 
 /* --- gauges --- */
 
+/* Gauges of what the program does not compute; that they stand in the domain scene_sense.c sees. */
 static void check_probe(const struct run *r, struct faults *f, int k)
 {
-    const struct scene *s = &r->scene;
-    const struct scene_probe *p = s->probes + k;
+    const struct scene_probe *p = r->scene.probes + k;
     const double(*hole)[3] = fv_params_of(r)->hole;
-    bool in_hole = true;
-    const char *key = key_text("probes.[%d].at", k);
-    for (int a = 0; a < s->domain.dim; a++) {
-        const double eps = 1e-9 * (s->domain.max[a] - s->domain.min[a]);
-        const bool needed =
-            probe_is_point(p) || (p->kind != PROBE_DISCHARGE && a != still_upright(s));
+    bool in_hole = p->kind != PROBE_DISCHARGE;
+    for (int a = 0; a < r->scene.domain.dim; a++)
         in_hole = in_hole && p->at[a] > hole[0][a] && p->at[a] < hole[1][a];
-        if (needed && !(p->at[a] >= s->domain.min[a] - eps && p->at[a] <= s->domain.max[a] + eps))
-            params_fault(r->params, f, key, "probe \"%s\" lies outside the domain along %c: %g m",
-                         p->name, axes[a], p->at[a]);
-    }
-    if (p->kind == PROBE_LEVEL && !levels_are_read(r))
-        params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
-    if (in_hole && p->kind != PROBE_DISCHARGE)
-        params_fault(r->params, f, key, "probe \"%s\" lies in fv.hole, where nothing is computed",
-                     p->name);
+    if (in_hole)
+        params_fault(r->params, f, key_text("probes.[%d].at", k),
+                     "probe \"%s\" lies in fv.hole, where nothing is computed", p->name);
+}
+
+static bool levels_are_read(const struct run *r)
+{
+    return surface_wanted(r) || (r->coupled && scene_has_surface(&r->scene));
+}
+
+void probes_check_surface(const struct run *r, struct faults *f)
+{
+    for (int k = 0; k < r->scene.nprobes; k++)
+        if (r->scene.probes[k].kind == PROBE_LEVEL && !levels_are_read(r))
+            params_fault(r->params, f, key_text("probes.[%d].kind", k), PROBE_NO_SURFACE,
+                         r->scene.probes[k].name);
 }
 
 void fv_scene_check(const struct run *r, struct faults *f)
@@ -545,6 +524,7 @@ void fv_scene_check(const struct run *r, struct faults *f)
         check_falling(r, f);
     }
     surface_check(r, f);
+    probes_check_surface(r, f);
     for (int k = 0; k < r->scene.nprobes; k++)
         check_probe(r, f, k);
 }

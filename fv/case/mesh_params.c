@@ -194,9 +194,7 @@ void mesh_check(const struct run *r, struct faults *f)
         scene_check_motion(&mesh_given[k].motion, "blocks", k, r->params, f);
     for (int k = 0; k < r->scene.nwalls; k++)
         check_wall(r, f, k);
-    for (int k = 0; k < r->scene.nprobes; k++)
-        if (r->scene.probes[k].kind == PROBE_LEVEL && !levels_are_read(r))
-            params_fault(r->params, f, "probes", "probe %d: there is no free surface", k + 1);
+    probes_check_surface(r, f);
     for (int k = 0; k < mesh_given_count; k++)
         check_block(r, f, k);
     if (f->n > before)

@@ -524,11 +524,13 @@ static void check_motion(const struct run *r, struct faults *f)
         named = named || strcmp(r->scene.bodies[k].name, prm->box_follows) == 0;
     for (int a = 0; a < 3; a++)
         any = any || (a < r->scene.domain.dim && box_motion_along(r, prm, a));
-    if (!has_box() || !any)
+    if (!has_box() || !any) {
         params_fault(
             r->params, f, key,
             "no box has both sides open along an axis on which it would move: give sph.box "
             "(or sph.free) inside the domain");
+        return;
+    }
     const bool crest = strcmp(prm->box_follows, BOX_TRACKING) == 0;
     if (!named && !crest)
         params_fault(r->params, f, key,
@@ -715,6 +717,11 @@ void sph_params_check(const struct run *r, struct faults *f)
     check_vertices(r, f);
     if (given.outer == OUTER_PARTNER && !is_coupled(r))
         params_fault(r->params, f, "sph.outer", "partner, but the case has no group fv");
+    if (is_coupled(r) && (given.outer == OUTER_EXACT || given.outer == OUTER_SIDES))
+        params_fault(r->params, f, "sph.outer",
+                     "%s, but around the particles of a coupled job is fv's flow: leave it out, or "
+                     "the group fv",
+                     given.outer == OUTER_EXACT ? "exact" : "sides");
     check_spacing(r, f);
     if (is_given(given.box) && is_given(given.free))
         params_fault(r->params, f, "sph.free", "give either sph.box or sph.free, not both");

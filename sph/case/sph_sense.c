@@ -397,7 +397,7 @@ static void check_gauges(const struct run *r, const struct sph_params *used, str
                          "stands anywhere",
                          c->probes[k].name);
         else if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && used->surface != SURFACE_YES)
-            params_fault(r->params, f, key, "%s: there is no free surface", c->probes[k].name);
+            params_fault(r->params, f, key, PROBE_NO_SURFACE, c->probes[k].name);
         else if (kind == PROBE_SHORE && !(g[1] < 0.0))
             params_fault(r->params, f, key, "%s: a shore is read where gravity points along -y",
                          c->probes[k].name);

@@ -326,9 +326,9 @@ void windows_compare(const struct run *r, const struct sph_params *prm, double T
     const int memory = memory_for(r, gain);
     if (T < 0.999 * tiled(&r->scene, w.T) && memory > w.memory)
         log_warn("another program wishes coupling steps of %.3g s, sph %.3g s: the gain of the "
-                 "coupling loop is %.2g with them, %.2g is left: coupling.memory = %d smooths it "
-                 "away%s",
-                 T, w.T, gain, left, memory,
+                 "coupling loop is %.2g with them, %.2g is left: coupling.steps = %d and "
+                 "coupling.memory = %d smooth it away%s",
+                 T, w.T, gain, left, (int)fmax(floor(T * w.steps / w.T), 1.0), memory,
                  gain > gain_most ? "; a wider coupling.overlap lowers it" : "");
 }
 

@@ -169,7 +169,9 @@ static double counted_share(const struct sph *s, const double *y)
 }
 
 /* Particles are counted by the part of their square or cube in the box; outside it those that are
- * over the water outside, which no partner counts. */
+ * over the water outside, which no partner counts. Where levels of refinement meet, all of both
+ * count by the level's share: particles that change their roles there must not look to the partner
+ * like water that comes and goes, for which it would answer by a flow. */
 void wet_faces_water(struct sph *s, double water[2])
 {
     struct zones *z = s->zones;
@@ -179,9 +181,9 @@ void wet_faces_water(struct sph *s, double water[2])
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i), f = counted_share(s, y);
-            if (particles_is_guard(&q->p, i))
-                continue;
-            water[0] += f * y[at_mass(s->dim)] / s->rho0;
+            const double share = q->places ? q->places->share(q, y) : 1.0;
+            if (share > 0.0)
+                water[0] += share * f * y[at_mass(s->dim)] / s->rho0;
             if (f < 1.0 && z->surface && q == s)
                 zones_list(s, i);
         }
