@@ -149,7 +149,8 @@ struct state {
 /* A step of h with the loads f of the step before, in which the mean rates were `seen'. A wall of
  * sph that is faster by du meets rho c du at once: `resist' (over MASS, 1/s) of what the rates
  * change by from step to step, so that no plate is too light for the step that lies between motion
- * and load. The inertia that this adds, resist h, is taken off, as far as the plate has it. */
+ * and load. The inertia that this adds, resist h, is taken off: main asks for steps so short that
+ * the plate has it. */
 static void step(const struct state *s, double h, double resist, double damping, const double *f,
                  const double *seen, struct state *end)
 {
@@ -216,7 +217,7 @@ int main(int argc, char **argv)
     snprintf(name[1], CPL_NAME, "sph.%s.load", argv[2]);
     must(cpl_field(c, set, name[0], "m", 4, CPL_PUT, 0, &motion));
     must(cpl_field(c, set, name[1], "N", 2, CPL_GET, CPL_NEAREST | CPL_CONSERVATIVE, &pushed));
-    /* resist h of `step' is then at most 1: beside fv a coupling step would be many of sph's */
+    /* resist h is then at most 1 in `step' */
     must(cpl_ready(c, 0.0, of[2] > 0.0 ? of[1] / of[2] : INFINITY));
     must(cpl_move(c, set, npoints, *x, ids, ones));
     printf("t, deflection, velocity, load\n"); /* of the top; all of the load along x */
@@ -225,11 +226,6 @@ int main(int argc, char **argv)
         if (action & CPL_STOP)
             break;
         const double h = t1 - t0;
-        if (t0 == 0.0 && of[2] * h > of[1])
-            fprintf(stderr,
-                    "plate: steps of %.3g s add %.3g kg/m^2 to its inertia: a finer sph.dx adds "
-                    "less\n",
-                    h, of[2] * h - 0.9 * of[1]);
         step(&now, h, of[2] / of[1], of[3], f, seen, &next);
         tell(motion, t0, h, &now, &next);
         must(cpl_get(c, pushed, npoints, load, NULL)); /* means over the step of sph */

@@ -372,7 +372,8 @@ static void check_axis(const struct run *r, int a, struct faults *f)
                      "%g m: one particle has no room between the walls along %c, %g m apart; take "
                      "%.3g m or less",
                      given.dx, axes[a], length, 0.25 * length);
-    if (has_box() && (!whole(lo[a] - d->min[a], given.dx) || !whole(hi[a] - d->min[a], given.dx)))
+    if (has_box() && (!whole(lo[a] - d->min[a], given.dx) ||
+                      (hi[a] < d->max[a] - near && !whole(hi[a] - d->min[a], given.dx))))
         params_fault(
             r->params, f, "sph.box",
             "%c from %g to %g m: both must lie a whole number of dx = %g m from domain.min, as %g "
@@ -404,22 +405,26 @@ static int fitting(int nlengths, const double *lengths, int step)
     return 0;
 }
 
-/* One spacing must fit along all axes: a remedy for one alone would be refused for the next. */
+/* One spacing must fit along all axes: a remedy for one alone would be refused for the next. A box
+ * that ends on the domain's upper side cannot end elsewhere: the domain is what must fit. */
 static void check_rows(const struct run *r, struct faults *f)
 {
+    const struct scene_domain *d = &r->scene.domain;
     double lo[3], hi[3], lengths[3];
     bool periodic[3];
     char remedy[200] = "";
     int n = 0, bad = -1;
-    if (has_box())
-        return;
-    sph_params_region(&r->scene.domain, sph_params_of(r), lo, hi, periodic);
-    for (int a = 0; a < r->scene.domain.dim; a++)
+    sph_params_region(d, sph_params_of(r), lo, hi, periodic);
+    for (int a = 0; a < d->dim; a++) {
+        if (has_box() && hi[a] < d->max[a] - 1e-6 * given.dx)
+            continue;
+        lo[a] = has_box() ? d->min[a] : lo[a];
         if (wants_rows(r, a) && hi[a] > lo[a]) {
             lengths[n++] = hi[a] - lo[a];
             if (bad < 0 && !whole(hi[a] - lo[a], given.dx))
                 bad = a;
         }
+    }
     if (bad < 0)
         return;
     for (int step = 1; step >= -1; step -= 2) {
