@@ -529,7 +529,7 @@ static void check_motion(const struct run *r, struct faults *f)
         named = named || strcmp(r->scene.bodies[k].name, prm->box_follows) == 0;
     for (int a = 0; a < 3; a++)
         any = any || (a < r->scene.domain.dim && box_motion_along(r, prm, a));
-    if (!has_box() || !any) {
+    if (!has_box() || (!any && prm->box_follows[0])) {
         params_fault(
             r->params, f, key,
             "no box has both sides open along an axis on which it would move: give sph.box "

@@ -160,16 +160,16 @@ static void find_gain(const struct run *r, const struct sph_params *prm, struct 
 /* 1 at memory 1. */
 double windows_smoothed(int memory) { return (2.0 * memory - 1.0) / ((double)memory * memory); }
 
-/* The largest gain without smoothing. Where a surface crosses the box, whose added mass is known
- * less well: a river that starts from rest ran at 0.24, ended at 0.28; at 0.2 regular waves would
- * be smoothed, too, whose phase was 0.9 instead of 0.6 % of a period off then. */
-static double gain_raw(const struct run *r) { return r->crossed ? 0.25 : 0.3; }
+/* The largest gain without smoothing. A river that starts from rest ran at 0.24 and ended at 0.28,
+ * a box from wall to wall round a square in a stream at 0.24 and at 0.29; at 0.2 regular waves
+ * would be smoothed, too, whose phase was 0.9 instead of 0.6 % of a period off then. */
+static const double gain_raw = 0.25;
 
 /* Least memory m with G (2 m - 1)/m^2 below the limit; two windows smooth next to nothing. Solves
  * m^2 - 2 g m + g >= 0 for the least m, with g = G/limit. */
-static int memory_for(const struct run *r, double gain)
+static int memory_for(double gain)
 {
-    if (gain <= gain_raw(r))
+    if (gain <= gain_raw)
         return 1;
     const double g = fmax(gain / gain_smoothed, 1.0);
     return (int)fmax(ceil(g + sqrt(g * g - g)), 3.0);
@@ -252,7 +252,7 @@ struct windows windows_choose(const struct run *r, const struct sph_params *prm)
     w.limit = c->steps > 0 ? "coupling.steps" : w.limit;
     w.T = w.steps * dt;
     w.gain = w.mass / (prm->c0 * tiled(&r->scene, w.T));
-    w.memory = c->memory > 0 ? c->memory : memory_for(r, w.gain);
+    w.memory = c->memory > 0 ? c->memory : memory_for(w.gain);
     return w;
 }
 
@@ -311,7 +311,7 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
         log_warn("coupling.steps = %d: coupling steps of %.3g s are %.1f times what this flow "
                  "allows; 0 takes %.3g s",
                  w.steps, w.T, w.T / w.T_most, w.T_most);
-    if (left > (w.memory > 1 ? gain_smoothed : gain_raw(r)) * (1.0 + 1e-9))
+    if (left > (w.memory > 1 ? gain_smoothed : gain_raw) * (1.0 + 1e-9))
         log_warn("gain of the coupling loop %.2g: near its limit of %g; longer coupling steps "
                  "(coupling.steps), a longer coupling.memory or a wider coupling.overlap lower it",
                  left, gain_most);
@@ -323,7 +323,7 @@ void windows_compare(const struct run *r, const struct sph_params *prm, double T
     const struct windows w = windows_choose(r, prm);
     const double gain = w.mass / (prm->c0 * T),
                  left = w.memory > 1 ? gain * windows_smoothed(w.memory) : gain;
-    const int memory = memory_for(r, gain);
+    const int memory = memory_for(gain);
     if (T < 0.999 * tiled(&r->scene, w.T) && memory > w.memory)
         log_warn("another program wishes coupling steps of %.3g s, sph %.3g s: the gain of the "
                  "coupling loop is %.2g with them, %.2g is left: coupling.steps = %d and "
