@@ -23,6 +23,8 @@ void scene_currents_resolve(struct scene *s, struct motion_files *files);
 double scene_currents_rate(const struct wave_spec *of, double rate);
 /* m/s: along the waves' direction, of what flows through the sides over the still water's depth. */
 double scene_currents_mean(const struct scene *s, const struct waves *made);
+/* Says the waves' period seen from both frames, where their energy goes, and what flows through the
+ * ends; nothing where no water does. */
 void scene_currents_describe(const struct scene *s, const struct waves *made);
 
 #endif

@@ -40,14 +40,15 @@ struct scene_meshes {
 
 /* Whether the case names any mesh. */
 bool scene_has_meshes(const struct scene *s);
-/* The keys of the mesh of wall, body or shape k; how many of such owners the scene has; the key in
- * the case of the file, or of the form. */
+/* What the case says of the surface of wall, body or shape k. Borrowed from the scene. */
 const struct scene_surface *scene_surface_of(const struct scene *s, enum mesh_owner owner, int k);
+/* How many walls, bodies or shapes the scene has. */
 int scene_mesh_owners(const struct scene *s, enum mesh_owner owner);
+/* The key in the case that names the surface's file, or its form, for the place of a fault. */
 void scene_mesh_key(const struct scene *s, enum mesh_owner owner, int k, char key[64]);
-/* Whether it has triangles, from a file or as a body of simple form in 3D; their file, or the
- * body's name, for messages. */
+/* Whether it has triangles, from a file or as a body of simple form in 3D. */
 bool scene_has_triangles(const struct scene *s, enum mesh_owner owner, int k);
+/* Their file, or the name of the body of simple form, for messages. Borrowed from the scene. */
 const char *scene_mesh_source(const struct scene *s, enum mesh_owner owner, int k);
 /* Reads and repairs all meshes of the scene into s->meshes (scene_mesh_read.c). Faults name file,
  * triangle and remedy. Collective over comm. */

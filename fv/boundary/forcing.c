@@ -250,8 +250,7 @@ static void add_closed(const struct side_face *f, void *with)
 {
     const struct closed *x = with;
     double S[3];
-    if ((f->kind != MESH_WALL && f->kind != MESH_SLIP) ||
-        (x->forced[f->cell] != 1 && !grid_is_given(&x->s->grid, f->cell)))
+    if (!side_is_wall(f->kind) || (x->forced[f->cell] != 1 && !grid_is_given(&x->s->grid, f->cell)))
         return;
     grid_face_vector(&x->s->grid, f->face, f->a, S);
     for (int e = 0; e < x->s->dim; e++)

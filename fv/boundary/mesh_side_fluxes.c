@@ -13,7 +13,7 @@ void mesh_bc_fluxes(const struct fv *s, double *const U[3])
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (d->kind != MESH_WALL && d->kind != MESH_SLIP)
+        if (!side_is_wall(d->kind))
             continue;
         SIDE_PLACES (d, 1, i, j, at, c) {
             U[d->a][c + d->face] = d->moves ? s->m->grid[d->a][c + d->face] : 0.0;

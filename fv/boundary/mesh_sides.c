@@ -273,7 +273,7 @@ bool mesh_bc_has_walls(const struct mesh *m)
 {
     for (int k = 0; k < m->nblocks; k++)
         for (int q = 0; q < 2 * m->dim; q++)
-            if (m->block[k].side[q] == MESH_WALL || m->block[k].side[q] == MESH_SLIP)
+            if (side_is_wall(m->block[k].side[q]))
                 return true;
     return false;
 }

@@ -9,14 +9,12 @@
 
 enum { POINTS = 64, POINTS_3D = 8, DEPTHS = 3 };
 
-static bool is_wall(enum mesh_side k) { return k == MESH_WALL || k == MESH_SLIP; }
-
 /* Whether the cell of a block lies on one of its walls. */
 static bool on_wall(const struct mesh_block *b, int dim, const int *cell)
 {
     bool on = false;
     for (int k = 0; k < 2 * dim; k++)
-        on = on || (is_wall(b->side[k]) && cell[k / 2] == (k % 2 ? b->n[k / 2] - 1 : 0));
+        on = on || (side_is_wall(b->side[k]) && cell[k / 2] == (k % 2 ? b->n[k / 2] - 1 : 0));
     return on;
 }
 
@@ -74,7 +72,7 @@ static bool walls_follow(const struct mesh *m, const struct side *d)
     bool any = false;
     for (int b = d->p->block + 1; b < m->nblocks; b++)
         for (int k = 0; k < 2 * m->dim; k++)
-            any = any || is_wall(m->block[b].side[k]);
+            any = any || side_is_wall(m->block[b].side[k]);
     return any;
 }
 
@@ -87,7 +85,7 @@ void mesh_bc_share_faces(const struct fv *s)
     struct overset *o = m->search ? m->search : overset_search(s->run, m);
     for (int k = 0; k < bc->n; k++) {
         struct side *d = bc->side + k;
-        if (!is_wall(d->kind) || !walls_follow(m, d))
+        if (!side_is_wall(d->kind) || !walls_follow(m, d))
             continue;
         if (!d->once)
             d->once = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));

@@ -68,7 +68,7 @@ static void find_solid(const struct mesh *m, const struct overset *o, int k, uns
     for (int q = k + 1; q < m->nblocks; q++)
         for (int s = 0; s < 2 * m->dim; s++) {
             const struct mesh_block *w = m->block + q;
-            if (w->side[s] != MESH_WALL && w->side[s] != MESH_SLIP)
+            if (!side_is_wall(w->side[s]))
                 continue;
             for (int64_t c = 0; c < mesh_count(w); c++) {
                 int i[3], cell[3];

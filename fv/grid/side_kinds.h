@@ -21,6 +21,9 @@ enum mesh_side {
     MESH_CARRIED /* convective outflow; from `walls' alone */
 };
 
+/* Whether nothing passes a side of this kind, with friction or without. */
+static inline bool side_is_wall(enum mesh_side k) { return k == MESH_WALL || k == MESH_SLIP; }
+
 /* The kind of side that a wall of the scene makes: convective outflow and given discharge have
  * velocities that change in time; an inflow with a given level has its pressure given, as an
  * outflow has. */

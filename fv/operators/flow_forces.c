@@ -40,7 +40,7 @@ static void add_force(const struct side_face *f, void *with)
 {
     struct forces *x = with;
     double force[4] = {0.0};
-    if ((f->kind != MESH_WALL && f->kind != MESH_SLIP) || f->once == 0.0)
+    if (!side_is_wall(f->kind) || f->once == 0.0)
         return;
     x->s->ops->face_force(x->s, f, force);
     for (int q = 0; q < 4; q++)

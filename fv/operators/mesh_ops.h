@@ -6,10 +6,19 @@
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 
-/* mesh_ops.c: all need ghosts. U = I(u).S, m^dim/s. */
+/* mesh_ops.c: all of fourth order, from fields with their ghosts. S_ab is the face vector of faces
+ * across index a, G_ab the metric tensor on them, V the volume of a cell. */
+
+/* U_a = sum over k of the face averages <u_k S_ak>, m^dim/s, through the faces across each index,
+ * and one layer of tangents more, which products of face averages need. */
 void mesh_face_velocities(struct fv *s, double *const u[3], double *const U[3]);
+/* N_k = (1/V) sum over faces of <U u_k>, m/s^2, with the fluxes relative to a block that moves, the
+ * bias fv.upwind and the dissipation of fv.dissipation. Scratch: s->faces[0], s->flux, s->rhs. */
 void mesh_convection(struct fv *s, double *const N[3]);
+/* g_k = (1/V) sum over faces of <q S_k>, by Gauss's theorem: the mean of dq/dx_k over the cell. */
 void mesh_gradient(struct fv *s, const double *q, double *const g[3]);
+/* out = (nu/V) sum over faces of <G_ab dq/dxi_b>, the mean of nu Lap q; 0 in cells that are not
+ * computed. */
 void mesh_viscous(struct fv *s, const double *q, double *out);
 /* Solves (1 - c L) delta = rhs with what the sides change from one time to the next; delta: start
  * and result. tol: relative to the residual of delta = 0. false: not converged. Collective. */
@@ -27,6 +36,8 @@ void mesh_subtract_psi(struct fv *s, double tau, const double *psi, double *cons
 void mesh_to_index(const struct fv *s, double *q, double *work);
 /* The inverse, to fourth order, also beside sides; sets the ghosts of q. */
 void mesh_to_volume(struct fv *s, double *q, double *work);
+/* Removes the odd-even (checkerboard) mode from p along each index, as smooth_odd_even does on
+ * uniform cells; p with its ghosts, scratch: s->faces[0], s->flux. */
 void mesh_smooth_pressure(struct fv *s);
 
 /* mesh_forces.c: see face_force and face_power in flow_ops.h. */

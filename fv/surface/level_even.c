@@ -15,7 +15,7 @@ enum beyond { MIRRORED, LINEAR };
 
 static enum beyond beyond_side(const struct fv *s, int side, enum beyond wanted)
 {
-    const bool wall = s->bc && (s->bc->kind[side] == MESH_WALL || s->bc->kind[side] == MESH_SLIP);
+    const bool wall = s->bc && side_is_wall(s->bc->kind[side]);
     return wall ? wanted : MIRRORED;
 }
 

@@ -24,7 +24,7 @@ static bool is_wanted(const struct fv *s)
                   s->prm.integrator == INTEGRATOR_RK3;
     for (int side = 0; side < 2 * s->dim && closed; side++) {
         const int kind = s->bc ? s->bc->kind[side] : MESH_NONE;
-        closed = s->b.periodic[side / 2] || kind == MESH_WALL || kind == MESH_SLIP;
+        closed = s->b.periodic[side / 2] || side_is_wall(kind);
     }
     return closed;
 }

@@ -42,9 +42,8 @@ static bool is_block_wall(const struct fv *s, const struct scene_shape *h, const
             const struct mesh_block *b = s->m->block + k;
             const double *lo = b->opening[q][0], *hi = b->opening[q][1];
             const double eps = 1e-6 * fabs(b->opening[q ^ 1][0][a] - side);
-            bool on = (b->side[q] == MESH_WALL || b->side[q] == MESH_SLIP) &&
-                      fabs(lo[a] - side) < eps && fabs(hi[a] - side) < eps &&
-                      out * (b->opening[q ^ 1][0][a] - side) < 0.0;
+            bool on = side_is_wall(b->side[q]) && fabs(lo[a] - side) < eps &&
+                      fabs(hi[a] - side) < eps && out * (b->opening[q ^ 1][0][a] - side) < 0.0;
             for (int t = 0; t < s->dim && on; t++) {
                 const bool flat = t == 2 && !(h->box[1][t] > h->box[0][t]);
                 const double y = flat ? x[t] : fmax(h->box[0][t], fmin(h->box[1][t], x[t]));

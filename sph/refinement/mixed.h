@@ -27,24 +27,32 @@ void mixed_check(const struct run *r, const struct sph_params *used, const struc
 void mixed_start(struct sph *s);
 /* Reads the sizes from a restart file, after the particles; false: it has none. */
 bool mixed_restart(struct sph *s, struct h5 *f);
+/* Frees what these methods keep, s->mixed, if they are used. */
 void mixed_free(struct sph *s);
 /* The smallest R, m, on which the step depends. */
 double mixed_least(const struct sph *s);
 
-/* The list of pairs, instead of neighbours_sort and neighbours_build; in between sizes of the
- * periodic images. */
+/* The list of pairs takes three calls, instead of neighbours_sort and neighbours_build. mixed_sort
+ * puts particles that are near each other side by side in memory, every so many steps: for speed
+ * alone. */
 void mixed_sort(struct sph *s);
+/* After the periodic images have been made: gives them the sizes of their originals. */
 void mixed_images(struct sph *s);
+/* Lists each pair once, by the classes of both, and lays it out as neighbours_build does. */
 void mixed_list(struct sph *s);
 /* At the end of a step: creations, removals, weights. */
 void mixed_adapt(struct sph *s);
 
-/* mixed_pairs.c: both passes for particles of different sizes. */
+/* mixed_pairs.c: the two passes of pairs/scheme.h for particles of different sizes. The first makes
+ * slopes, shifting and the surface; the second the rates of the Riemann scheme. */
 void mixed_gradients(struct sph *s);
 void mixed_rates(struct sph *s);
 
-/* mixed_weights.c, mixed_merge.c: the two methods, called by mixed_adapt. */
+/* Called by mixed_adapt. mixed_weights.c: makes and removes children, and sets the weights of both
+ * generations. */
 void mixed_weights(struct sph *s);
+/* mixed_merge.c: splits parents inside, merges pairs outside; drops the ghosts first, since
+ * particles come and go. */
 void mixed_split(struct sph *s);
 
 /* graded.c: makes the first particles, instead of a lattice. */
