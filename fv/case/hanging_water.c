@@ -1,23 +1,9 @@
 /* hanging_water.c - water of the start that nothing but a side would hold up.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-
 #include "../../common/scene/scene.h"
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "fv_case.h"
-
-/* The axis that gravity lies along, to some 45 degrees; -1: none. What drives the flow along
- * periodic axes holds no water up or down. */
-static int axis_of_gravity(const struct scene *s)
-{
-    double g[3];
-    const double size = scene_still_gravity(s, g);
-    for (int a = 0; a < s->domain.dim; a++)
-        if (fabs(g[a]) > 0.7 * size)
-            return a;
-    return -1;
-}
 
 /* Whether the water of a column of the start touches the upper end: 0: no, 1: with air below it,
  * 2: it fills the column. */
@@ -41,7 +27,7 @@ void surface_check_hanging(const struct run *r, struct faults *f)
     enum { COLUMNS = 40 };
     const struct scene *s = &r->scene;
     const struct scene_domain *d = &s->domain;
-    const int up = axis_of_gravity(s), one = up == 0 ? 1 : 0, other = up == 2 ? 1 : 2;
+    const int up = scene_still_axis(s), one = up == 0 ? 1 : 0, other = up == 2 ? 1 : 2;
     if (up < 0 || mesh_given_count > 0 || fv_params_nboxes(r) > 0 || r->coupled)
         return;
     const struct scene_wall *above =
