@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 const char *key_text(const char *format, ...)
 {
@@ -15,4 +16,13 @@ const char *key_text(const char *format, ...)
     vsnprintf(to, sizeof text[0], format, args);
     va_end(args);
     return to;
+}
+
+void text_add(char *text, size_t size, const char *format, ...)
+{
+    const size_t n = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + n, size - n, format, args);
+    va_end(args);
 }

@@ -3,8 +3,14 @@
 #ifndef COMMON_KEY_TEXT_H
 #define COMMON_KEY_TEXT_H
 
+#include <stddef.h>
+
 /* The text that printf would write, as "walls.[2].kind", cut off after 255 bytes. Valid until the
  * eighth call after this one; copy what must live longer. */
 const char *key_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Appends what printf would write to the text that stands in text[size], cut off where that ends.
+ */
+void text_add(char *text, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "key_text.h"
+
 static struct {
     int rank; /* of the program; -1 before log_open */
     char program[64];
@@ -110,10 +112,9 @@ void log_uses(const struct log_use *uses, int n)
     for (int on = 1; on >= 0; on--) {
         const char *between = on ? "on: " : *line ? "; off: " : "off: ";
         for (int k = 0; k < n; k++) {
-            const size_t end = strlen(line);
             if (uses[k].on != (on == 1))
                 continue;
-            snprintf(line + end, sizeof line - end, "%s%s", between,
+            text_add(line, sizeof line, "%s%s", between,
                      on || !uses[k].left_out ? uses[k].used : uses[k].left_out);
             between = ", ";
         }

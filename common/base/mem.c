@@ -57,5 +57,3 @@ void mem_free_all(size_t n, void *const *p)
     for (size_t i = 0; i < n; i++)
         mem_free(p[i]);
 }
-
-size_t mem_held(void) { return held; }

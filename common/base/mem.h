@@ -18,8 +18,6 @@ void *mem_grow(void *p, size_t n_old, size_t n, size_t size);
 void mem_free(void *p);
 /* Frees the n blocks p[n], in their order; FREE below is the way to call it. */
 void mem_free_all(size_t n, void *const *p);
-/* Bytes that this process holds through the functions above, their headers included. */
-size_t mem_held(void);
 
 /* NEW(double, n): n zeroed elements. GROW(p, n_old, n) replaces the pointer p itself. */
 #define NEW(type, n) ((type *)mem_new((size_t)(n), sizeof(type)))

@@ -446,8 +446,7 @@ static void find_unknown_groups(struct params *p, const char *const *others, str
     for (int k = 0; k < config_setting_length(root); k++) {
         const config_setting_t *s = config_setting_get_elem(root, (unsigned)k);
         const char *name = config_setting_name(s);
-        const size_t n = strlen(p->names);
-        snprintf(p->names + n, sizeof p->names - n, "%s ", name);
+        text_add(p->names, sizeof p->names, "%s ", name);
         if (known_group(p, others, name) || config_setting_source_line(s) == 0)
             continue; /* of the command line: see find_unknown_overrides */
         const char *near = nearest_group(p, others, name);
@@ -468,9 +467,8 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
         for (int i = 0; i < p->ngroups; i++)
             if (strcmp(p->groups[i].name, o->group) == 0)
                 g = p->groups + i;
-        const size_t n = strlen(p->names);
         if (!strstr(p->names, key_text(" %s ", o->group)))
-            snprintf(p->names + n, sizeof p->names - n, "%s ", o->group);
+            text_add(p->names, sizeof p->names, "%s ", o->group);
         snprintf(place, sizeof place, "command line: -p %s: %s%s%s", o->text, o->group,
                  *o->key ? "." : "", o->key);
         if (!g && !known_group(p, others, o->group)) {
@@ -743,11 +741,9 @@ bool params_list_groups(const char *path)
     config_init(&p.cfg);
     read_file(&p, &f);
     const config_setting_t *root = config_root_setting(&p.cfg);
-    for (int k = 0; p.read && k < config_setting_length(root); k++) {
-        const size_t n = strlen(line);
-        snprintf(line + n, sizeof line - n, "%s%s", k ? " " : "",
+    for (int k = 0; p.read && k < config_setting_length(root); k++)
+        text_add(line, sizeof line, "%s%s", k ? " " : "",
                  config_setting_name(config_setting_get_elem(root, (unsigned)k)));
-    }
     if (p.read && f.n == 0)
         log_say("%s", line);
     else

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../base/base.h"
+
 size_t param_size(const struct param *r)
 {
     switch (r->type) {
@@ -178,9 +180,9 @@ void hint_choice(const char *choices, const char *word, char *text, size_t size)
 
 void hint_keys(const struct param_group *g, char *text, size_t size)
 {
-    size_t n = 0;
-    for (int k = 0; k < g->nrows && n < size; k++)
-        n += (size_t)snprintf(text + n, size - n, "%s%s", k ? ", " : "", g->rows[k].key);
+    *text = '\0';
+    for (int k = 0; k < g->nrows; k++)
+        text_add(text, size, "%s%s", k ? ", " : "", g->rows[k].key);
 }
 
 static const char *line_at(const char *text, int line, char *copy, size_t size)

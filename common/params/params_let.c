@@ -47,10 +47,9 @@ static void place_of(const struct let *l, const config_setting_t *s, const char 
 /* "known here: H, n", for a message. */
 static void say_known(const struct let *l, char *to, size_t size)
 {
-    size_t n =
-        (size_t)snprintf(to, size, l->n ? "known here: " : "no variable is defined (group let)");
-    for (int k = 0; k < l->n && n + 70 < size; k++)
-        n += (size_t)snprintf(to + n, size - n, "%s%s", k ? ", " : "", l->of[k].name);
+    snprintf(to, size, l->n ? "known here: " : "no variable is defined (group let)");
+    for (int k = 0; k < l->n && strlen(to) + 70 < size; k++)
+        text_add(to, size, "%s%s", k ? ", " : "", l->of[k].name);
 }
 
 /* Why muparser did not take the text. */

@@ -157,8 +157,7 @@ void params_check_plane(const struct params *p, const struct param_group *groups
 
 static void add(char *to, size_t size, const char *before, const char *text, int length)
 {
-    const size_t n = strlen(to);
-    snprintf(to + n, size - n, "%s%.*s", before, length, text);
+    text_add(to, size, "%s%.*s", before, length, text);
 }
 
 /* "form = box or disc", "form other than mesh". */

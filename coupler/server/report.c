@@ -4,7 +4,6 @@
 #include "coupler.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,24 +50,12 @@ static bool in_progress_line(const char *key)
     return !is_norm(key) && !strchr(key, '.');
 }
 
-static int print(char *line, int n, const char *fmt, ...) __attribute__((format(printf, 3, 4)));
-static int print(char *line, int n, const char *fmt, ...)
+static void waiting(const struct coupler *c, char *line, double elapsed)
 {
-    va_list args;
-    if (n >= LINE - 1)
-        return n;
-    va_start(args, fmt);
-    n += vsnprintf(line + n, (size_t)(LINE - n), fmt, args);
-    va_end(args);
-    return n < LINE ? n : LINE - 1;
-}
-
-static int waiting(const struct coupler *c, char *line, int n, double elapsed)
-{
-    n = print(line, n, "  wait");
+    text_add(line, LINE, "  wait");
     for (int i = 0; i < c->nsolvers; i++)
-        n = print(line, n, " %s %.0f%%", c->solver[i].name, 100.0 * c->solver[i].waited / elapsed);
-    return n;
+        text_add(line, LINE, " %s %.0f%%", c->solver[i].name,
+                 100.0 * c->solver[i].waited / elapsed);
 }
 
 /* The time left by the mean of the coupling steps since the first, which contains the solvers'
@@ -81,19 +68,20 @@ void report_progress(struct coupler *c)
     if (now < c->line_at || done < 2 || c->window == c->line_window)
         return;
     const long s = lrint((now - c->first_end) / (double)(done - 1) * (double)left);
-    int n = print(line, 0, "%9.4g/%g s  %3.0f %%  left %ld:%02ld", window_start(c, c->window),
-                  c->t_end, 100.0 * (double)c->window / (double)c->nwindows, s / 60, s % 60);
+    snprintf(line, LINE, "%9.4g/%g s  %3.0f %%  left %ld:%02ld", window_start(c, c->window),
+             c->t_end, 100.0 * (double)c->window / (double)c->nwindows, s / 60, s % 60);
     for (int i = 0; i < c->nsolvers; i++) {
         const struct told *t = &c->solver[i].told;
         bool first = true;
         for (int k = 0; k < t->n; k++)
             if (in_progress_line(t->of[k].key)) {
-                n = first ? print(line, n, "  %s:", c->solver[i].name) : n;
-                n = print(line, n, " %s %.3g", t->of[k].key, t->of[k].value);
+                if (first)
+                    text_add(line, LINE, "  %s:", c->solver[i].name);
+                text_add(line, LINE, " %s %.3g", t->of[k].key, t->of[k].value);
                 first = false;
             }
     }
-    waiting(c, line, n, elapsed);
+    waiting(c, line, elapsed);
     log_say("%s", line);
     /* 1, 2, 5, 10, 30, 60 s apart as the run grows */
     c->line_every = elapsed < 10.0     ? 2.0
@@ -259,10 +247,10 @@ static void say_number(void *ctx, const char *key, double v)
         log_say("  %-24s %.4g", key, v);
 }
 
-static void say_share(char *line, int n, double waited, double wall, double cpu, int ranks)
+static void say_share(char *line, double waited, double wall, double cpu, int ranks)
 {
-    print(line, n, " %9.3g %6.0f %% %9.3g %6d", fmax(wall - waited, 0.0), 100.0 * waited / wall,
-          cpu, ranks);
+    text_add(line, LINE, " %9.3g %6.0f %% %9.3g %6d", fmax(wall - waited, 0.0),
+             100.0 * waited / wall, cpu, ranks);
     log_say("%s", line);
 }
 
@@ -280,23 +268,25 @@ static void say_waits(const struct coupler *c, double coupler_cpu, double wall)
     int first = 10;
     for (int i = 0; i < c->nsolvers; i++)
         first = width_of(c->solver[i].name, first);
-    int n = print(line, 0, "  %-*s", first, "waited (s)");
+    snprintf(line, LINE, "  %-*s", first, "waited (s)");
     for (int j = 0; j < c->nsolvers; j++)
-        n = print(line, n, "  for %-*s", width_of(c->solver[j].name, 7), c->solver[j].name);
-    print(line, n, "  for coupler   at work  waited       cpu  ranks");
+        text_add(line, LINE, "  for %-*s", width_of(c->solver[j].name, 7), c->solver[j].name);
+    text_add(line, LINE, "  for coupler   at work  waited       cpu  ranks");
     log_say("%s", line);
     for (int i = 0; i <= c->nsolvers; i++) {
         const struct solver *s = i < c->nsolvers ? &c->solver[i] : NULL;
-        n = print(line, 0, "  %-*s", first, s ? s->name : "coupler");
+        snprintf(line, LINE, "  %-*s", first, s ? s->name : "coupler");
         for (int j = 0; j <= c->nsolvers; j++) {
             const int width = j < c->nsolvers ? 4 + width_of(c->solver[j].name, 7) : 11;
-            n = s && j != i ? print(line, n, "  %*.3g", width, waited_for(c, i, j))
-                            : print(line, n, "  %*s", width, j == i ? "-" : "");
+            if (s && j != i)
+                text_add(line, LINE, "  %*.3g", width, waited_for(c, i, j));
+            else
+                text_add(line, LINE, "  %*s", width, j == i ? "-" : "");
         }
         if (s)
-            say_share(line, n, s->waited, wall, s->cpu, s->size);
+            say_share(line, s->waited, wall, s->cpu, s->size);
         else
-            say_share(line, n, c->idle, wall, coupler_cpu, c->size);
+            say_share(line, c->idle, wall, coupler_cpu, c->size);
     }
 }
 
@@ -304,11 +294,11 @@ static void say_end(const struct coupler *c, const struct summary *s, double cpu
                     double coupler_cpu, double wall)
 {
     char line[LINE];
-    int n = print(line, 0, "  cost  %.3g s wall, %.3g s cpu:", wall, cpu);
+    snprintf(line, LINE, "  cost  %.3g s wall, %.3g s cpu:", wall, cpu);
     summary_each(s, say_number, NULL);
     for (int i = 0; i < c->nsolvers; i++)
-        n = print(line, n, " %s %.1f %%", c->solver[i].name, 100.0 * c->solver[i].cpu / cpu);
-    print(line, n, " coupler %.1f %%", 100.0 * coupler_cpu / cpu);
+        text_add(line, LINE, " %s %.1f %%", c->solver[i].name, 100.0 * c->solver[i].cpu / cpu);
+    text_add(line, LINE, " coupler %.1f %%", 100.0 * coupler_cpu / cpu);
     log_say("%s", line);
     say_waits(c, coupler_cpu, wall);
 }

@@ -64,8 +64,7 @@ void blocked_describe(const struct run *r)
             const double h = spacing(r, a), x = d->min[a] + lo[a] * h, y = d->min[a] + hi[a] * h;
             off = fmax(off, fabs(fmax(prm->boxes[k].min[a], d->min[a]) - x) / h);
             off = fmax(off, fabs(fmin(prm->boxes[k].max[a], d->max[a]) - y) / h);
-            const size_t n = strlen(text);
-            snprintf(text + n, sizeof text - n, "%s%g to %g", a ? " x " : "", x, y);
+            text_add(text, sizeof text, "%s%g to %g", a ? " x " : "", x, y);
         }
         log_say("box \"%s\": %s m%s", prm->boxes[k].name, text,
                 off > 1e-6 ? ", the nearest faces of cells" : "");

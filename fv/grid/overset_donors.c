@@ -122,13 +122,12 @@ static bool find_donor(const struct mesh *m, struct overset *o, int k, int64_t c
 /* Corners of the other blocks that are boxes: one without min and max is a unit cube. */
 static void other_corners(const struct mesh *m, int k, char *text, size_t size)
 {
-    size_t n = 0;
     *text = '\0';
-    for (int q = 0; q < m->nblocks && n < size; q++) {
+    for (int q = 0; q < m->nblocks; q++) {
         const struct mesh_block_params *b = m->block[q].prm;
         if (q != k && b->mapping != MAPPING_ANNULUS && b->mapping != MAPPING_FILE)
-            n += (size_t)snprintf(text + n, size - n, "; %s has min (%g, %g) and max (%g, %g)",
-                                  b->name, b->min[0], b->min[1], b->max[0], b->max[1]);
+            text_add(text, size, "; %s has min (%g, %g) and max (%g, %g)", b->name, b->min[0],
+                     b->min[1], b->max[0], b->max[1]);
     }
 }
 

@@ -160,9 +160,8 @@ static void describe_scene(const struct run *r, const struct fv_params *prm, con
         for (int k = 0; k < m->nblocks; k++)
             for (int q = 0; q < 2 * m->dim; q++)
                 any = any || (int)m->block[k].side[q] == kind;
-        const size_t n = strlen(sides);
         if (any)
-            snprintf(sides + n, sizeof sides - n, "%s%s", n ? ", " : "", kinds[kind]);
+            text_add(sides, sizeof sides, "%s%s", *sides ? ", " : "", kinds[kind]);
     }
     const struct log_use uses[] = {{r->scene.fluid.nu > 0.0, "implicit viscosity", NULL},
                                    {prm->water, "free surface (level set)", NULL},

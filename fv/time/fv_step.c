@@ -54,10 +54,9 @@ void cell_place(const struct fv *s, int64_t c, char *text, size_t size, double x
 {
     int at[3];
     const struct part *p = grid_part(&s->grid, c, at);
-    const int n = snprintf(text, size, "cell (%d, %d, %d)", p->lo[0] + at[0], p->lo[1] + at[1],
-                           p->lo[2] + at[2]);
+    snprintf(text, size, "cell (%d, %d, %d)", p->lo[0] + at[0], p->lo[1] + at[1], p->lo[2] + at[2]);
     if (grid_name(&s->grid, p->block))
-        snprintf(text + n, size - (size_t)n, " of block \"%s\"", grid_name(&s->grid, p->block));
+        text_add(text, size, " of block \"%s\"", grid_name(&s->grid, p->block));
     grid_centre(&s->grid, p, at, x);
 }
 

@@ -429,10 +429,9 @@ static void check_rows(const struct run *r, struct faults *f)
         return;
     for (int step = 1; step >= -1; step -= 2) {
         const int cells = fitting(n, lengths, step);
-        const size_t end = strlen(remedy);
         if (cells) /* as an expression: it is exact */
-            snprintf(remedy + end, sizeof remedy - end, "%s dx = \"%.10g/%d\" (%.4g m)",
-                     end ? " or" : "take", lengths[0], cells, lengths[0] / cells);
+            text_add(remedy, sizeof remedy, "%s dx = \"%.10g/%d\" (%.4g m)",
+                     *remedy ? " or" : "take", lengths[0], cells, lengths[0] / cells);
     }
     params_fault(r->params, f, "sph.dx",
                  "%g m: %c from %g to %g m is no whole number of dx, which a period, two walls or "

@@ -1,6 +1,7 @@
 /* bench_pairs.c - throughput of the SPH pair passes against the arithmetic limit of the core, cost
  * of a step by size, memory. Run by make bench, on an idle machine; processor time, best of some
  * repeats. SPDX-License-Identifier: BSD-3-Clause */
+#include <malloc.h>
 #include <stdio.h>
 
 #include "../../common/base/timer.h"
@@ -167,12 +168,13 @@ static void sizes(int dim, double R_dx, int few, int many, int kind)
 static void memory(int dim, double R_dx, int cells)
 {
     struct sph_case c;
-    const size_t before = mem_held();
+    const size_t before = mallinfo2().uordblks;
     const struct sph *s = start(&c, dim, R_dx, cells, DEFAULT);
     const double n = s->p.n, list = 4.0 * (double)s->list->capacity / n;
     printf("%dD %3.1f %8.0f particles: %.0f bytes each, ghosts and room to grow included, and %.0f "
            "of list, of which %.0f used\n",
-           dim, R_dx, n, (double)(mem_held() - before) / n - list, list, 4.0 * entries(s) / n);
+           dim, R_dx, n, (double)(mallinfo2().uordblks - before) / n - list, list,
+           4.0 * entries(s) / n);
     sph_free(&c.s);
 }
 
