@@ -13,7 +13,7 @@
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/sph.h"
 #include "../../../sph/time/integrate.h"
-#include "../../../sph/walls/sph_walls.h"
+#include "../../../sph/walls/walls.h"
 
 struct sph_case {
     struct run run;
