@@ -270,6 +270,31 @@ static void warn_of_levels(const struct run *r, const struct sph_params *prm)
                  "pressures, or leave air above it");
 }
 
+/* Pressures that compress the fluid by themselves; a speed of sound of ten times what the scene
+ * asks for costs ten times the steps. */
+static void warn_of_pressures(double c0, const struct scene_speed *v)
+{
+    const struct {
+        double p;
+        const char *what;
+    } all[] = {{v->pressure, "the static pressure"},
+               {v->viscous, "friction (nu U/L)"},
+               {v->pushed, "the acceleration of bodies"}};
+    double asked = v->moves ? v->speed : INFINITY;
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        asked = fmax(asked, sqrt(all[k].p));
+        if (c0 * c0 < 30.0 * all[k].p) {
+            log_warn("sph.c0 = %g m/s: %s alone compresses by %.2g %%; raise it to %.3g m/s", c0,
+                     all[k].what, 100.0 * all[k].p / (c0 * c0), 10.0 * sqrt(all[k].p));
+            return;
+        }
+    }
+    if (c0 > 100.0 * asked)
+        log_warn("sph.c0 = %g m/s takes %.2g times the steps of %.3g m/s, which keep the density "
+                 "within 1 %%: that of real water is not needed; leave sph.c0 out",
+                 c0, 0.1 * c0 / asked, 10.0 * asked);
+}
+
 static void warn_of(const struct run *r)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -295,14 +320,8 @@ static void warn_of(const struct run *r)
         log_warn("sph.c0 = %g m/s is below 8 times the %.3g m/s expected in the scene (%s): the "
                  "density will vary by %.2g %% and more; raise it to %.3g m/s",
                  prm->c0, v.speed, v.from, 100.0 * pow(v.speed / prm->c0, 2.0), 10.0 * v.speed);
-    else if (prm->c0 * prm->c0 < 30.0 * v.pressure)
-        log_warn("sph.c0 = %g m/s: the static pressure alone compresses by %.2g %%; raise it to "
-                 "%.3g m/s",
-                 prm->c0, 100.0 * v.pressure / (prm->c0 * prm->c0), 10.0 * sqrt(v.pressure));
-    else if (prm->c0 * prm->c0 < 30.0 * v.viscous)
-        log_warn("sph.c0 = %g m/s: friction alone (nu U/L) compresses by %.2g %%; raise it to "
-                 "%.3g m/s",
-                 prm->c0, 100.0 * v.viscous / (prm->c0 * prm->c0), 10.0 * sqrt(v.viscous));
+    else
+        warn_of_pressures(prm->c0, &v);
     if (sph_params_zones(r, prm)) {
         double transition, buffer;
         const double least = 1.25 * prm->R_dx * prm->dx * (1.0 - 1e-9);

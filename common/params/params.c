@@ -714,7 +714,7 @@ void params_unused(const struct params *p, struct faults *f, const char *key, bo
 
 void params_fault(const struct params *p, struct faults *f, const char *name, const char *fmt, ...)
 {
-    char place[1400], text[256], buffer[160];
+    char place[1400], text[256], buffer[160], holds[256];
     const char *key = key_of(p, name, buffer);
     va_list args;
     if (p->rank > 0) {
@@ -722,7 +722,10 @@ void params_fault(const struct params *p, struct faults *f, const char *name, co
         return;
     }
     snprintf(text, sizeof text, "%s=", key);
-    const config_setting_t *s = p->read ? config_lookup(&p->cfg, key) : NULL;
+    snprintf(holds, sizeof holds, "%s", key);
+    const config_setting_t *s = p->read ? config_lookup(&p->cfg, holds) : NULL;
+    for (char *end; p->read && !s && (end = strrchr(holds, '.')); s = config_lookup(&p->cfg, holds))
+        *end = '\0'; /* a key that is missing: where its group or element begins */
     param_place(s, p->path, key, place, sizeof place);
     for (int k = 0; k < p->noverrides; k++)
         if (strncmp(p->overrides[k].text, text, strlen(text)) == 0)

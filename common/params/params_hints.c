@@ -194,6 +194,9 @@ static const char *line_at(const char *text, int line, char *copy, size_t size)
     const size_t n = text ? strcspn(text, "\n") : 0;
     snprintf(copy, size, "%.*s", (int)(n < size ? n : size - 1), text ? text : "");
     copy[strcspn(copy, "#")] = '\0';
+    char *comment = strstr(copy, "//");
+    if (comment)
+        *comment = '\0';
     return copy;
 }
 
@@ -357,6 +360,10 @@ static const char *slip(const char *s)
         return OPEN_QUOTE;
     if (has_dotted_name(s))
         return "a key within a group: fv: { cfl = 1.0; }; not fv.cfl = 1.0";
+    if (strstr(s, "\xe2\x80\x9c") || strstr(s, "\xe2\x80\x9d"))
+        return "quotes are straight ones, \", not those of a text program";
+    if (has_marks(s, "0123456789)", "*/+"))
+        return "an expression stands in quotes, as in dx = \"0.3/15\"";
     if (has_bare_text(s))
         return "text stands in quotes, as in kind = \"slip\"";
     if (has_no_colon(s))

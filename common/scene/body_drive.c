@@ -38,8 +38,16 @@ void body_drive_create(struct body_drive *v, const struct scene_body *is, int di
             v->constant[a] = a < 3 ? is->velocity[a] : is->spin[a - 3];
 }
 
-bool body_term_fault(const struct body_drive *v, int term, const struct motion_files *files,
-                     char *text, size_t size)
+static bool is_zero(const struct param_numbers *c)
+{
+    bool zero = true;
+    for (int k = 0; k < c->n; k++)
+        zero = zero && c->v[k] == 0.0;
+    return zero;
+}
+
+bool body_term_fault(const struct body_drive *v, int term, struct motion_files *files, char *text,
+                     size_t size)
 {
     static const char *const names[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};
     const struct body_term *t = v->term + term;
@@ -48,16 +56,16 @@ bool body_term_fault(const struct body_drive *v, int term, const struct motion_f
     if (m->kind == MOTION_FILE && !*m->file)
         snprintf(text, size, "a term of kind file needs the name of the file");
     else if (m->kind == MOTION_FILE && t->n <= 0)
-        snprintf(text, size, "motion %s/%s: %s", files->dir, m->file,
-                 t->n < 0      ? "no such file"
-                 : v->dim == 2 ? "expected rows of t, x, y, angle with increasing times"
-                               : "expected rows of t, x, y, z, rx, ry, rz with increasing times");
+        motion_file_fault(motion_files_read(files, m->file, v->columns),
+                          v->dim == 2 ? "t, x, y, angle" : "t, x, y, z, rx, ry, rz", text, size);
     else if (m->kind == MOTION_FILE)
         return false;
     else if (v->dim == 2 && (m->axis == AXIS_Z || m->axis == AXIS_RX || m->axis == AXIS_RY))
         snprintf(text, size, "axis %s in a case of 2 dimensions", names[m->axis]);
     else if (m->kind == MOTION_HARMONIC && (m->period <= 0.0 || m->amplitude == 0.0))
         snprintf(text, size, "a harmonic term needs an amplitude and a period other than 0");
+    else if (m->kind == MOTION_POLYNOMIAL && is_zero(&m->coefficients))
+        snprintf(text, size, "a polynomial term needs coefficients other than 0");
     else if (m->kind == MOTION_POLYNOMIAL && m->until <= m->from)
         snprintf(text, size, "it ends at %g s (until), before its start at %g s (from)", m->until,
                  m->from);
@@ -234,6 +242,37 @@ double body_drive_speed(const struct body_drive *v, double reach, double end)
             most = fmax(most, vec3_length(m.u) + reach * vec3_length(m.omega));
         }
     return most;
+}
+
+/* Within which it has shown all of its motion: whatever the end of the run, so that a restart to a
+ * later one finds the same, but for what goes on and on. */
+static double whole_motion(const struct body_drive *v, double end)
+{
+    double most = 0.0;
+    for (int k = 0; k < v->nterms; k++) {
+        const struct body_term *t = v->term + k;
+        most = fmax(most, t->is->kind == MOTION_HARMONIC ? t->is->ramp + t->is->period
+                          : t->n > 0 ? t->rows[(ptrdiff_t)v->columns * (t->n - 1)]
+                                     : fmin(t->is->until, end));
+    }
+    return most;
+}
+
+double body_drive_acceleration(const struct body_drive *v, double reach, double end)
+{
+    enum { TIMES = 2000 };
+    const double whole = whole_motion(v, end);
+    double most = 0.0;
+    struct body_motion before, now;
+    body_drive_motion(v, 0.0, &before);
+    for (int i = 1; i <= TIMES && whole > 0.0; i++, before = now) {
+        double du[3], domega[3];
+        body_drive_motion(v, whole * i / TIMES, &now);
+        vec3_from(before.u, now.u, du);
+        vec3_from(before.omega, now.omega, domega);
+        most = fmax(most, vec3_length(du) + reach * vec3_length(domega));
+    }
+    return whole > 0.0 ? most * TIMES / whole : 0.0;
 }
 
 /* --- steps --- */

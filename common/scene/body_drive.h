@@ -73,8 +73,8 @@ void body_drive_create(struct body_drive *v, const struct scene_body *is, int di
                        struct motion_files *files);
 /* Whether a term is at fault (no file, an axis that 2D lacks, missing numbers): text[size] says
  * what. */
-bool body_term_fault(const struct body_drive *v, int term, const struct motion_files *files,
-                     char *text, size_t size);
+bool body_term_fault(const struct body_drive *v, int term, struct motion_files *files, char *text,
+                     size_t size);
 /* Displacements d along x, y, z, m, and components of the rotation vector, rad, with their first
  * and second derivatives dd and ddd, at time t, s. */
 void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
@@ -92,5 +92,8 @@ double body_drive_event(const struct body_drive *v, double t);
 /* Largest speed, m/s, until the time `end' of a point at the distance `reach', m, from the centre;
  * found by sampling. */
 double body_drive_speed(const struct body_drive *v, double reach, double end);
+/* Largest acceleration, m/s^2, of such a point: means over 1/2000 of the whole motion (a
+ * polynomial's until `end', s), so that the rounding of a file's rows does not count. */
+double body_drive_acceleration(const struct body_drive *v, double reach, double end);
 
 #endif

@@ -2,7 +2,7 @@
 #include "motion_files.h"
 
 #include <stdbool.h>
-#include <stddef.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -32,11 +32,13 @@ static void read_rows(struct motion_file *m)
     char line[512];
     bool sound = true;
     m->n = f ? 0 : -1;
-    while (f && sound && fgets(line, sizeof line, f)) {
+    for (int at = 1; f && sound && fgets(line, sizeof line, f); at++) {
         double v[COLUMNS_MAX];
         const int got = numbers_of(line, v), size = m->columns * m->n;
         if (got == 0)
             continue;
+        m->line = at;
+        m->got = got;
         sound = got == m->columns && (m->n == 0 || v[0] > m->rows[size - m->columns]);
         if (!sound)
             break;
@@ -90,6 +92,20 @@ const struct motion_file *motion_files_read(struct motion_files *all, const char
     struct motion_file *m = new_file(all, file, columns);
     read_rows(m);
     return m;
+}
+
+void motion_file_fault(const struct motion_file *m, const char *row, char *text, size_t size)
+{
+    char what[64];
+    snprintf(what, sizeof what, "line %d has %d number%s", m->line, m->got, m->got > 1 ? "s" : "");
+    if (m->n < 0)
+        snprintf(text, size, "%s: no such file", m->path);
+    else
+        snprintf(text, size, "%s: %s: expected rows of %s with increasing times", m->path,
+                 m->line == 0           ? "no line has numbers"
+                 : m->got != m->columns ? what
+                                        : key_text("the time of line %d does not rise", m->line),
+                 row);
 }
 
 void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows)

@@ -4,6 +4,8 @@
 #ifndef COMMON_MOTION_FILES_H
 #define COMMON_MOTION_FILES_H
 
+#include <stddef.h>
+
 /* One file: rows of `columns' numbers separated by blanks, commas or semicolons, the first of them
  * the time, s, which rises from row to row. Lines that begin with # or a word are passed over. */
 struct motion_file {
@@ -13,6 +15,8 @@ struct motion_file {
      * does not rise. */
     int n;
     double *rows; /* [n][columns] */
+    /* Of the first line at fault: its number from 1, 0: none, and how many numbers it has. */
+    int line, got;
 };
 
 /* The list of what was read; owns the files. */
@@ -30,6 +34,8 @@ void motion_files_free(struct motion_files *all);
  * NULL if `all' is NULL. A file that cannot be read has n <= 0. */
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file,
                                             int columns);
+/* What is wrong with a file of n <= 0, as text[size]; `row' says what a row holds: "t, x, y". */
+void motion_file_fault(const struct motion_file *m, const char *row, char *text, size_t size);
 /* Adds a computed file of that name, n rows with rising times, so that motion_files_read finds it.
  * rows[n][columns] must come from mem.h and passes to the list. */
 void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows);

@@ -448,8 +448,6 @@ static void check_shapes(const struct scene *s, const struct params *p, struct f
             params_fault(p, f, "shapes", "shape %d: the radius must be given", k + 1);
         if (h->form == SHAPE_MESH && !*h->surface.mesh)
             params_fault(p, f, "shapes", "shape %d: its mesh must be given", k + 1);
-        if (h->form == SHAPE_BOX && !(h->box[1][0] > h->box[0][0] && h->box[1][1] > h->box[0][1]))
-            params_fault(p, f, "shapes", "shape %d: the box is empty", k + 1);
     }
 }
 

@@ -35,6 +35,25 @@ static bool has(int k, const char *what, const struct params *p)
     return params_given(p, key_text("bodies.[%d].%s", k, what));
 }
 
+/* The corners of a box may be any two that are opposite. */
+static void order_corners(double box[2][3])
+{
+    for (int a = 0; a < 3; a++) {
+        const double x = box[0][a];
+        box[0][a] = fmin(x, box[1][a]);
+        box[1][a] = fmax(x, box[1][a]);
+    }
+}
+
+static void check_size(int dim, const double *lo, const double *hi, const char *key,
+                       const struct params *p, struct faults *f)
+{
+    for (int a = 0; a < dim; a++)
+        if (!(hi[a] > lo[a]))
+            params_fault(p, f, key, "it has no size along %c: both corners are at %g m", "xyz"[a],
+                         lo[a]);
+}
+
 static bool is_clear(const struct scene *s, int k, const struct params *p, struct faults *f)
 {
     const struct scene_body *b = s->bodies + k;
@@ -58,12 +77,8 @@ static bool is_clear(const struct scene *s, int k, const struct params *p, struc
     else if (*is->mesh || *is->outline)
         params_fault(p, f, key, "a %s is given, too: leave one of them out",
                      *is->mesh ? "mesh" : "outline");
-    for (int a = 0; a < s->domain.dim && has_box(b) && f->n == from; a++)
-        if (!(b->box[1][a] > b->box[0][a]))
-            params_fault(p, f, key,
-                         "its size along %c is %g m: the first corner is the lower one in each "
-                         "direction, the second the upper one",
-                         "xyz"[a], b -> box[1][a] - b -> box[0][a]);
+    if (has_box(b) && f->n == from)
+        check_size(s->domain.dim, b->box[0], b->box[1], key, p, f);
     return f->n == from;
 }
 
@@ -115,9 +130,16 @@ static void centre_on(struct scene_body *b, int k, const struct params *p)
 
 void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
 {
+    for (int k = 0; k < s->nshapes; k++)
+        if (s->shapes[k].form == SHAPE_BOX) {
+            double(*box)[3] = s->shapes[k].box;
+            order_corners(box);
+            check_size(s->domain.dim, box[0], box[1], key_text("shapes.[%d].box", k), p, f);
+        }
     for (int k = 0; k < s->nbodies; k++) {
         struct scene_body *b = s->bodies + k;
         const enum body_form form = scene_form_of(b);
+        order_corners(b->box);
         if (form == FORM_NONE || !is_clear(s, k, p, f))
             continue;
         if (b->radius > 0.0)

@@ -162,12 +162,11 @@ static void check_file(const struct params *p, struct faults *f, int k, const ch
     if (!m)
         return;
     const char *key = key_text("walls.[%d].%s_file", k, name);
-    if (m->n < 0)
-        params_fault(p, f, key, "%s: no such file beside the case", file);
-    else if (m->n == 0)
-        params_fault(p, f, key, "%s: expected rows of a time and a %s with increasing times", file,
-                     name);
-    else if (also_constant)
+    if (m->n <= 0) {
+        char text[1400];
+        motion_file_fault(m, key_text("a time and a %s", name), text, sizeof text);
+        params_fault(p, f, key, "%s", text);
+    } else if (also_constant)
         params_fault(p, f, key, "%s and a constant %s: give one of the two", file, name);
     if (m->n <= 0 || *name == 'l')
         return;

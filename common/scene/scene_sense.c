@@ -104,15 +104,21 @@ static void check_pumping(const struct scene *s, const struct params *p, struct 
             across);
 }
 
-/* Of an inflow that nothing is given of; of a pressure its row tells. Sides of blocks may take the
- * initial velocity instead. */
+/* Of an inflow that nothing is given of, or the wrong way; of a pressure its row tells. Sides of
+ * blocks may take the initial velocity instead. */
 static void check_inflow(const struct scene *s, const struct params *p, struct faults *f, int k)
 {
     const struct scene_wall *w = s->walls + k;
-    if (w->kind == WALL_INFLOW && w->side != SIDE_NONE && !w->has_level && !w->has_discharge &&
-        vec3_length(w->velocity) == 0.0 && w->pressure == 0.0 && !params_given(p, "blocks"))
+    if (w->kind != WALL_INFLOW || w->side == SIDE_NONE || w->has_level || w->has_discharge ||
+        params_given(p, "blocks") || (w->pressure != 0.0 && vec3_length(w->velocity) == 0.0))
+        return;
+    const int a = (w->side - SIDE_X_MIN) / 2;
+    const double in = (w->side - SIDE_X_MIN) % 2 ? -w->velocity[a] : w->velocity[a];
+    if (in == 0.0 || (in < 0.0 && !s->has_fv)) /* fv takes out what is given, without a surface */
         params_fault(p, f, key_text("walls.[%d].velocity", k),
-                     "an inflow of 0 m/s lets nothing in: give it a velocity into the domain%s",
+                     "an inflow of %g m/s along %c lets nothing in: give it a velocity into the "
+                     "domain%s",
+                     w->velocity[a], "xyz"[a],
                      scene_has_surface(s) ? ", a discharge or a level" : "");
 }
 
@@ -180,7 +186,9 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
 /* Whether anything can ever set the fluid in motion. */
 static bool is_driven(const struct scene *s)
 {
-    bool any = s->fluid.central != 0.0 || s->initial.field != FIELD_REST || s->nbodies > 0;
+    bool any = s->fluid.central != 0.0 || s->initial.field != FIELD_REST;
+    for (int k = 0; k < s->nbodies; k++)
+        any = any || scene_body_moves(s->bodies + k);
     for (int a = 0; a < 3; a++)
         any = any || s->fluid.gravity[a] != 0.0;
     for (int k = 0; k < s->nshapes; k++)

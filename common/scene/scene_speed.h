@@ -8,9 +8,10 @@
 
 /* The estimate, and which part of the scene it comes from. */
 struct scene_speed {
-    double speed;     /* m/s: largest to expect, > 0 */
-    double pressure;  /* m^2/s^2: largest static p/rho: hydrostatic, or given at an outflow */
-    double viscous;   /* m^2/s^2: largest p/rho that friction makes in slow flow */
+    double speed;    /* m/s: largest to expect, > 0 */
+    double pressure; /* m^2/s^2: largest static p/rho: hydrostatic, or given at an outflow */
+    double viscous;  /* m^2/s^2: largest p/rho that friction makes in slow flow */
+    double pushed; /* m^2/s^2: largest p/rho that bodies make by their acceleration: the caller's */
     const char *from; /* what sets the speed: "the fall of the water" */
     /* false: nothing in the scene moves, and speed is sqrt(pressure), or the domain's length over
      * the run's time. */

@@ -80,11 +80,6 @@ static void check_wall(const struct run *r, struct faults *f, int k)
                  axes[a]);
         wall_fault(r, f, k, text);
     }
-    if (w->kind == WALL_INFLOW && v[a] == 0.0 && !w->has_level && !w->has_discharge) {
-        snprintf(text, sizeof text, "an inflow without a velocity along %c: nothing flows in",
-                 axes[a]);
-        wall_fault(r, f, k, text);
-    }
     if (w->kind == WALL_INFLOW && surface_wanted(r) &&
         v[a] * ((w->side - SIDE_X_MIN) % 2 ? 1 : -1) > 0.0 && !w->has_level && !w->has_discharge)
         wall_fault(r, f, k,

@@ -364,15 +364,19 @@ void body_check(const struct run *r, const struct sph_params *used, struct fault
     }
 }
 
-double body_speeds(const struct scene *c, struct motion_files *files)
+double body_speeds(const struct scene *c, struct motion_files *files, double *pressure)
 {
     double most = 0.0;
+    *pressure = 0.0;
     for (int k = 0; k < c->nbodies; k++) {
         struct body b;
         if (!scene_body_moves(c->bodies + k))
             continue;
         body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
+        const double length = (b.is->tank ? 2.0 : 1.0) * b.reach;
         most = fmax(most, speed_of(c, &b));
+        *pressure =
+            fmax(*pressure, length * body_drive_acceleration(&b.drive, b.reach, c->time.end));
         body_destroy(&b);
     }
     return most;

@@ -121,15 +121,18 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
 
 static struct scene_speed speed_of(const struct run *r)
 {
-    const double most = body_speeds(&r->scene, r->motions);
-    return scene_speed_of(&r->scene, most, given.dx);
+    double pushed;
+    const double most = body_speeds(&r->scene, r->motions, &pushed);
+    struct scene_speed v = scene_speed_of(&r->scene, most, given.dx);
+    v.pushed = pushed;
+    return v;
 }
 
 /* Ten times the largest speed to expect, so that the density varies by about a percent [2.33-2.35];
- * by no more where the fluid is at rest or creeps, p/(rho c0^2) <= 0.01. */
+ * by no more where the fluid is at rest, creeps or is accelerated, p/(rho c0^2) <= 0.01. */
 static double default_c0(const struct scene_speed *v)
 {
-    return 10.0 * fmax(v->speed, sqrt(fmax(v->pressure, v->viscous)));
+    return 10.0 * fmax(v->speed, sqrt(fmax(v->pushed, fmax(v->pressure, v->viscous))));
 }
 
 static bool has_points(const struct scene *c)

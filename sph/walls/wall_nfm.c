@@ -449,6 +449,11 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
      * it would rub more than the profile does, and steps be shorter. */
     if (t->no_slip && mu > 0.0 && (t->foot || t->height > 0.25 * s->dx)) {
         const double rate = 2.0 * mu * friction_weight(t, i, dim) / fmax(t->height, 0.5 * s->dx);
+        /* Monaghan's pairs feel strain alone, so fluid that turns with a wall must meet none there:
+         * it moves against the wall's motion as continued to its place. Morris's are the Laplacian
+         * of the velocity, with that of the wall where the wall is. */
+        if (s->prm.viscosity == VISCOSITY_MONAGHAN)
+            wall_list_velocity(s, t, i->x, uw);
         for (int a = 0; a < dim; a++)
             to.q[a] -= rate * (i->u[a] - uw[a]);
     }

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 import lib
-from lib import bad, build as b, root, run, start, write
+from lib import bad, build as b, changed, root, run, start, write
 
 lib.scratch('bad input ü')  # a space and an accent on purpose
 passed = 0
@@ -107,6 +107,8 @@ faulty('sph', 's/^format.*/@include "nothing.cfg"/', 'nothing.cfg', 'sph')
 faulty('sph', 's/every = 0.01/series = 3000000000/', 'case.cfg:7: .*3000000000', 'sph')
 faulty('sph', 's/time:  /time /', 'case.cfg:2: .*takes : or =', 'sph')
 faulty('sph', 's/"taylor_green"/taylor_green/', 'case.cfg:5: .*text stands in quotes', 'sph')
+faulty('sph', 's/"taylor_green"/“taylor_green”/', 'case.cfg:5: .*quotes are straight ones', 'sph')
+faulty('sph', 's:dx = 0.02:dx = 1/50:', 'case.cfg:6: .*an expression stands in quotes', 'sph')
 faulty('sph', 's/"taylor_green"/"taylor_green/', 'case.cfg:5: .*quote .*not closed', 'sph')
 faulty('sph', r's/^sph:.*/walls: ( { side = "y_min"; }, );\nsph: { dx = 0.02; };/', 'case.cfg:6: .*none after the last', 'sph')
 faulty('sph', r's/^sph:.*/walls: ( { side = "y_min"; } { side = "y_max"; } );\nsph: { dx = 0.02; };/', 'case.cfg:6: .*comma is missing', 'sph')
@@ -197,6 +199,7 @@ for sound in 'basin', 'block', 'tank':  # or the faults below could come from so
     holds(start('fv', sound + '.cfg', '--check') == 0, sound + '.cfg is refused')
 # outputs shorter than steps: accepted, with a word
 tells('sph', 's/every = 0.01/every = 1e-5/', 'output.every = 1e-05 s is far below a step of .* take .* s or more')
+tells('sph', 's/dx = 0.02/dx = 0.02; c0 = 1500/', r'sph.c0 = 1500 m/s takes 1.5e.02 times the steps of 10 m/s')
 tells('sph', 's/every = 0.01/checkpoint = 1e-5/', 'output.checkpoint = 1e-05 s is far below')
 # lengths in cm: accepted, with a word
 edit('tank.cfg', 's/gravity = (0, -9.81)/gravity = (0, -981)/')
@@ -274,7 +277,7 @@ faulty('block', 's/16);/16); focus = (0.5, 0.5);/', r'blocks.\[0\].focus: is not
 faulty('block', 's/16);/16); spin = (0, 0, 1);/', r'blocks.\[0\].spin: is not used', 'fv')
 faulty('basin', 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (1, 0);/', r'an inflow without an outflow: 1 m\|inflow into a closed box', 'fv')
 faulty('block', 's/i_min = "wall"/i_min = "inflow"; velocity = (1, 0); lid = "j_max"/', r'an inflow without an outflow: 1 m\|inflow into a closed box', 'fv')
-faulty('basin', 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (0, 1);/; s/"x_max"; kind = "no_slip"/"x_max"; kind = "outflow"/', 'nothing flows in', 'fv')
+faulty('basin', 's/"x_min"; kind = "no_slip";/"x_min"; kind = "inflow"; velocity = (0, 1);/; s/"x_max"; kind = "no_slip"/"x_max"; kind = "outflow"/', 'an inflow of 0 m/s along x lets nothing in', 'fv')
 faulty('basin', 's/"x_min"; kind = "no_slip";/& velocity = (1, 0);/', 'would pump fluid through', 'fv')
 faulty('block', 's/16);/16); velocity = (1, 0);/', 'would pump fluid through itself', 'fv')
 faulty('basin', r's/nu = 0.01/& ; gravity = (1, 0)/; s/x_m\([a-z]*\)"; kind = "no_slip"/x_m\1"; kind = "outflow"/g', 'two outflows at different heights', 'fv')
@@ -358,7 +361,10 @@ faulty('tank', 's/level = 0.5/level = 0.5; box = ((0, 0), (1, 1))/', r'shapes.\[
 faulty('channel', 's/"outflow"/"outflow"; carried = true/', r'walls.\[1\].carried: is not used: ', 'sph')
 faulty('channel', 's/"outflow"/"outflow"; velocity = (1, 0)/', r'walls.\[1\].velocity: is not used: ', 'sph')
 faulty('channel', 's/kind = "inflow"/kind = "inflow"; pressure = 3.0/', r'walls.\[0\].pressure: is not used: ', 'sph')
-faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"/', r'walls.\[0\].velocity: an inflow of 0 m/s lets nothing in', 'sph')
+faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"/', r'case.cfg:6: walls.\[0\].velocity: an inflow of 0 m/s along x lets nothing in', 'sph')
+faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"; velocity = (-1, 0)/', r'walls.\[0\].velocity: an inflow of -1 m/s along x lets nothing in', 'sph')
+write('rest.cfg', changed(lib.TANK, fluid='', shapes='{ box = ((0, 0), (0.5, 0.5)); }', bodies='{ box = ((0.8, 0), (0.9, 0.2)); }'))
+faulty('rest', 's/end = 0.4/end = 0.2/', 'fluid.gravity: a free surface, and nothing that moves the fluid', 'sph')
 # gauges with the name of another column, criteria of what is not there
 faulty('tank', 's/name = "p"/name = "t"/', r'probes.\[0\].*: t: series.csv has a column of this name', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: p is a gauge, .*give a reference', 'sph', '--check')
@@ -389,7 +395,9 @@ faulty('tank', 's/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/', 'bod
 faulty('tank', 's/"b"/"b"; velocity = (20, 0)/; s/end = 0.5/end = 0.01/', 'half the speed of sound.*raise sph.c0', 'sph')
 faulty('channel', 's/"y_min"; }/"y_min"; kind = "no_slip"; velocity = (0, 1); }/', r'walls.\[2\].velocity: 1 m.s across the wall', 'sph')
 write('motion.txt', '0 0 0 0\n0.2 0 0 0\n0.2 0.1 0 0\n')
-faulty('tank', 's/"b"/"b"; motion = "motion.txt"/', r'bodies.\[0\].motion: .*increasing times', 'sph')
+faulty('tank', 's/"b"/"b"; motion = "motion.txt"/', r'motion.txt: the time of line 3 does not rise.*increasing times', 'sph')
+write('motion.txt', 't x y angle\n0 0 0 0\n0.2 0 0 0 0 0 0\n')
+faulty('tank', 's/"b"/"b"; motion = "motion.txt"/', r'motion.txt: line 3 has 7 numbers: expected rows of t, x, y, angle', 'sph')
 write('motion.txt', '0 0 0 0\n0.2 nan 0 0\n1 0 0 0\n')
 faulty('tank', 's/"b"/"b"; motion = "motion.txt"/', r'bodies.\[0\].motion: row 2 .*not a number', 'sph')
 write('motion.txt', '0 0 0 0\n0.2 0.1 0 0\n')
@@ -428,6 +436,7 @@ faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1.7, 0.3); 
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.3); }/; s/^bodies:  (/bodies: ( { name = "c"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/', 'starts in contact with body 1 (c)', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0/; s/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/', 'body 1 (b) cuts wall 1', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/', r'motion.\[0\]: a harmonic term needs an amplitude and a period', 'sph')
+faulty('tank', 's/"b"/"b"; motion = ( { kind = "polynomial"; axis = "x"; } )/', r'motion.\[0\]: a polynomial term needs coefficients', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "z"; amplitude = 0.1; period = 1.0; } )/', r'motion.\[0\]: axis z in a case of 2 dimensions', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "w"; amplitude = 0.1; period = 1.0; } )/', 'motion.axis: .*one of x|y|z|rx|ry|rz', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; amplitude = 0.1; period = 1.0; coefficients = (1, 2); } )/', r'motion.\[0\].coefficients: is not used', 'sph')
@@ -651,7 +660,7 @@ faulty('apr', 's/{ level = 1; .*/{ shape = "wall"; level = 1; wall = 2; offset =
 faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (60, 0);/', 'case.cfg:10: .*velocity: 60 m/s: the region moves .* dx of level 2 in a step', 'sph')
 faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); velocity = (3, 0);/', 'case.cfg:10: .*velocity: the region has left .* along x at t = ', 'sph')
 faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "rz"; amplitude = 1; period = 1; });/', 'case.cfg:10: .*motion: term 1: a region does not turn', 'sph')
-faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/', 'case.cfg:10: .*motion: term 1: motion .*nothing.txt: no such file', 'sph')
+faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = "nothing.txt";/', 'case.cfg:10: .*motion: term 1: .*nothing.txt: no such file', 'sph')
 faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "z"; amplitude = 0.1; period = 1; });/', 'case.cfg:10: .*motion: term 1: axis z in a case of 2 dim', 'sph')
 faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "harmonic"; axis = "x"; period = 1; });/', 'case.cfg:10: .*motion: term 1: a harmonic term needs an amplitude', 'sph')
 faulty('apr', 's/max = (0.9, 0.3);/max = (0.9, 0.3); motion = ({ kind = "polynomial"; axis = "x"; coefficients = (0, 0.1); amplitude = 1; });/', 'case.cfg:10: .*motion.*amplitude: is not used: only a harmonic', 'sph')

@@ -27,6 +27,25 @@ within('submerged block', number('low', 'force.y'), -882.9, 0.03)
 run_case('high', block.replace('0.2)', '0.9)'))
 check(abs(number('high', 'force.y')) < 30, 'block through the surface: %g N/m instead of 0' % number('high', 'force.y'))
 
+# A full can without weight, swung by 0.05 m within 1 s: it pushes its water as a rigid body, m A w^2, and the default
+# speed of sound bears that pressure, rho A w^2 times its length.
+can, swung = '{ name = "can"; box = ((0.5, 0.3), (-0.5, -0.3)); motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.05; period = 1.0; ramp = 1.0; } ); }', {}
+run_case('can', changed(TANK, time='end = 2.0;', fluid='', domain='min = (-1, -1); max = (1, 1);', walls='', bodies=can,
+                        shapes='{ box = ((-0.5, -0.3), (0.5, 0.3)); }', output='snapshots = false; series = 1;'))
+for what in 't', 'can force x', 'max density':
+    swung[what] = column('can/series.csv', what)
+within('densest water of a can that is swung', max(swung['max density']), 1000.0, 0.01)
+late = [(f, math.sin(2 * math.pi * t)) for t, f in zip(swung['t'], swung['can force x']) if t > 1]
+within('force that swings a full can', sum(f * wave for f, wave in late) / sum(wave ** 2 for _, wave in late),
+       600 * 0.05 * (2 * math.pi) ** 2, 0.03)
+
+# A drum that turns at 1 rad/s ends with its fluid as one body, of the energy rho pi/4, whichever form the viscous term has.
+drum = changed(TANK, time='end = 4.0;', fluid='rho = 1.0; nu = 0.1;', domain='min = (-1.2, -1.2); max = (1.2, 1.2);', walls='',
+               bodies='{ name = "drum"; radius = 1.0; spin = 1.0; kind = "no_slip"; }', shapes='{ form = "disc"; radius = 1.0; }')
+for form in 'monaghan', 'morris':
+    run_case('drum', changed(drum, sph='dx = 0.1; viscosity = "%s";' % form))
+    within('energy of a drum, ' + form, last('drum', 'kinetic energy'), math.pi / 4, 0.03)
+
 # Archimedes in gaps of 1.5 dx: a square of 0.2 m over the floor, lift 392.4 N/m; and beside a second one, no force to
 # the side beyond 2 % of p A on the near face (491 N/m). Three owners in one corner are an open case.
 run_case('gap', changed(TANK, bodies='{ name = "b"; %s }' % points(0.4, 0.0375, 0.6, 0.2375)))

@@ -344,12 +344,12 @@ TEST(one_sided_surfaces_are_refused)
     trimesh_free(&m);
 }
 
-/* Boxes, spheres, cylinders and prisms without a file have the volume, centre and moment of inertia
- * of what they are, wherever and however turned. */
+/* Boxes, by any two opposite corners, spheres, cylinders and prisms without a file have the volume,
+ * centre and moment of inertia of what they are, wherever and however turned. */
 TEST(simple_forms_are_exact)
 {
     static const char text[] =
-        "bodies: ( { box = ((0.5, 0.5, 0.5), (1.5, 1.0, 1.25)); },\n"
+        "bodies: ( { box = ((0.5, 1.0, 0.5), (1.5, 0.5, 1.25)); },\n"
         "  { radius = 0.4; centre = (2.0, 1.0, 1.5); },\n"
         "  { radius = 0.25; length = 0.8; rotate = (0, 90, 0); translate = (3.0, 1.0, 1.0); },\n"
         "  { points = ((0, 0), (0.6, 0), (0, 0.3)); length = 0.5; rotate = (90, 0, 0); "
@@ -385,7 +385,7 @@ TEST(simple_forms_are_exact)
 TEST(half_given_forms_are_refused)
 {
     static const char *const wrong[][2] = {
-        {"box = ((1, 1, 1), (2, 0.5, 2));", "bodies.[0].box"},
+        {"box = ((1, 1, 1), (2, 1, 2));", "bodies.[0].box"},
         {"box = ((1, 1, 1), (2, 1.5, 2)); radius = 0.3;", "bodies.[0].box"},
         {"box = ((1, 1, 1), (2, 1.5, 2)); length = 0.3;", "bodies.[0].box"},
         {"radius = 0.3; centre = (1, 1, 1); translate = (1, 1, 1); free = true; density = 500.0;",

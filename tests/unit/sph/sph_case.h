@@ -72,7 +72,8 @@ static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
     memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);
     memcpy(c->prm.box[1], c->run.scene.domain.max, sizeof c->prm.box[1]);
     c->run.motions = motion_files_create(c->run.case_dir);
-    const double most = body_speeds(&c->run.scene, c->run.motions);
+    double pushed;
+    const double most = body_speeds(&c->run.scene, c->run.motions, &pushed);
     c->prm.speed = scene_speed_of(&c->run.scene, most, 0.0);
     c->s = sph_create(&c->run, &c->prm, f);
     return c->s;
