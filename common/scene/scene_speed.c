@@ -95,6 +95,19 @@ static double wall_speed(const struct scene *s)
     return speed;
 }
 
+/* Box around the outline of a body; lo > hi: it has none. */
+static void outline_box(const struct scene_body *b, double lo[2], double hi[2])
+{
+    for (int a = 0; a < 2; a++) {
+        lo[a] = INFINITY;
+        hi[a] = -INFINITY;
+        for (int i = 0; i < b->points.n; i++) {
+            lo[a] = fmin(lo[a], b->points.x[i][a]);
+            hi[a] = fmax(hi[a], b->points.x[i][a]);
+        }
+    }
+}
+
 /* What it turns about; that of a free body of given density follows from its outline, and the
  * middle is near enough. */
 static void body_centre(const struct scene_body *b, const struct scene_mesh *mesh, double centre[3])
@@ -102,14 +115,12 @@ static void body_centre(const struct scene_body *b, const struct scene_mesh *mes
     memcpy(centre, b->centre, sizeof b->centre);
     if (!b->free || b->mass > 0.0)
         return;
-    for (int a = 0; a < 3; a++) {
-        double lo = mesh ? mesh->lo[a] : INFINITY, hi = mesh ? mesh->hi[a] : -INFINITY;
-        for (int i = 0; a < 2 && i < b->points.n; i++) {
-            lo = fmin(lo, b->points.x[i][a]);
-            hi = fmax(hi, b->points.x[i][a]);
-        }
-        centre[a] = hi >= lo ? 0.5 * (lo + hi) : 0.0;
-    }
+    double lo[3] = {0.0}, hi[3] = {0.0};
+    outline_box(b, lo, hi);
+    for (int a = 0; a < 3; a++)
+        centre[a] = mesh             ? 0.5 * (mesh->lo[a] + mesh->hi[a])
+                    : hi[a] >= lo[a] ? 0.5 * (lo[a] + hi[a])
+                                     : 0.0;
 }
 
 static double body_speed(const struct scene *s)
@@ -165,24 +176,12 @@ static double shape_top(const struct scene *s, const double *g, const struct sce
     double lo[3] = {0.0}, hi[3] = {0.0}, range[2];
     if (h->form == SHAPE_BELOW)
         return h->level;
-    for (int a = 0; a < 3 && h->form == SHAPE_DISC; a++) {
-        lo[a] = h->centre[a] - h->radius;
-        hi[a] = h->centre[a] + h->radius;
-    }
     const struct scene_mesh *mesh = scene_mesh_of(s, MESH_OF_SHAPE, (int)(h - s->shapes));
+    scene_shape_extent(h, lo, hi);
     if (mesh) {
         memcpy(lo, mesh->lo, sizeof lo);
         memcpy(hi, mesh->hi, sizeof hi);
     }
-    if (h->form == SHAPE_BOX) {
-        memcpy(lo, h->box[0], sizeof lo);
-        memcpy(hi, h->box[1], sizeof hi);
-    }
-    for (int k = 0; h->form == SHAPE_POLYGON && k < h->points.n; k++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = k ? fmin(lo[a], h->points.x[k][a]) : h->points.x[k][a];
-            hi[a] = k ? fmax(hi[a], h->points.x[k][a]) : h->points.x[k][a];
-        }
     heights(s, g, lo, hi, range);
     return range[1];
 }
@@ -326,16 +325,12 @@ static double shortest(const struct scene *s)
     double least = waves ? f->L / (2.0 * M_PI) : INFINITY;
     for (int a = 0; a < s->domain.dim; a++)
         least = fmin(least, s->domain.periodic[a] ? INFINITY : extent(s, a));
-    for (int k = 0; k < s->nbodies; k++)
-        for (int a = 0; a < 2; a++) {
-            const struct param_points *p = &s->bodies[k].points;
-            double lo = INFINITY, hi = -INFINITY;
-            for (int i = 0; i < p->n; i++) {
-                lo = fmin(lo, p->x[i][a]);
-                hi = fmax(hi, p->x[i][a]);
-            }
-            least = hi > lo ? fmin(least, hi - lo) : least;
-        }
+    for (int k = 0; k < s->nbodies; k++) {
+        double lo[2], hi[2];
+        outline_box(s->bodies + k, lo, hi);
+        for (int a = 0; a < 2; a++)
+            least = hi[a] > lo[a] ? fmin(least, hi[a] - lo[a]) : least;
+    }
     for (int k = 0; s->meshes && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
         for (int a = 0; a < 3 && m->owner != MESH_OF_SHAPE; a++)

@@ -93,10 +93,23 @@ static bool is_free(const struct scene *c, const struct bound *b)
     return b->body >= 0 && c->bodies[b->body].free;
 }
 
+/* Whether it is told to turn, and not about what. */
+static bool turns_about_origin(const struct run *r, int k)
+{
+    const struct scene_body *b = r->scene.bodies + k;
+    bool turns = vec3_length(b->spin) > 0.0;
+    for (int i = 0; i < b->motion.n; i++)
+        turns = turns || (b->motion.of[i].kind != MOTION_FILE && b->motion.of[i].axis >= AXIS_RX);
+    return turns && !b->free && !params_given(r->params, key_text("bodies.[%d].centre", k));
+}
+
 /* What to do with body k, which is beyond a side along an axis. */
 static const char *beyond_remedy(const struct run *r, int k, int axis)
 {
-    return r->scene.domain.periodic[axis]
+    return turns_about_origin(r, k)
+               ? "it turns about the origin, by angles in rad: give its centre, or make the "
+                 "domain larger"
+           : r->scene.domain.periodic[axis]
                ? "a body may come up to it, not through it; shift the domain, or make it larger"
            : scene_body_moves(r->scene.bodies + k)
                ? "make the domain larger, or the motion smaller; a flap that turns on a side "

@@ -27,7 +27,26 @@ enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };
 
 static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorticity"};
 
-static bool has_exact(const struct run *r) { return exact_at_all_times(&r->scene); }
+/* Whether the exact solution holds until the end: a wave of permanent form meets no body, line,
+ * mesh or closed end on its way. */
+static bool has_exact(const struct run *r)
+{
+    const struct scene *c = &r->scene;
+    bool exact = exact_at_all_times(c);
+    if (!exact || !scene_has_steady_wave(c))
+        return exact;
+    const struct exact e = exact_create(c);
+    const bool solitary = c->initial.field == FIELD_SOLITARY;
+    for (int k = 0; k < c->nwalls; k++) {
+        const struct scene_wall *w = c->walls + k;
+        const bool end = (w->side == SIDE_X_MIN && !solitary) || w->side == SIDE_X_MAX;
+        const double crest = e.steady.x + e.steady.c * c->time.end;
+        if (w->side == SIDE_NONE || (end && w->kind < WALL_INFLOW && w->zone == ZONE_NONE &&
+                                     (!solitary || crest > c->domain.max[0])))
+            exact = false;
+    }
+    return exact && c->nbodies == 0;
+}
 
 /* In 2D whether a wall lies within R of x. */
 static bool cut_by_wall(const struct sph *s, const double *x)

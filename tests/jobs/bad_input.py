@@ -365,6 +365,7 @@ faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"/', r'cas
 faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"; velocity = (-1, 0)/', r'walls.\[0\].velocity: an inflow of -1 m/s along x lets nothing in', 'sph')
 write('rest.cfg', changed(lib.TANK, fluid='', shapes='{ box = ((0, 0), (0.5, 0.5)); }', bodies='{ box = ((0.8, 0), (0.9, 0.2)); }'))
 faulty('rest', 's/end = 0.4/end = 0.2/', 'fluid.gravity: a free surface, and nothing that moves the fluid', 'sph')
+faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "rz"; amplitude = 20; period = 1; } )/', r'leaves the domain across .*it turns about the origin, by angles in rad: give its centre', 'sph')
 # gauges with the name of another column, criteria of what is not there
 faulty('tank', 's/name = "p"/name = "t"/', r'probes.\[0\].*: t: series.csv has a column of this name', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: p is a gauge, .*give a reference', 'sph', '--check')

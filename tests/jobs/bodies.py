@@ -46,6 +46,17 @@ for form in 'monaghan', 'morris':
     run_case('drum', changed(drum, sph='dx = 0.1; viscosity = "%s";' % form))
     within('energy of a drum, ' + form, last('drum', 'kinetic energy'), math.pi / 4, 0.03)
 
+# A solitary wave is its own exact solution until it meets something: with a slope or a body in its way, or an end that it
+# reaches, no error is reported, and the energy is that of the fluid.
+wave = changed(TANK, time='end = 0.05;', domain='max = (6, 1);', walls=sides('x_min x_max y_min'), sph='dx = 0.1;',
+               initial='field = "solitary"; amplitude = 0.1; crest = 3.0; level = 0.5;').replace('shapes:', '# shapes:')
+for name, known, case in (('plain', True, wave), ('reached', False, wave.replace('crest = 3.0', 'crest = 5.95')),
+                          ('slope', False, wave.replace('walls: (', 'walls: ( { points = ((6, 0.9), (4, 0), (0, 0)); }, ').replace(', { side = "y_min"; kind = "slip"; }', '')),
+                          ('hull', False, changed(wave, bodies='{ box = ((5, 0.3), (5.5, 0.7)); }'))):
+    run_case(name, case)
+    check(math.isnan(number(name, 'error.velocity_l2')) != known, '%s: error of a solitary wave' % name)
+    check(abs(number(name, 'drift.energy')) < 0.05, '%s: energy off by %g' % (name, number(name, 'drift.energy')))
+
 # Archimedes in gaps of 1.5 dx: a square of 0.2 m over the floor, lift 392.4 N/m; and beside a second one, no force to
 # the side beyond 2 % of p A on the near face (491 N/m). Three owners in one corner are an open case.
 run_case('gap', changed(TANK, bodies='{ name = "b"; %s }' % points(0.4, 0.0375, 0.6, 0.2375)))
