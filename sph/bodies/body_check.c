@@ -1,21 +1,12 @@
 /* body_check.c - see body_check.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_check.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "bodies.h"
-
-enum { KEY = 96 };
-
-static const char *key_of(char *key, int k, const char *rest)
-{
-    snprintf(key, KEY, "bodies.[%d]%s", k, rest);
-    return key;
-}
 
 /* --- motion --- */
 
@@ -112,9 +103,7 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
     const struct body_term *t = b->drive.term + i;
     const struct scene_motion *m = t->is;
     const int dim = b->dim, axis = m->axis;
-    char key[KEY], rest[32];
-    snprintf(rest, sizeof rest, ".motion.[%d]", i);
-    key_of(key, k, rest);
+    const char *key = key_text("bodies.[%d].motion.[%d]", k, i);
     if (m->kind >= MOTION_PARTNER) {
         if (m->kind == MOTION_BENDING && (dim == 3 || b->drive.nterms > 1 || drives(b)))
             params_fault(r->params, f, key,
@@ -130,10 +119,8 @@ static void check_term(const struct run *r, const struct sph_params *used, int k
                          "normal flux walls (nfm)");
         return;
     }
-    if (!params_given(r->params, key) && m->kind == MOTION_FILE) {
-        snprintf(rest, sizeof rest, ".motion");
-        key_of(key, k, rest);
-    }
+    if (!params_given(r->params, key) && m->kind == MOTION_FILE)
+        key = key_text("bodies.[%d].motion", k);
     if (m->kind == MOTION_FILE) {
         check_file(r, used, key, b, t, f);
         for (int a = 0; a < BODY_AXES && t->n > 0; a++)
@@ -165,44 +152,45 @@ static void check_degrees(const struct run *r, int k, int dim, struct faults *f)
     const struct scene_body *b = r->scene.bodies + k;
     const int locked = scene_body_locked(b->lock, dim);
     const int turns = (locked >> AXIS_RX & 1) + (locked >> AXIS_RY & 1) + (locked >> AXIS_RZ & 1);
-    char key[KEY];
     if (locked < 0) {
-        params_fault(r->params, f, key_of(key, k, ".lock"), "expected words of %s, as in \"x %s\"",
-                     dim == 2 ? "x y rz" : "x y z rx ry rz", dim == 2 ? "rz" : "rx ry");
+        params_fault(r->params, f, key_text("bodies.[%d].lock", k),
+                     "expected words of %s, as in \"x %s\"", dim == 2 ? "x y rz" : "x y z rx ry rz",
+                     dim == 2 ? "rz" : "rx ry");
         return;
     }
     if (dim == 3 && turns == 1)
         params_fault(
-            r->params, f, key_of(key, k, ".lock"),
+            r->params, f, key_text("bodies.[%d].lock", k),
             "one rotation alone cannot be locked: lock two (the body turns about the third "
             "axis), all three or none");
     for (int a = 0; a < 3 && dim == 3 && turns == 2; a++)
         if (b->spin[a] != 0.0 && locked >> (AXIS_RX + a) & 1)
-            params_fault(r->params, f, key_of(key, k, ".spin"),
+            params_fault(r->params, f, key_text("bodies.[%d].spin", k),
                          "about a locked axis beside a free one: only three locked rotations can "
                          "be driven");
     for (int i = 0; i < b->motion.n && dim == 3 && turns == 2; i++)
         if (b->motion.of[i].kind != MOTION_FILE && b->motion.of[i].axis >= AXIS_RX)
-            params_fault(r->params, f, key_of(key, k, ".motion"),
+            params_fault(r->params, f, key_text("bodies.[%d].motion", k),
                          "about a locked axis beside a free one: only three locked rotations can "
                          "be driven");
     if (locked == (dim == 2 ? 1 << AXIS_X | 1 << AXIS_Y | 1 << AXIS_RZ : (1 << BODY_AXES) - 1))
-        params_fault(r->params, f, key_of(key, k, ".lock"),
+        params_fault(r->params, f, key_text("bodies.[%d].lock", k),
                      "all degrees are locked: leave out free and mass, it moves as prescribed");
     if (b->slider.n > 0 && locked & (1 << AXIS_X | 1 << AXIS_Y | 1 << AXIS_Z))
-        params_fault(r->params, f, key_of(key, k, ".slider"),
+        params_fault(r->params, f, key_text("bodies.[%d].slider", k),
                      "a slider leaves one direction: remove x, y, z from lock");
     if (b->slider.n > 0 && b->hinge.n > 0)
-        params_fault(r->params, f, key_of(key, k, ".slider"), "a hinge or a slider, not both");
+        params_fault(r->params, f, key_text("bodies.[%d].slider", k),
+                     "a hinge or a slider, not both");
     if (b->slider.n > 0 &&
         (vec3_length(b->slider.of[0].axis) == 0.0 || (dim == 2 && b->slider.of[0].axis[2] != 0.0)))
-        params_fault(r->params, f, key_of(key, k, ".slider.axis"),
+        params_fault(r->params, f, key_text("bodies.[%d].slider.axis", k),
                      "expected a direction of the case's %d dimensions", dim);
     if (b->hinge.n > 0 && dim == 3 && vec3_length(b->hinge.of[0].axis) == 0.0)
-        params_fault(r->params, f, key_of(key, k, ".hinge.axis"),
+        params_fault(r->params, f, key_text("bodies.[%d].hinge.axis", k),
                      "expected a direction other than 0");
     if (b->hinge.n > 0 && b->motion.n > 0)
-        params_fault(r->params, f, key_of(key, k, ".motion"),
+        params_fault(r->params, f, key_text("bodies.[%d].motion", k),
                      "a hinge holds the body: it has no prescribed motion");
 }
 
@@ -228,9 +216,7 @@ static void check_line(const struct run *r, int k, int i, const struct body *b, 
     const struct scene_line *l = b->is->lines.of + i;
     const int other = body_line_other(&r->scene, l);
     double arm[3], e[3];
-    char key[KEY], rest[32];
-    snprintf(rest, sizeof rest, ".lines.[%d]", i);
-    key_of(key, k, rest);
+    const char *key = key_text("bodies.[%d].lines.[%d]", k, i);
     for (int a = 0; a < 3; a++) {
         arm[a] = l->from[a] - b->centre[a];
         e[a] = l->to[a] - l->from[a];
@@ -290,9 +276,8 @@ static void check_gap(const struct run *r, const struct sph_params *used, int k,
                       const struct body *b, double dt, struct faults *f)
 {
     const double v = speed_of(&r->scene, b), depth = body_contact_depth(v, dt);
-    char key[KEY];
     if (depth > b->contact.gap * used->dx)
-        params_fault(r->params, f, key_of(key, k, ".contact"),
+        params_fault(r->params, f, key_text("bodies.[%d].contact", k),
                      "contact.gap of %g sph.dx is %.3g m, and a body that falls at %.3g m/s goes "
                      "%.3g m deep into contact in steps of %.3g s: at least %.2f, or a lower "
                      "sph.cfl",
@@ -305,18 +290,20 @@ static void check_free(const struct run *r, const struct sph_params *used, int k
 {
     const struct scene_body *is = b->is;
     struct body_mass m;
-    char why[256], key[KEY];
+    char why[256];
     double dt = sph_params_dt(used, r->scene.fluid.nu, used->c0, NULL);
     if (used->walls != WALLS_NFM)
-        params_fault(r->params, f, key_of(key, k, ".free"),
+        params_fault(r->params, f, key_text("bodies.[%d].free", k),
                      "only normal flux walls (sph.walls = \"nfm\") give forces that move a body");
     if (!body_mass_of(is, b->mesh, b->dim, &m, why, sizeof why)) {
-        params_fault(r->params, f, key_of(key, k, is->density > 0.0 ? ".density" : ".mass"), "%s",
+        params_fault(r->params, f,
+                     key_text("bodies.[%d].%s", k, is->density > 0.0 ? "density" : "mass"), "%s",
                      why);
         return;
     }
     if (b->dim == 2 && (is->load[2] != 0.0 || is->torque[0] != 0.0 || is->torque[1] != 0.0))
-        params_fault(r->params, f, key_of(key, k, is->load[2] != 0.0 ? ".load" : ".torque"),
+        params_fault(r->params, f,
+                     key_text("bodies.[%d].%s", k, is->load[2] != 0.0 ? "load" : "torque"),
                      "out of the plane in a case of 2 dimensions");
     const int before = f->n;
     check_degrees(r, k, b->dim, f);
@@ -326,7 +313,7 @@ static void check_free(const struct run *r, const struct sph_params *used, int k
     for (int i = 0; i < is->lines.n; i++)
         check_line(r, k, i, b, dt, f);
     if (is->hinge.n > 0)
-        check_spring(r, key_of(key, k, ".hinge"), b->free->J, dt, is->hinge.of[0].stiffness,
+        check_spring(r, key_text("bodies.[%d].hinge", k), b->free->J, dt, is->hinge.of[0].stiffness,
                      is->hinge.of[0].damping, "N m", f);
 }
 
@@ -337,8 +324,7 @@ static void check_names(const struct run *r, struct faults *f)
         for (int m = 0; m < k; m++)
             if (strcmp(c->bodies[k].name, c->bodies[m].name) == 0 &&
                 (scene_body_moves(c->bodies + k) || scene_body_moves(c->bodies + m))) {
-                char key[KEY];
-                params_fault(r->params, f, key_of(key, k, ".name"),
+                params_fault(r->params, f, key_text("bodies.[%d].name", k),
                              "`%s' is body %d already: moving bodies need names of their own",
                              c->bodies[k].name, m + 1);
             }
@@ -351,10 +337,9 @@ void body_check(const struct run *r, const struct sph_params *used, struct fault
     check_names(r, f);
     for (int k = 0; k < c->nbodies; k++) {
         struct body b;
-        char key[KEY];
         body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->motions);
         if (dim == 2 && (c->bodies[k].spin[0] != 0.0 || c->bodies[k].spin[1] != 0.0))
-            params_fault(r->params, f, key_of(key, k, ".spin"),
+            params_fault(r->params, f, key_text("bodies.[%d].spin", k),
                          "in 2 dimensions a number, about z");
         for (int i = 0; i < b.drive.nterms; i++)
             check_term(r, used, k, i, &b, f);

@@ -7,7 +7,6 @@
 #include "regions_check.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -28,13 +27,9 @@ struct check {
     int k, dim;
 };
 
-/* The key of a region's member; if the case does not give it, the list itself, which has a place in
- * the file. Static buffer. */
 static const char *key_of(const struct check *c, const char *name)
 {
-    static char key[80];
-    snprintf(key, sizeof key, "apr.regions.[%d].%s", c->k, name);
-    return params_given(c->r->params, key) ? key : "apr.regions";
+    return key_text("apr.regions.[%d].%s", c->k, name);
 }
 
 static double R_of(const struct check *c, int level)
@@ -129,15 +124,15 @@ static void check_shell(const struct check *c)
 static void check_levels(const struct run *r, const struct apr_params *prm, struct faults *f)
 {
     int most = 0;
-    char key[80];
     for (int k = 0; k < prm->regions.n + prm->criteria.n; k++) {
         const int c = k - prm->regions.n;
         const int level = c < 0 ? prm->regions.of[k].level : prm->criteria.of[c].level;
         most = level > most ? level : most;
-        snprintf(key, sizeof key, "apr.%s.[%d].level", c < 0 ? "regions" : "criteria",
-                 c < 0 ? k : c);
         if (level > prm->levels)
-            params_fault(r->params, f, key, "%d is above apr.levels = %d", level, prm->levels);
+            params_fault(
+                r->params, f,
+                key_text("apr.%s.[%d].level", c < 0 ? "regions" : "criteria", c < 0 ? k : c),
+                "%d is above apr.levels = %d", level, prm->levels);
     }
     if (most < prm->levels)
         params_fault(r->params, f, "apr.levels",
@@ -466,14 +461,13 @@ static void check_motion(const struct check *c, const struct regions *g)
 static void check_criteria(const struct run *r, const struct sph_params *used,
                            const struct apr_params *prm, struct faults *f)
 {
-    char key[80];
     for (int k = 0; k < prm->criteria.n; k++) {
         const struct apr_criterion *is = prm->criteria.of + k;
         const bool surface = is->kind == CRITERION_SURFACE;
         if (!surface && is->above <= 0.0)
-            params_fault(r->params, f, "apr.criteria", "criterion %d needs `above', a bound > 0",
-                         k + 1);
-        snprintf(key, sizeof key, "apr.criteria.[%d].kind", k);
+            params_fault(r->params, f, key_text("apr.criteria.[%d].above", k),
+                         "criterion %d needs `above', a bound > 0", k + 1);
+        const char *key = key_text("apr.criteria.[%d].kind", k);
         if (surface && used->surface != SURFACE_YES)
             params_fault(r->params, f, key, "the scene has no free surface");
         if (is->kind == CRITERION_JUMP && used->scheme != SCHEME_RIEMANN_ALE &&
