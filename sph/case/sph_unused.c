@@ -106,7 +106,7 @@ static void check_wall(const struct run *r, const struct sph_params *used, int k
 {
     const struct scene_wall *w = r->scene.walls + k;
     params_unused(r->params, f, key_text("walls.[%d].side", k), !is_beyond(r, used, k),
-                  "sph.box does not reach this side");
+                  "sph.box does not reach this side, and there is no group fv, which would");
     params_unused(r->params, f, key_text("walls.[%d].points", k),
                   w->side != SIDE_NONE || is_near(&r->scene, used, &w->points),
                   "it lies outside the region of the particles");

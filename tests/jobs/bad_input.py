@@ -498,6 +498,7 @@ for outer in 'exact', 'sides':  # (exact ended in a heap that was written beyond
 for program in 'sph', 'fv':  # in one job the same words are printed once
     faulty('part', 's/at = (1, 0.1)/at = (1, 0.1); kind = "level"/; /^shapes/d', r'probes.\[0\].kind: p: there is no free surface', program, '--check')
 faulty('part', 's/0.02; R/0.03; R/; s/((0.5, 0.2)/((0.5, 0)/', r'sph.dx: 0.03 m: y from 0 to 1 m is no whole number of dx.*take dx = "1/34" .* or dx = "1/33"', 'sph', '--check')
+faulty('part', '/^fv:/d; s/((0.5, 0.2)/((0.5, 0)/', r'walls.\[0\].side: is not used: sph.box does not reach this side, and there is no group fv', 'sph', '--check')
 # rows of particles
 faulty('tank', 's/max = (2, 1)/max = (2.01, 1)/', 'case.cfg:10: sph.dx: .*take dx = "2.01/41" (0.04902 m) or dx = "2.01/40" (0.05025 m)', 'sph')
 
