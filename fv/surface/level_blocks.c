@@ -147,10 +147,10 @@ static void add_shared(const struct fv *s, double sums[2])
         const double h = surface_mesh_spacing(s, p), e = 1e-4 * h, volume = w->count[x->cell];
         if (fabs(s->surface->phi[x->cell]) > 3.0 * h)
             continue;
-        sums[0] += surface_mesh_shared_water(s, x, 0.0) - volume * level_share(s, p, x->cell, 0.0);
-        sums[1] += (surface_mesh_shared_water(s, x, e) - surface_mesh_shared_water(s, x, -e) -
-                    volume * (level_share(s, p, x->cell, e) - level_share(s, p, x->cell, -e))) /
-                   (2.0 * e);
+        level_add_water(s, p, x->cell, -volume, e, sums);
+        sums[0] += surface_mesh_shared_water(s, x, 0.0);
+        sums[1] +=
+            (surface_mesh_shared_water(s, x, e) - surface_mesh_shared_water(s, x, -e)) / (2.0 * e);
     }
 }
 

@@ -70,8 +70,10 @@ struct cut level_cut(const struct surface *f, int64_t face, int64_t d, bool here
 /* Appends it to the cuts along a: x, m: where it is; e: unit vector from the wet to the dry cell.
  * theta becomes the distance at which p stands, height that of x. */
 void level_add_cut(struct fv *s, int a, struct cut cut, const double *x, const double *e);
-/* Share of a cell below phi + shift = 0. */
-double level_share(const struct fv *s, const struct part *p, int64_t c, double shift);
+/* Adds to sums[0] the water of a cell of this volume, m^dim, below phi = 0, to sums[1] its
+ * derivative with respect to a shift of phi, between shifts of e and -e, m. */
+void level_add_water(const struct fv *s, const struct part *p, int64_t c, double volume, double e,
+                     double sums[2]);
 
 /* The next run of cells in a row, behind the n from *from on, that are less than the band off the
  * surface; false: there is none. */

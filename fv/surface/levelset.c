@@ -74,11 +74,15 @@ void surface_slopes(const struct fv *s, const struct part *p, int64_t c, double 
     s->surface->ops->slopes(s, p, c, n);
 }
 
-double level_share(const struct fv *s, const struct part *p, int64_t c, double shift)
+void level_add_water(const struct fv *s, const struct part *p, int64_t c, double volume, double e,
+                     double sums[2])
 {
+    const double phi = s->surface->phi[c];
     double n[3] = {0.0, 0.0, 0.0};
     s->surface->ops->slopes(s, p, c, n);
-    return plane_share(s->dim, n, -(s->surface->phi[c] + shift));
+    sums[0] += volume * plane_share(s->dim, n, -phi);
+    sums[1] +=
+        volume * (plane_share(s->dim, n, -(phi + e)) - plane_share(s->dim, n, e - phi)) / (2.0 * e);
 }
 
 /* m: beyond this a cell is all water or all air, whatever the slopes of phi, which has steps where
@@ -92,7 +96,11 @@ double surface_share(const struct fv *s, int64_t c)
 {
     const struct part *p = grid_part(&s->grid, c, NULL);
     const double phi = s->surface->phi[c];
-    return fabs(phi) > reach_at(s, p, c) ? phi < 0.0 : level_share(s, p, c, 0.0);
+    double n[3] = {0.0, 0.0, 0.0};
+    if (fabs(phi) > reach_at(s, p, c))
+        return phi < 0.0;
+    s->surface->ops->slopes(s, p, c, n);
+    return plane_share(s->dim, n, -phi);
 }
 
 double surface_cell_volume(const struct fv *s, int64_t c, int j)
@@ -140,9 +148,7 @@ double surface_level_volume(const struct fv *s, double *area)
                 sums[0] += s->surface->phi[i] < 0.0 ? volume : 0.0;
                 continue;
             }
-            sums[0] += volume * level_share(s, part, i, 0.0);
-            sums[1] +=
-                volume * (level_share(s, part, i, e) - level_share(s, part, i, -e)) / (2.0 * e);
+            level_add_water(s, part, i, volume, e, sums);
         }
     }
     if (s->surface->ops->add_shared)

@@ -69,10 +69,12 @@ static double share_sorted(const double m[3], double t)
 
 double plane_share(int dim, const double *n, double alpha)
 {
-    double m[3];
-    const double sum = sorted(dim, n, m);
-    if (2.0 * fabs(alpha) >= sum)
+    double m[3], sum = 0.0;
+    for (int a = 0; a < dim; a++)
+        sum += fabs(n[a]);
+    if (2.0 * fabs(alpha) >= sum) /* most cells: nothing is sorted for them */
         return alpha > 0.0 || (alpha == 0.0 && sum == 0.0) ? 1.0 : 0.0;
+    sorted(dim, n, m);
     const double t = 0.5 - fabs(alpha) / sum, share = share_sorted(m, t);
     return alpha > 0.0 ? 1.0 - share : share;
 }
