@@ -306,15 +306,6 @@ static double outlet_speed(const struct scene *s, double *pressure)
 
 /* --- slow viscous flow --- */
 
-/* What stands in the fluid. */
-static bool has_obstacles(const struct scene *s)
-{
-    bool any = s->nbodies > 0;
-    for (int k = 0; k < s->nwalls; k++)
-        any = any || s->walls[k].side == SIDE_NONE;
-    return any;
-}
-
 /* Shortest length over which the velocity varies: between walls or openings, across a body, of a
  * field that repeats itself (1/k); INFINITY: none. */
 static double shortest(const struct scene *s)
@@ -405,7 +396,7 @@ static double viscous_pressure(const struct scene *s, double U, double spacing)
     if (!(s->fluid.nu > 0.0 && L < INFINITY))
         return 0.0;
     const double least = spacing > 0.0 && has_jumps(s) ? fmin(L, spacing) : L;
-    const double held = has_obstacles(s) ? driving_force(s) * L : 0.0;
+    const double held = scene_has_lines(s) ? driving_force(s) * L : 0.0;
     return fmax(fmax(s->fluid.nu * U / least, held), channel_pressure(s));
 }
 

@@ -35,8 +35,7 @@ enum {
 static void start(struct fv *s, const char *timer) { timer_start(&s->run->timers, timer); }
 static void stop(struct fv *s, const char *timer) { timer_stop(&s->run->timers, timer); }
 
-/* What failed is told by newton_step, once. */
-static void no_message(int code, const char *module, const char *function, char *text, void *user)
+void newton_no_message(int code, const char *module, const char *function, char *text, void *user)
 {
     (void)code, (void)module, (void)function, (void)text, (void)user;
 }
@@ -49,7 +48,7 @@ static void make_kinsol(struct fv *s, struct newton *w)
         abort_run("SUNDIALS cannot be set up");
     SUN(SUNLinSol_SPGMRSetGSType(w->krylov, SUN_CLASSICAL_GS)); /* repeated where it must be */
     SUN(KINInit(w->kin, newton_residual, w->q));
-    SUN(KINSetErrHandlerFn(w->kin, no_message, NULL));
+    SUN(KINSetErrHandlerFn(w->kin, newton_no_message, NULL));
     SUN(KINSetUserData(w->kin, s));
     SUN(KINSetLinearSolver(w->kin, w->krylov, NULL));
     SUN(KINSetPreconditioner(w->kin, newton_precond_setup, newton_precond_solve));

@@ -96,6 +96,9 @@ bool newton_step(struct fv *s, double *dt, struct diagnosis *d);
  * steady. Returns that time. */
 double newton_pseudo_step(struct fv *s, double dtau, double t_stop, struct diagnosis *d);
 
+/* KINSOL's handler of errors, which says nothing: newton_step tells what failed, once. */
+void newton_no_message(int code, const char *module, const char *function, char *text, void *user);
+
 /* newton_residual.c: fills the vector q of local cells from fields with ghosts. */
 void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q);
 /* Fills the local cells of the fields from q; ghosts stay as they are. */

@@ -49,18 +49,13 @@ static int pseudo_step(N_Vector q, N_Vector next, void *user)
     return 0;
 }
 
-static void no_message(int code, const char *module, const char *function, char *text, void *user)
-{
-    (void)code, (void)module, (void)function, (void)text, (void)user;
-}
-
 void newton_dual_create(struct fv *s, struct newton *w)
 {
     w->pseudo = N_VClone(w->q);
     w->kin = KINCreate(w->ctx);
     if (!w->kin || KINSetMAA(w->kin, s->prm.pseudo_memory) < 0 ||
         KINInit(w->kin, pseudo_step, w->q) < 0 || KINSetUserData(w->kin, s) < 0 ||
-        KINSetErrHandlerFn(w->kin, no_message, NULL) < 0 ||
+        KINSetErrHandlerFn(w->kin, newton_no_message, NULL) < 0 ||
         KINSetNumMaxIters(w->kin, s->prm.pseudo_steps) < 0 || KINSetFuncNormTol(w->kin, 1e-300) < 0)
         abort_run("SUNDIALS cannot be set up");
 }

@@ -62,19 +62,11 @@ void level_gap_free(struct level_gap **g)
     *g = NULL;
 }
 
-static int upright(const struct sph *s)
-{
-    int up = 0;
-    for (int a = 1; a < s->dim; a++)
-        up = fabs(s->gravity[a]) > fabs(s->gravity[up]) ? a : up;
-    return up;
-}
-
 /* n[0] columns across the transition, at least one; in 3D n[1] along the side. */
 static struct gap_columns columns_of(const struct sph *s, int side)
 {
     const struct zones *z = s->zones;
-    struct gap_columns c = {.side = side, .up = upright(s), .across = -1};
+    struct gap_columns c = {.side = side, .up = wet_faces_upright(s), .across = -1};
     c.sense = s->gravity[c.up] < 0.0 ? 1.0 : -1.0;
     c.n[0] = (int)fmax(floor(z->transition / s->dx), 1.0);
     c.n[1] = 1;
@@ -192,7 +184,7 @@ static void look_at_side(struct sph *s, int side, double dt)
     if (!g->started && !g->kept)
         g->at_rest[side] = gap;
     const double d = weights > 0.0 ? fmax(depth / weights, s->R) : s->R;
-    const double U = sqrt(fabs(s->gravity[upright(s)]) * d),
+    const double U = sqrt(fabs(s->gravity[wet_faces_upright(s)]) * d),
                  rate = (g->kept ? kappa_kept : kappa) * U / d, slow = g->kept ? slow_kept : 0.25;
     g->gap[side] = weights > 0.0 ? gap - g->at_rest[side] : 0.0;
     const double now = rate * g->gap[side], lasting = g->lasting[side] + slow * rate * dt * now;
@@ -211,7 +203,7 @@ static void leave_out_circulation(const struct sph *s, double *outflow, int axis
 
 void level_gap_look(struct sph *s, double dt)
 {
-    const int up = upright(s);
+    const int up = wet_faces_upright(s);
     s->zones->gap->probes = 0;
     for (int side = 0; side < 2 * s->dim; side++)
         if (s->open[side] && side / 2 != up)

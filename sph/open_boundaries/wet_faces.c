@@ -54,7 +54,7 @@ void wet_faces_find(struct sph *s, double t)
                 o->room[f] * wet_faces_share(o->dim, side / 2, o->dx, z->phi[f], z->gphi + 3 * f);
 }
 
-static int upright(const struct sph *s)
+int wet_faces_upright(const struct sph *s)
 {
     int up = 0;
     for (int a = 1; a < s->dim; a++)
@@ -67,7 +67,7 @@ static int upright(const struct sph *s)
 int wet_faces_for(struct sph *s, int side, const double *x)
 {
     const struct openings *o = s->zones->openings;
-    const int up = upright(s), rows = o->cells[up];
+    const int up = wet_faces_upright(s), rows = o->cells[up];
     double y[3] = {0.0, 0.0, 0.0};
     memcpy(y, x, (size_t)o->dim * sizeof *y);
     if (!s->zones->surface)
