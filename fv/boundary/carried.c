@@ -116,6 +116,6 @@ void carried_share_ghosts(const struct fv *s, double *C)
 {
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n && o->stood; i++)
-            for (int m = 1; m <= GHOSTS && o->stood[i] > 0.0; m++)
+            for (int m = 1; m <= GHOSTS; m++)
                 C[o->cell[i] - m * o->in] = o->full[i];
 }

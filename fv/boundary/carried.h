@@ -32,7 +32,7 @@ struct outflow {
     double *change[3]; /* [places of the side] m/s: of w at the last outflow_set */
     /* Of held inflows (surface/held_inflow.h), [n]; else NULL: */
     double *level;    /* m: phi of the cell inside at the start */
-    double *stood;    /* -: share of water in it then; 0: the face is closed */
+    double *stood;    /* -: share of water in it then; 0: the face is closed to water */
     double *full;     /* -: of what comes in now */
     double *given[3]; /* m/s: w of the start */
 };
@@ -60,7 +60,7 @@ struct outflows {
     bool steady;            /* one is an inflow of given velocity */
     bool level_free;        /* a surface takes the difference of what comes in and leaves */
     double *kept[3]; /* fields, for restart files: w, m/s, in the first ghost behind the side;
-                      * kept[0]: full in the second one */
+                      * kept[0]: full in the second one, -1 for 0 */
     double given;    /* m^dim/s: through this rank's other faces of given velocity, outwards */
     double all;      /* with these */
 };
@@ -80,11 +80,12 @@ static inline bool carried_comes_in(const struct outflow *o)
 /* The kind of a side whose wall is w (NULL: none) in this run: inflows of given velocity under a
  * surface are listed, too. */
 enum mesh_side carried_side(const struct fv *s, const struct scene_wall *w, enum mesh_side kind);
-/* -: of what comes in through a held inflow beside cell c that is water; 0: no such face. in:
+/* -: of what comes in through a held inflow beside cell c that is water; -1: no such face. in:
  * offset one cell inwards. */
 static inline double carried_held(const struct fv *s, int64_t c, int64_t in)
 {
-    return s->outflows ? s->outflows->kept[0][c - 2 * in] : 0.0;
+    const double kept = s->outflows ? s->outflows->kept[0][c - 2 * in] : 0.0;
+    return kept > 0.0 ? kept : kept < 0.0 ? 0.0 : -1.0;
 }
 /* Makes s->outflows if some side's velocity changes; on all ranks alike. */
 void carried_create(struct fv *s);

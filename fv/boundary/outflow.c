@@ -79,7 +79,7 @@ static void keep(struct fv *s)
             for (int q = 0; q < s->dim; q++)
                 kept[q][o->cell[i] - o->in] = o->w[q][o->place[i]];
             if (o->stood)
-                kept[0][o->cell[i] - 2 * o->in] = o->stood[i] > 0.0 ? o->full[i] : 0.0;
+                kept[0][o->cell[i] - 2 * o->in] = o->full[i] > 0.0 ? o->full[i] : -1.0;
         }
 }
 
@@ -91,17 +91,19 @@ static double discharged(const struct fv *s, const struct outflow *o, int q, int
 }
 
 /* Sets w of an inflow on face i. What a held one brings in is less pure water the more stands
- * inside; where it is closed the water beside slides along it. */
+ * inside; where none stood at the start air comes in, and what water is there slides along it. */
 static void set_inflow(const struct fv *s, struct outflow *o, int64_t i)
 {
-    const double share = o->stood ? o->stood[i] / o->full[i] : 1.0, area = carried_area(o, i);
+    const double area = carried_area(o, i),
+                 share = o->stood && o->stood[i] > 0.0 ? o->stood[i] / o->full[i] : 1.0;
+    const bool closed = o->stood && o->stood[i] == 0.0 && o->share[i] > 0.0 && area > 0.0;
     double out = 0.0;
-    for (int q = 0; q < s->dim && area > 0.0; q++)
+    for (int q = 0; q < s->dim && closed; q++)
         out += s->u[q][o->cell[i]] * o->S[q][i] / area;
     for (int q = 0; q < s->dim; q++) {
         double *w = o->w[q] + o->place[i];
-        if (o->stood && o->stood[i] == 0.0)
-            *w = area > 0.0 ? s->u[q][o->cell[i]] - out * o->S[q][i] / area : 0.0;
+        if (closed)
+            *w = s->u[q][o->cell[i]] - out * o->S[q][i] / area;
         else if (o->kind == OUTFLOW_GIVEN_IN)
             *w = share * discharged(s, o, q, i);
         else if (o->stood)
@@ -150,7 +152,7 @@ void outflow_restore(struct fv *s)
         for (int64_t i = 0; i < o->n; i++) {
             for (int q = 0; q < s->dim; q++)
                 o->w[q][o->place[i]] = s->outflows->kept[q][o->cell[i] - o->in];
-            if (o->stood && o->stood[i] > 0.0)
+            if (o->stood)
                 o->full[i] = carried_held(s, o->cell[i], o->in);
         }
     sum_up(s);

@@ -398,7 +398,7 @@ static double water_across(const struct fv *s, int64_t c, int64_t d, int a, doub
         return v * (surface_holds_none(s, from) ? lesser(1.0, C) : C);
     if (surface_holds_none(s, from)) {
         const int64_t in = v > 0.0 ? c : c - d;
-        if (carried_held(s, in, in - from) > 0.0)
+        if (carried_held(s, in, in - from) >= 0.0)
             return v * C;
         const double e = 1e-6, lo = v > 0.0 ? -0.5 : 0.5 - e;
         return v * plane_in(s, in, a, lo, lo + e) / e;

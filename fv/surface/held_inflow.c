@@ -115,5 +115,6 @@ void held_measure(struct fv *s)
     const double *share = shares(s);
     OUTFLOWS (s, o)
         for (int64_t i = 0; i < o->n && o->stood; i++)
-            o->full[i] = fmax(o->stood[i], fmin(1.0, share[o->cell[i]]));
+            if (o->stood[i] > 0.0)
+                o->full[i] = fmax(o->stood[i], fmin(1.0, share[o->cell[i]]));
 }

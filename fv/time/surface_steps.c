@@ -263,7 +263,7 @@ static void add_outline(const struct fv *s, double sums[2])
 static double share_that_counts(const struct fv *s, int64_t c, int64_t in)
 {
     const double held = carried_held(s, c, in);
-    return surface_counted(s, c, held > 0.0 ? held : surface_share(s, c));
+    return surface_counted(s, c, held >= 0.0 ? held : surface_share(s, c));
 }
 
 /* m^dim/s: water that comes in through openings less what leaves, their sum, and the former without

@@ -177,7 +177,7 @@ static void momentum_of_row(const struct fv *s, const struct part *p, int64_t c,
 static double head_of(const struct fv *s, int64_t c, int64_t in)
 {
     const double held = carried_held(s, c, in),
-                 share = surface_counted(s, c, held > 0.0 ? held : surface_water(s, c));
+                 share = surface_counted(s, c, held >= 0.0 ? held : surface_water(s, c));
     double square = 0.0, x[3];
     if (s->surface->layer[c] || share == 0.0)
         return 0.0;
