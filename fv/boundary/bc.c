@@ -111,7 +111,8 @@ static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct ou
     const struct block *b = &s->b;
     struct bc_side d = side_of(bc, b, k, true);
     struct outflow *o = carried_add(list, count, b->dim, k, d.a, d.in, bc->n[k], bc->n[k]);
-    for (int m = 0; m < 2 && bc->wall[k]->kind == WALL_INFLOW; m++) { /* ghosts of phi, too */
+    const bool inflow = bc->kind[k] == MESH_CARRIED && bc->wall[k]->kind == WALL_INFLOW;
+    for (int m = 0; m < 2 && inflow; m++) { /* held ones set ghosts of phi, too */
         d.lo[m] = -b->g[d.t[m]];
         d.hi[m] = b->n[d.t[m]] + b->g[d.t[m]];
     }

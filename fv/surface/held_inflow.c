@@ -1,9 +1,9 @@
 /* held_inflow.c - inflows of given velocity or discharge that are faster than their waves, or lie
  * across gravity. Nothing that happens inside runs up to such an opening, so two things are given
- * there: the velocity and the water that stood in it at the start. What splashes to the side or
- * stands on the current is not fed; above the water of the start the side is closed. Water comes in
- * through a face by U C = u C_0 |S|,   C = max(C_0, share of the cell inside),   U = u C_0/C |S|,
- * C_0 the share of the start: what a jump that has come to the opening covers is fed by a jet.
+ * there: the velocity u and the water that stood in it at the start, the share C_0 of each cell.
+ * What splashes to the side or stands on the current is not fed; beside the water of the start the
+ * side is closed to water. What comes in through a face is U C = u C_0 |S| with C the larger one of
+ * C_0 and the share inside, so U = u C_0/C |S|: a jump that covers the opening is fed by a jet.
  * Behind the face the level is no lower than that of the start.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "held_inflow.h"
@@ -74,7 +74,8 @@ static void tell_dry(const struct fv *s)
     for (int k = 0; k < s->run->scene.nwalls; k++) {
         const struct scene_wall *w = s->run->scene.walls + k;
         const int side = w->side - SIDE_X_MIN;
-        if (w->kind != WALL_INFLOW || w->side == SIDE_NONE || !s->levels || s->surface->g == 0.0)
+        if (w->kind != WALL_INFLOW || w->side == SIDE_NONE || !s->levels || s->surface->g == 0.0 ||
+            s->surface->forced)
             continue;
         if ((w->has_level ? s->levels->waves : s->outflows->waves)[side] == 0.0)
             log_warn("%s: no water stands in this inflow at the start: nothing comes in before "
@@ -97,7 +98,7 @@ void held_choose(struct fv *s)
         all->held[k] = all->area[k] > 0.0 && V[k] > (lies ? 0.0 : all->waves[k]);
         if (all->held[k])
             log_say("%s: %.3g m/s%s: what stands in it at the start comes in, whatever happens "
-                    "inside; beside that water the side is closed",
+                    "inside; beside that it is closed to water",
                     scene_side_names[k], V[k], lies ? "" : ", faster than its waves");
     }
     OUTFLOWS (s, o)
