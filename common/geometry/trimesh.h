@@ -89,6 +89,9 @@ struct trimesh trimesh_prism(int n, const double (*points)[2], double low, doubl
  * last corner is cut off. left is used up. */
 int trimesh_ears(int n, int *left, const double (*p)[2], int (*ear)[3]);
 
+/* The part of m inside the box, of which any end may be infinite, connected and owned by the
+ * caller. */
+struct trimesh trimesh_within(const struct trimesh *m, const double lo[3], const double hi[3]);
 /* Vertices within `near', m, of the plane across `axis' at `at', m, are put on it. What a connected
  * closed mesh has beyond, on the high or on the low side, is then left out, and the mesh closed by
  * its section, normals out. false, and the mesh stays as it is but for those vertices: nothing is

@@ -1,4 +1,4 @@
-/* trimesh_end.c - closed surfaces that end on a plane. What is beyond goes, triangles that cross
+/* trimesh_end.c - surfaces that end on planes. What is beyond goes, triangles that cross
  * the plane are clipped (Sutherland & Hodgman, Comm. ACM 17, 1974), and the section, loops of edges
  * that then have one triangle each, is filled: a loop that runs round the other way is a hole, and
  * joined to the loop around it by a bridge, so that one polygon is left to be cut into ears
@@ -75,11 +75,27 @@ static struct trimesh before_plane(const struct trimesh *m, int axis, double at,
         keep((const double *const[3]){m->x[v[0]], m->x[v[1]], m->x[v[2]]}, axis, at, way, &to);
     }
     trimesh_bounds(m, lo, hi);
-    trimesh_weld(&to, 1e-9 * vec3_distance(lo, hi));
+    if (m->nvertices > 0)
+        trimesh_weld(&to, 1e-9 * vec3_distance(lo, hi));
     trimesh_drop_flat(&to, 0.0);
     trimesh_trim(&to);
     trimesh_connect(&to);
     return to;
+}
+
+struct trimesh trimesh_within(const struct trimesh *m, const double lo[3], const double hi[3])
+{
+    struct trimesh of = trimesh_copy(m);
+    for (int side = 0; side < 6; side++) {
+        const int a = side / 2;
+        const double at = side % 2 ? hi[a] : lo[a];
+        if (isinf(at))
+            continue;
+        struct trimesh cut = before_plane(&of, a, at, side % 2 ? 1 : -1);
+        trimesh_free(&of);
+        of = cut;
+    }
+    return of;
 }
 
 /* --- loops --- */

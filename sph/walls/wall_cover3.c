@@ -186,32 +186,3 @@ struct trimesh wall_cover_side(const struct cover_side *is, int n, const struct 
     cover(&c, &all);
     return c.out;
 }
-
-/* The triangle x cut to the box. */
-static int in_box(double (*x)[3], const double *lo, const double *hi)
-{
-    int n = 3;
-    for (int side = 0; side < 6 && n > 0; side++) {
-        const int a = side / 2;
-        double y[16][3], h[16];
-        for (int k = 0; k < n; k++)
-            h[k] = side % 2 ? hi[a] - x[k][a] : x[k][a] - lo[a];
-        n = above(n, (const double(*)[3])x, h, y);
-        memcpy(x, y, (size_t)n * sizeof *x);
-    }
-    return n;
-}
-
-struct trimesh wall_cover_clip(const struct trimesh *m, const double lo[3], const double hi[3])
-{
-    struct cover c = {0};
-    for (int t = 0; t < m->ntriangles; t++) {
-        double x[16][3];
-        for (int k = 0; k < 3; k++)
-            memcpy(x[k], m->x[m->vertex[t][k]], sizeof x[k]);
-        const int n = in_box(x, lo, hi);
-        if (n > 2)
-            emit(&c, n, (const double(*)[3])x, false);
-    }
-    return c.out;
-}

@@ -19,8 +19,4 @@ struct cover_side {
 struct trimesh wall_cover_side(const struct cover_side *is, int n, const struct tree *const *mesh,
                                double size);
 
-/* The part of m inside the box, of which any end may be infinite; m must be connected, the result
- * is not. Owned by the caller. */
-struct trimesh wall_cover_clip(const struct trimesh *m, const double lo[3], const double hi[3]);
-
 #endif

@@ -11,8 +11,7 @@
 #include "../particles/sph_particles.h"
 #include "wall_cover3.h"
 
-/* Rotates a vector of the world into the mesh's frame. */
-static void turn_to_own(const struct wall_mesh *m, const double *v, double *own)
+void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own)
 {
     for (int a = 0; a < 3; a++)
         own[a] = m->Q[0][a] * v[0] + m->Q[1][a] * v[1] + m->Q[2][a] * v[2];
@@ -28,7 +27,7 @@ void wall_mesh_to_own(const struct wall_mesh *m, const double *x, double *own)
 {
     double d[3];
     vec3_from(m->X, x, d);
-    turn_to_own(m, d, own);
+    wall_mesh_turn_to_own(m, d, own);
 }
 
 void wall_mesh_to_world(const struct wall_mesh *m, const double *own, double *x)
@@ -179,11 +178,9 @@ static void add_sides(struct sph *s, struct walls *w)
 }
 
 /* Keeps what lies between lo and hi, m, of a mesh, and makes a tree of its own of it. */
-static void clip(const struct sph *s, struct wall_mesh *m, const double *lo, const double *hi)
+static void clip(struct wall_mesh *m, const double *lo, const double *hi)
 {
-    struct trimesh cut = wall_cover_clip(&m->mesh, lo, hi);
-    trimesh_weld(&cut, 1e-9 * s->R);
-    trimesh_connect(&cut);
+    struct trimesh cut = trimesh_within(&m->mesh, lo, hi);
     if (!m->lent)
         trimesh_free(&m->mesh);
     m->mesh = cut;
@@ -203,7 +200,7 @@ static void repeat(const struct sph *s, struct wall_mesh *m, int axis)
     from[axis] = s->lo[axis];
     to[axis] = s->hi[axis];
     if (hi[axis] - lo[axis] > L + near)
-        clip(s, m, from, to);
+        clip(m, from, to);
     const int n = m->mesh.ntriangles;
     struct trimesh copy = trimesh_copy(&m->mesh), all = trimesh_copy(&m->mesh);
     for (int way = -1; way <= 1; way += 2) {
@@ -276,7 +273,7 @@ static void end_at_sides(const struct sph *s, struct wall_mesh *m)
         beyond = is_beyond(&m->mesh, t, lo, hi, near);
     if (!beyond)
         return;
-    clip(s, m, lo, hi);
+    clip(m, lo, hi);
 }
 
 /* Meshes of files, which the scene keeps. */

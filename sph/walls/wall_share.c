@@ -151,10 +151,8 @@ static void weight_of_mesh(const struct wall_mesh *m, double R, const double *x,
     double own[3], own_n[3], own_g[3], sum[3] = {0.0, 0.0, 0.0}, turned[3];
     struct facet *facet;
     wall_mesh_to_own(m, x, own);
-    for (int a = 0; a < 3; a++) {
-        own_n[a] = m->Q[0][a] * n[0] + m->Q[1][a] * n[1] + m->Q[2][a] * n[2];
-        own_g[a] = m->Q[0][a] * g[0] + m->Q[1][a] * g[1] + m->Q[2][a] * g[2];
-    }
+    wall_mesh_turn_to_own(m, n, own_n);
+    wall_mesh_turn_to_own(m, g, own_g);
     const int near = near_facets(m, R, own, &facet);
     for (int k = 0; k < near; k++)
         add_facet(facet + k, R, own, own_n, own_g, sum);

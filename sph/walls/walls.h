@@ -239,7 +239,8 @@ void wall_meshes_move(struct walls *w);
 void wall_mesh_to_own(const struct wall_mesh *m, const double *x, double *own);
 /* Transforms a point of the mesh's frame to the world, m. */
 void wall_mesh_to_world(const struct wall_mesh *m, const double *own, double *x);
-/* Rotates a vector of the mesh's frame into the world. */
+/* Rotates a vector of the world into the mesh's frame; one of the mesh's frame into the world. */
+void wall_mesh_turn_to_own(const struct wall_mesh *m, const double *v, double *own);
 void wall_mesh_turn_to_world(const struct wall_mesh *m, const double *own, double *v);
 /* Velocity, m/s, and acceleration, m/s^2 (NULL: not wanted), of the mesh's material point x. */
 void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const double *x,

@@ -91,7 +91,7 @@ TEST(slopes_end_at_the_sides)
     for (int k = 0; k < 20; k++) {
         const double foot = any(0.2, 1.8), rise = any(0.1, 2.0);
         struct trimesh m = slope(foot, rise, -0.3, 1.4, 0.5);
-        struct trimesh cut = wall_cover_clip(&m, floor_side.lo, (const double[]){2, 1, INFINITY});
+        struct trimesh cut = trimesh_within(&m, floor_side.lo, (const double[]){2, 1, INFINITY});
         assert_close(trimesh_area(&cut), (2.0 - foot) * hypot(1.0, rise), 1e-9);
         trimesh_free(&cut);
         trimesh_free(&m);
