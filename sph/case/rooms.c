@@ -112,6 +112,25 @@ static double threshold(int fluid_side)
     return fluid_side == FLUID_INSIDE ? 0.5 : fluid_side == FLUID_OUTSIDE ? -0.5 : 0.0;
 }
 
+/* Winding number around `own' of the mesh as it is in the file, and of the images of a closed wall
+ * across periods. */
+static double winding(const struct sph *s, const struct wall_mesh *m, const double *own)
+{
+    const bool repeats = m->body < 0 && m->of->mesh.closed;
+    double sum = 0.0;
+    for (int k = 0; k < 27; k++) {
+        const int way[3] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1};
+        double x[3];
+        bool is_there = repeats || k == 13;
+        for (int a = 0; a < 3; a++) {
+            x[a] = own[a] + way[a] * (s->hi[a] - s->lo[a]);
+            is_there = is_there && (way[a] == 0 || s->periodic[a]);
+        }
+        sum += is_there ? trimesh_winding(&m->of->mesh, x) : 0.0;
+    }
+    return sum;
+}
+
 bool rooms_are_wet(const struct sph *s, const double *x)
 {
     for (int k = 0; k < s->walls->nmeshes; k++) {
@@ -120,7 +139,7 @@ bool rooms_are_wet(const struct sph *s, const double *x)
         if (!m->of || (m->thin && !m->mesh.closed))
             continue;
         wall_mesh_to_own(m, x, own);
-        const double w = trimesh_winding(&m->of->mesh, own) - threshold(m->of->fluid_side);
+        const double w = winding(s, m, own) - threshold(m->of->fluid_side);
         if (fabs(w) < doubt)
             fail_with(RUN_INPUT,
                       "mesh %s does not say whether the region around (%g, %g, %g) m holds fluid: "

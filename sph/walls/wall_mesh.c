@@ -108,74 +108,7 @@ struct tree_foot wall_meshes_nearest(const struct walls *w, const double *x, dou
     return best;
 }
 
-/* --- sides of the domain --- */
-
-static bool is_wall_side(const struct sph *s, int side)
-{
-    const struct scene_wall *w =
-        scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-    return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP) &&
-           sph_params_reaches(&s->run->scene.domain, &s->prm, side);
-}
-
-/* The rectangle of a side, normal out, to the corners where walls meet, else 2.5 R beyond; but for
- * what meshes at rest cover. */
-static struct trimesh triangles_of(const struct sph *s, int side)
-{
-    const struct scene *c = &s->run->scene;
-    struct cover_side is = {.axis = side / 2, .high = side % 2};
-    const struct tree *cover[WALLS_MAX];
-    int n = 0;
-    for (int a = 0; a < 3; a++) {
-        is.lo[a] = s->lo[a] - (is_wall_side(s, 2 * a) ? 0.0 : 2.5 * s->R);
-        is.hi[a] = s->hi[a] + (is_wall_side(s, 2 * a + 1) ? 0.0 : 2.5 * s->R);
-    }
-    is.at = is.high ? s->hi[is.axis] : s->lo[is.axis];
-    for (int k = 0; c->meshes && k < c->meshes->n; k++)
-        if (c->meshes->of[k].owner == MESH_OF_WALL && !c->walls[c->meshes->of[k].index].thin)
-            cover[n++] = c->meshes->of[k].tree;
-    return wall_cover_side(&is, n, cover, s->dx);
-}
-
-static struct wall_mesh *add_mesh(struct walls *w)
-{
-    GROW(w->meshes, w->nmeshes, w->nmeshes + 1);
-    struct wall_mesh *m = w->meshes + w->nmeshes++;
-    *m = (struct wall_mesh){.body = -1};
-    for (int a = 0; a < 3; a++)
-        m->Q[a][a] = 1.0;
-    return m;
-}
-
-/* Sides alike share a mesh, so that the edges where they meet are no rims. */
-static void add_sides(struct sph *s, struct walls *w)
-{
-    bool done[6] = {false};
-    for (int side = 0; side < 6; side++) {
-        if (done[side] || !is_wall_side(s, side))
-            continue;
-        const struct scene_wall *is =
-            scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-        struct wall_mesh *m = add_mesh(w);
-        m->no_slip = is->kind == WALL_NO_SLIP;
-        m->friction = is->friction;
-        memcpy(m->u, is->velocity, sizeof m->u);
-        for (int other = side; other < 6; other++) {
-            const struct scene_wall *q =
-                scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + other));
-            if (done[other] || !is_wall_side(s, other) || q->kind != is->kind ||
-                q->friction != is->friction ||
-                memcmp(q->velocity, is->velocity, sizeof q->velocity))
-                continue;
-            struct trimesh more = triangles_of(s, other);
-            trimesh_append(&m->mesh, &more);
-            trimesh_free(&more);
-            done[other] = true;
-        }
-        trimesh_weld(&m->mesh, 1e-9 * s->R);
-        trimesh_connect(&m->mesh);
-    }
-}
+/* --- meshes across periods --- */
 
 /* Keeps what lies between lo and hi, m, of a mesh, and makes a tree of its own of it. */
 static void clip(struct wall_mesh *m, const double *lo, const double *hi)
@@ -226,6 +159,106 @@ static void repeat(const struct sph *s, struct wall_mesh *m, int axis)
         trimesh_free(&m->mesh);
     m->mesh = all;
     m->lent = false; /* a tree of its own is made of it */
+}
+
+/* Frees what the scene has not lent. */
+static void free_own(struct wall_mesh *m)
+{
+    if (m->lent)
+        return;
+    tree_free(&m->tree);
+    trimesh_free(&m->mesh);
+}
+
+/* --- sides of the domain --- */
+
+static bool is_wall_side(const struct sph *s, int side)
+{
+    const struct scene_wall *w =
+        scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
+    return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP) &&
+           sph_params_reaches(&s->run->scene.domain, &s->prm, side);
+}
+
+/* Meshes at rest that cover parts of sides, with their images across periods. */
+struct wall_covers {
+    int n;
+    struct wall_mesh of[WALLS_MAX];
+    const struct tree *tree[WALLS_MAX];
+};
+
+static void find_covers(const struct sph *s, struct wall_covers *to)
+{
+    const struct scene *c = &s->run->scene;
+    for (int k = 0; c->meshes && k < c->meshes->n; k++) {
+        const struct scene_mesh *is = c->meshes->of + k;
+        struct wall_mesh *m = to->of + to->n;
+        if (is->owner != MESH_OF_WALL || c->walls[is->index].thin)
+            continue;
+        *m = (struct wall_mesh){.mesh = is->mesh, .tree = is->tree, .lent = true};
+        for (int a = 0; a < 3; a++)
+            if (s->periodic[a])
+                repeat(s, m, a);
+        m->tree = m->lent ? m->tree : tree_create(&m->mesh);
+        to->tree[to->n++] = m->tree;
+    }
+}
+
+/* The rectangle of a side, normal out, to the corners where walls meet, else 2.5 R beyond; but for
+ * what meshes at rest cover. */
+static struct trimesh triangles_of(const struct sph *s, int side, const struct wall_covers *by)
+{
+    struct cover_side is = {.axis = side / 2, .high = side % 2};
+    for (int a = 0; a < 3; a++) {
+        is.lo[a] = s->lo[a] - (is_wall_side(s, 2 * a) ? 0.0 : 2.5 * s->R);
+        is.hi[a] = s->hi[a] + (is_wall_side(s, 2 * a + 1) ? 0.0 : 2.5 * s->R);
+    }
+    is.at = is.high ? s->hi[is.axis] : s->lo[is.axis];
+    return wall_cover_side(&is, by->n, by->tree, s->dx);
+}
+
+static struct wall_mesh *add_mesh(struct walls *w)
+{
+    GROW(w->meshes, w->nmeshes, w->nmeshes + 1);
+    struct wall_mesh *m = w->meshes + w->nmeshes++;
+    *m = (struct wall_mesh){.body = -1};
+    for (int a = 0; a < 3; a++)
+        m->Q[a][a] = 1.0;
+    return m;
+}
+
+/* Sides alike share a mesh, so that the edges where they meet are no rims. */
+static void add_sides(struct sph *s, struct walls *w)
+{
+    bool done[6] = {false};
+    struct wall_covers by = {.n = 0};
+    find_covers(s, &by);
+    for (int side = 0; side < 6; side++) {
+        if (done[side] || !is_wall_side(s, side))
+            continue;
+        const struct scene_wall *is =
+            scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
+        struct wall_mesh *m = add_mesh(w);
+        m->no_slip = is->kind == WALL_NO_SLIP;
+        m->friction = is->friction;
+        memcpy(m->u, is->velocity, sizeof m->u);
+        for (int other = side; other < 6; other++) {
+            const struct scene_wall *q =
+                scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + other));
+            if (done[other] || !is_wall_side(s, other) || q->kind != is->kind ||
+                q->friction != is->friction ||
+                memcmp(q->velocity, is->velocity, sizeof q->velocity))
+                continue;
+            struct trimesh more = triangles_of(s, other, &by);
+            trimesh_append(&m->mesh, &more);
+            trimesh_free(&more);
+            done[other] = true;
+        }
+        trimesh_weld(&m->mesh, 1e-9 * s->R);
+        trimesh_connect(&m->mesh);
+    }
+    for (int k = 0; k < by.n; k++)
+        free_own(by.of + k);
 }
 
 /* A side is one plane, however it is cut. */
@@ -345,10 +378,7 @@ void wall_meshes_free(struct walls *w)
 {
     for (int k = 0; k < w->nmeshes; k++) {
         mem_free(w->meshes[k].plane);
-        if (!w->meshes[k].lent) {
-            tree_free(&w->meshes[k].tree);
-            trimesh_free(&w->meshes[k].mesh);
-        }
+        free_own(w->meshes + k);
     }
     mem_free(w->meshes);
     xdmf_free(&w->view);

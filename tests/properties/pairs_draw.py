@@ -372,6 +372,18 @@ def mesh_period(rng):
     return s
 
 
+def mesh_across(rng):
+    """An obstacle of triangles on the floor that goes on beyond a period."""
+    s = tank3(rng, (10, 12))
+    s.periodic, s.sides = [True, False, False], {(1, -1): {}, (1, 1): {}, (2, -1): {}}
+    wide, deep = rng.uniform(3, 4.5) * s.dx, rng.uniform(3, 4.5) * s.dx
+    x, y = rng.uniform(-0.8, -0.2) * wide, rng.uniform(3, 4) * s.dx
+    s.stl("rock.stl", [x, y, 0.0], [x + wide, y + deep, rng.uniform(4, s.d - 4) * s.dx])
+    s.meshes["rock.stl"]["of"] = "wall"
+    s.gauges([0.5 * s.hi[0], 0.5 * s.hi[1]])
+    return s
+
+
 def side_surface3(rng):
     s = tank3(rng)
     s.gauges([s.dx * rng.uniform(2, s.n[0] - 2), s.dx * rng.uniform(2, s.n[1] - 2)])
@@ -661,6 +673,7 @@ PAIRS = [
     ("free-side", "free body as heavy as water x side", 2, free_floor),
     ("mesh-side", "mesh of a body x sides and periods, 3D", 2, mesh_side),
     ("mesh-period", "bed of triangles x period, 3D", 1, mesh_period),
+    ("mesh-across", "obstacle of triangles across a period, 3D", 0, mesh_across),
     ("side-surface3", "side or period x free surface, 3D", 1, side_surface3),
     ("thin-side", "thin mesh from the floor to above the surface x sides and periods, 3D", 0, thin_side),
     ("thin-thin", "thin mesh x thin mesh, 3D", 0, thin_thin),
