@@ -32,14 +32,13 @@ static void remove_leavers(struct sph *s)
         }
         int side = 0;
         double most = 0.0;
-        for (int a = 0; a < o->dim; a++)
-            for (int k = 0; k < 2; k++) {
-                const double out = k ? y[a] - o->hi[a] : o->lo[a] - y[a];
-                if (o->open[2 * a + k] && out > most) {
-                    most = out;
-                    side = 2 * a + k;
-                }
+        for (int k = 0; k < 2 * o->dim; k++) {
+            const double out = -zones_inside(o->lo, o->hi, k, y);
+            if (o->open[k] && out > most) {
+                most = out;
+                side = k;
             }
+        }
         const double m = y[at_mass(o->dim)];
         const int to = wet_faces_for(s, side, y);
         if (o->law->shares)

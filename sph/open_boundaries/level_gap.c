@@ -66,7 +66,7 @@ void level_gap_free(struct level_gap **g)
 static struct gap_columns columns_of(const struct sph *s, int side)
 {
     const struct zones *z = s->zones;
-    struct gap_columns c = {.side = side, .up = wet_faces_upright(s), .across = -1};
+    struct gap_columns c = {.side = side, .up = zones_upright(s), .across = -1};
     c.sense = s->gravity[c.up] < 0.0 ? 1.0 : -1.0;
     c.n[0] = (int)fmax(floor(z->transition / s->dx), 1.0);
     c.n[1] = 1;
@@ -133,8 +133,8 @@ static bool is_beside_wall(const struct sph *s, const struct gap_columns *c, int
 /* To all probes within R, which are at most R/dx columns away. */
 static void add_particle(const struct sph *s, struct gap_columns *c, const double *y, double w)
 {
-    const int a = c->side / 2, more = (int)ceil(s->R / s->dx);
-    const double in = (c->side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a]) - s->zones->buffer;
+    const int more = (int)ceil(s->R / s->dx);
+    const double in = zones_inside(s->lo, s->hi, c->side, y) - s->zones->buffer;
     const int i0 = (int)floor(in / s->dx);
     int first = 0, last = 0;
     if (c->across >= 0) {
@@ -184,7 +184,7 @@ static void look_at_side(struct sph *s, int side, double dt)
     if (!g->started && !g->kept)
         g->at_rest[side] = gap;
     const double d = weights > 0.0 ? fmax(depth / weights, s->R) : s->R;
-    const double U = sqrt(fabs(s->gravity[wet_faces_upright(s)]) * d),
+    const double U = sqrt(fabs(s->gravity[zones_upright(s)]) * d),
                  rate = (g->kept ? kappa_kept : kappa) * U / d, slow = g->kept ? slow_kept : 0.25;
     g->gap[side] = weights > 0.0 ? gap - g->at_rest[side] : 0.0;
     const double now = rate * g->gap[side], lasting = g->lasting[side] + slow * rate * dt * now;
@@ -203,7 +203,7 @@ static void leave_out_circulation(const struct sph *s, double *outflow, int axis
 
 void level_gap_look(struct sph *s, double dt)
 {
-    const int up = wet_faces_upright(s);
+    const int up = zones_upright(s);
     s->zones->gap->probes = 0;
     for (int side = 0; side < 2 * s->dim; side++)
         if (s->open[side] && side / 2 != up)

@@ -181,7 +181,7 @@ static void sum_band(const struct sph *s, const struct side_levels *l, double ba
         for (int side = 0; side < 2 * dim; side++) {
             const struct side_water *of = l->of + side;
             const int a = side / 2;
-            const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+            const double in = zones_inside(s->lo, s->hi, side, y);
             if (of->tide > 0.0 && in > s->zones->buffer + 1.5 * s->zones->transition &&
                 fabs(height - 0.5 * (of->bed + of->inside)) < 0.25 * (of->inside - of->bed))
                 bands[side][BAND_BASIN] += w;
@@ -322,7 +322,7 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
     const double height = l->sign * x[l->up], out = side % 2 ? u[n] : -u[n],
                  sense = openings_inward(side), stretch = of->rate / fmax(of->depth, s->dx),
                  known = has_level(of->is) ? s->zones->buffer + 0.25 * s->R : 0.0,
-                 deeper = sense * (x[n] - (side % 2 ? s->hi[n] : s->lo[n])) - known;
+                 deeper = zones_inside(s->lo, s->hi, side, x) - known;
     *p = s->rho0 * l->g * (of->level - height);
     for (int a = 0; gp && a < 3; a++)
         gp[a] = a == l->up ? -s->rho0 * l->g * l->sign : 0.0;

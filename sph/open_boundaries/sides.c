@@ -64,12 +64,6 @@ static int bin_of(const struct sides *d, int side, const double *x, double place
     return of->first + bin;
 }
 
-static double depth(const struct sph *s, int side, const double *x)
-{
-    const int a = side / 2;
-    return side % 2 ? s->hi[a] - x[a] : x[a] - s->lo[a];
-}
-
 /* Bin beside I[2], off by o[2]; -1: none. */
 static int beside(const struct opening_side *of, const int *I, const int *o)
 {
@@ -186,7 +180,7 @@ static void add_to_lines(const struct sph *s, const struct sides *d, double line
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(s->dim)];
         for (int side = 0; side < 2 * s->dim; side++) {
-            const double in = depth(s, side, y) - rim;
+            const double in = zones_inside(s->lo, s->hi, side, y) - rim;
             if (!d->of[side].is || in < 0.0 || in > s->R)
                 continue;
             const double p = eos_p(y[at_mass(s->dim)] / w, s->rho0, s->c0, s->gamma);
@@ -303,7 +297,7 @@ static void look_inside(struct sph *s)
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i), m = y[at_mass(dim)], w = y[at_volume(dim)];
         for (int side = 0; side < 2 * dim; side++) {
-            const double in = depth(s, side, y);
+            const double in = zones_inside(s->lo, s->hi, side, y);
             double place[2];
             if (!d->of[side].is || in < z->buffer || in > z->buffer + 0.5 * s->R)
                 continue;
@@ -386,7 +380,7 @@ static double outlet_pressure(const struct sides *d, int side, const double *x, 
     const struct opening_side *of = d->of + side;
     const double out = side % 2 ? in[VELOCITY + side / 2] : -in[VELOCITY + side / 2];
     const double back = fmin(out, 0.0);
-    return of->pressure + d->fall[side] * depth(d->s, side, x) -
+    return of->pressure + d->fall[side] * zones_inside(d->s->lo, d->s->hi, side, x) -
            0.5 * d->s->rho0 * of->leaves * back * back;
 }
 
@@ -428,13 +422,8 @@ static void eval_sides(void *ctx, double t, int n, const double *x, double *u, d
         memset(gp, 0, 3 * (size_t)n * sizeof *gp);
     }
     for (int i = 0; i < n; i++) {
-        int nearest = 0;
-        double least = INFINITY;
-        for (int side = 0; side < 2 * dim; side++)
-            if (d->of[side].is && depth(d->s, side, x + 3 * i) < least) {
-                least = depth(d->s, side, x + 3 * i);
-                nearest = side;
-            }
+        double below;
+        const int nearest = zones_nearest(d->s->zones, x + 3 * i, &below);
         eval_side(d, nearest, x + 3 * i, u + dim * i, p + i, gu ? gp + 3 * i : NULL);
     }
 }

@@ -54,20 +54,12 @@ void wet_faces_find(struct sph *s, double t)
                 o->room[f] * wet_faces_share(o->dim, side / 2, o->dx, z->phi[f], z->gphi + 3 * f);
 }
 
-int wet_faces_upright(const struct sph *s)
-{
-    int up = 0;
-    for (int a = 1; a < s->dim; a++)
-        up = fabs(s->gravity[a]) > fabs(s->gravity[up]) ? a : up;
-    return up;
-}
-
 /* Goes down from where the particle leaves to the first face that is wet, at most three rows; from
  * higher up it is a drop and is counted as one. */
 int wet_faces_for(struct sph *s, int side, const double *x)
 {
     const struct openings *o = s->zones->openings;
-    const int up = wet_faces_upright(s), rows = o->cells[up];
+    const int up = zones_upright(s), rows = o->cells[up];
     double y[3] = {0.0, 0.0, 0.0};
     memcpy(y, x, (size_t)o->dim * sizeof *y);
     if (!s->zones->surface)
@@ -87,8 +79,7 @@ static bool is_film(const struct sph *s, const double *y)
     const double near = 2.0 * s->dx;
     for (int side = 0; side < 2 * s->dim; side++) {
         const int a = side / 2;
-        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
-        if (!s->open[side] && !s->periodic[a] && in < near)
+        if (!s->open[side] && !s->periodic[a] && zones_inside(s->lo, s->hi, side, y) < near)
             return true;
     }
     return s->dim == 2 && s->walls && walls_distance(s->walls, y, near) < near;
@@ -160,8 +151,7 @@ static double counted_share(const struct sph *s, const double *y)
     const struct zones *z = s->zones;
     double f = 1.0;
     for (int side = 0; side < 2 * s->dim; side++) {
-        const int a = side / 2;
-        const double in = side % 2 ? z->counted[1][a] - y[a] : y[a] - z->counted[0][a];
+        const double in = zones_inside(z->counted[0], z->counted[1], side, y);
         if (s->open[side])
             f *= fmin(fmax(in / s->dx + 0.5, 0.0), 1.0);
     }

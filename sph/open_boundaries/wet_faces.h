@@ -7,8 +7,6 @@
 
 #include "openings.h"
 
-/* The axis along which gravity is largest. */
-int wet_faces_upright(const struct sph *s);
 /* Sets share of all faces at time t, s; the same on all ranks, without communication. */
 void wet_faces_find(struct sph *s, double t);
 /* Fraction below phi = 0 of a face of edge dx, m, by the plane through its centre; g: gradient of

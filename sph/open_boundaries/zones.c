@@ -159,14 +159,21 @@ int zones_nearest(const struct zones *z, const double *x, double *below)
     int nearest = 0;
     *below = INFINITY;
     for (int side = 0; side < 2 * z->dim; side++) {
-        const int a = side / 2;
-        const double d = side % 2 ? z->hi[a] - x[a] : x[a] - z->lo[a];
+        const double d = zones_inside(z->lo, z->hi, side, x);
         if (z->open[side] && d < *below) {
             *below = d;
             nearest = side;
         }
     }
     return nearest;
+}
+
+int zones_upright(const struct sph *s)
+{
+    int up = 0;
+    for (int a = 1; a < s->dim; a++)
+        up = fabs(s->gravity[a]) > fabs(s->gravity[up]) ? a : up;
+    return up;
 }
 
 static void add_drain(struct zones *z)
@@ -247,8 +254,7 @@ double zones_share(const struct sph *s, int i)
     const double *y = state_row(&s->p, s->p.y, i);
     double f = 1.0;
     for (int side = 0; s->zones && side < 2 * s->dim; side++) {
-        const int a = side / 2;
-        const double in = side % 2 ? s->hi[a] - y[a] : y[a] - s->lo[a];
+        const double in = zones_inside(s->lo, s->hi, side, y);
         const double rim = s->zones->buffer + s->zones->transition;
         if (s->open[side])
             f *= fmin(fmax((in - rim) / s->dx + 0.5, 0.0), 1.0);

@@ -88,11 +88,18 @@ void zones_free_box(const struct run *r, const struct sph_params *prm, double lo
  * imposes them, and there its water ends. */
 void zones_counted_box(const struct run *r, const struct sph_params *prm, const double way[3],
                        double lo[3], double hi[3]);
+/* How far x is inside a side of the box from lo to hi, m; negative outside. */
+static inline double zones_inside(const double lo[3], const double hi[3], int side, const double *x)
+{
+    return side % 2 ? hi[side / 2] - x[side / 2] : x[side / 2] - lo[side / 2];
+}
 /* Side of the region nearest to x; *below: depth of x below it, m. */
 int zones_nearest(const struct zones *z, const double *x, double *below);
 /* Adds to the velocity u, m/s, at x what brings the level back (level_gap.h), outwards through the
  * nearest open side. */
 void zones_add_outflow(const struct zones *z, const double *x, double *u);
+/* The axis along which gravity is strongest. */
+int zones_upright(const struct sph *s);
 /* Depth of x below the open sides of the region, m; negative outside. */
 double zones_depth(const struct sph *s, const double *x);
 
