@@ -96,10 +96,11 @@ static inline bool particles_is_guard(const struct particles *p, int i)
     return (p->role[i] & ROLE_GUARD) != 0;
 }
 
-/* Whether the outer solution imposes the mass of particle i, in the buffer before an open side. */
-static inline bool particles_is_imposed(const struct particles *p, int i)
+/* Whether the mass of particle i follows its exchange with others: not that of guards, nor in the
+ * buffer before an open side, where the outer solution imposes it. */
+static inline bool particles_keeps_mass(const struct particles *p, int i)
 {
-    return p->zone[i] == ZONE_BUFFER;
+    return p->zone[i] != ZONE_BUFFER && !particles_is_guard(p, i);
 }
 
 /* Makes room for `capacity' particles in 2 or 3 dimensions; there are none yet. The old contents of

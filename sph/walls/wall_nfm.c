@@ -684,6 +684,14 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     return rate[M] - exchanged;
 }
 
+/* Whether the region has open sides, which the coarsest level knows. */
+static bool is_open(const struct sph *s)
+{
+    while (s->coarser)
+        s = s->coarser;
+    return s->zones != NULL;
+}
+
 /* Mass that walls have made or lost is given back with its momentum, which the walls gave or took
  * with it: what particles so lose is theirs. */
 static void give_mass_back(struct sph *s, const struct nfm *m, double made)
@@ -693,7 +701,7 @@ static void give_mass_back(struct sph *s, const struct nfm *m, double made)
     for (int k = 0; k < l->n; k++) {
         const double *y = state_row(&s->p, s->p.y, l->who[k]);
         double lost[3] = {0.0};
-        for (int a = 0; a < s->dim && !particles_is_imposed(&s->p, l->who[k]); a++)
+        for (int a = 0; a < s->dim && particles_keeps_mass(&s->p, l->who[k]); a++)
             lost[a] = share * y[s->dim + a];
         share_by_gamma(s, m, k, prim_line(&s->p, l->who[k]), lost, s->dim);
     }
@@ -709,9 +717,9 @@ static void rates(struct sph *s)
     double made = 0.0;
     for (int k = 0; k < m->list.n; k++) {
         const double more = s->dim == 2 ? add_walls(s, m, k, 2) : add_walls(s, m, k, 3);
-        made += particles_is_imposed(&s->p, m->list.who[k]) ? 0.0 : more;
+        made += particles_keeps_mass(&s->p, m->list.who[k]) ? more : 0.0;
     }
-    if (s->prm.scheme == SCHEME_RIEMANN_ALE && !s->guards) /* else of all levels */
+    if (s->prm.scheme == SCHEME_RIEMANN_ALE && (is_open(s) || !s->guards)) /* else of all levels */
         give_mass_back(s, m, made);
 }
 

@@ -435,12 +435,12 @@ double walls_keep_mass(struct sph *s, double made, int n, const int *who)
 {
     double sums[2] = {made, 0.0};
     for (int k = 0; k < n; k++)
-        if (!particles_is_imposed(&s->p, who ? who[k] : k))
+        if (particles_keeps_mass(&s->p, who ? who[k] : k))
             sums[1] += state_row(&s->p, s->p.y, who ? who[k] : k)[at_mass(s->dim)];
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
     const double share = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
     for (int k = 0; k < n; k++)
-        if (!particles_is_imposed(&s->p, who ? who[k] : k))
+        if (particles_keeps_mass(&s->p, who ? who[k] : k))
             particles_give_back(&s->p, s->p.rate, who ? who[k] : k, share);
     return share;
 }

@@ -220,8 +220,8 @@ double *walls_rooms(struct sph *s);
 /* Riemann-ALE near walls: dividing pair fluxes by gamma, or ghosts with the weight of a hydrostatic
  * column, destroys their antisymmetry. The mass that is so `made' (kg/s, this rank) is given back
  * to the particles who[n] (NULL: the first n locals) in proportion to their masses, with its
- * momentum; those whose mass is imposed take no part. Returns what share of theirs they give back,
- * 1/s. Collective. */
+ * momentum; guards and those whose mass is imposed take no part. Returns what share of theirs they
+ * give back, 1/s. Collective. */
 double walls_keep_mass(struct sph *s, double made, int n, const int *who);
 /* The same where nothing but walls exchanges mass with the particles: what they make is the sum of
  * all rates. */
