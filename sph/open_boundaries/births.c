@@ -302,7 +302,7 @@ void births_step(struct sph *s, double dt)
     sum_changes(s);
     if (!s->surface)
         pass_deficits(s);
-    else if (s->prm.outer == OUTER_SIDES)
+    else if (s->zones->update)
         drop_deficits(s);
     openings_settle(s);
 }

@@ -5,7 +5,7 @@ import sys
 
 import lib
 from currents import DEPTH, HARMONIC, Waves, below_troughs, gauges
-from lib import bad, last, near, refused, run, run_case, start, summary, varied, write
+from lib import bad, column, last, near, refused, run, run_case, start, summary, varied, write
 
 lib.scratch()
 
@@ -36,7 +36,9 @@ for case, U, end, T, periods in [('with', 0.3, 3.95, 0.7159, 2)] + [('against', 
     near(case + ': particles lost', summary(case)['particles_lost'], 0, 0)
 # whole rows start 6 % below the level that the zones know: the water rises to it, 160 kg for each metre, and its own weight's 1.1 kg
 run_case('rises', varied(scene(0.3, 6, '2.2, 0.25', 0.7, 1.1, '', 'sph: { dx = 0.025; };'), 'height = 0.03', 'height = 0.01'))
-near('kg that the water has risen to from 330', last('rises/series.csv', 'mass'), 353.1, 3.531, 'rises.txt')
+# particles come in by layers of 4 kg: the mean of the last second
+risen = [m for t, m in zip(column('rises/series.csv', 't'), column('rises/series.csv', 'mass [')) if t >= 5]
+near('kg that the water has risen to from 330', sum(risen) / len(risen), 353.1, 3.531, 'rises.txt')
 # a restart, two ranks; coarse
 coarse = scene(0.3, 0.4, '3, 0.25', 1, 1.7, '', 'sph: { dx = 0.025; };')
 run_case('whole', coarse)
