@@ -244,35 +244,16 @@ double body_drive_speed(const struct body_drive *v, double reach, double end)
     return most;
 }
 
-/* Within which it has shown all of its motion: whatever the end of the run, so that a restart to a
- * later one finds the same, but for what goes on and on. */
-static double whole_motion(const struct body_drive *v, double end)
+double body_drive_acceleration(const struct body_drive *v, double reach)
 {
-    double most = 0.0;
+    double sum = 0.0;
     for (int k = 0; k < v->nterms; k++) {
-        const struct body_term *t = v->term + k;
-        most = fmax(most, t->is->kind == MOTION_HARMONIC ? t->is->ramp + t->is->period
-                          : t->n > 0 ? t->rows[(ptrdiff_t)v->columns * (t->n - 1)]
-                                     : fmin(t->is->until, end));
+        const struct scene_motion *m = v->term[k].is;
+        if (m->kind == MOTION_HARMONIC && m->period > 0.0)
+            sum += fabs(m->amplitude) * pow(2.0 * M_PI / m->period, 2.0) *
+                   (m->axis >= AXIS_RX ? reach : 1.0);
     }
-    return most;
-}
-
-double body_drive_acceleration(const struct body_drive *v, double reach, double end)
-{
-    enum { TIMES = 2000 };
-    const double whole = whole_motion(v, end);
-    double most = 0.0;
-    struct body_motion before, now;
-    body_drive_motion(v, 0.0, &before);
-    for (int i = 1; i <= TIMES && whole > 0.0; i++, before = now) {
-        double du[3], domega[3];
-        body_drive_motion(v, whole * i / TIMES, &now);
-        vec3_from(before.u, now.u, du);
-        vec3_from(before.omega, now.omega, domega);
-        most = fmax(most, vec3_length(du) + reach * vec3_length(domega));
-    }
-    return whole > 0.0 ? most * TIMES / whole : 0.0;
+    return sum;
 }
 
 /* --- steps --- */

@@ -92,8 +92,8 @@ double body_drive_event(const struct body_drive *v, double t);
 /* Largest speed, m/s, until the time `end' of a point at the distance `reach', m, from the centre;
  * found by sampling. */
 double body_drive_speed(const struct body_drive *v, double reach, double end);
-/* Largest acceleration, m/s^2, of such a point: means over 1/2000 of the whole motion (a
- * polynomial's until `end', s), so that the rounding of a file's rows does not count. */
-double body_drive_acceleration(const struct body_drive *v, double reach, double end);
+/* Largest acceleration, m/s^2, that the harmonic terms give such a point in the end. A jump of the
+ * velocity, as polynomials and files may have, makes sound, rho c u, whatever c is. */
+double body_drive_acceleration(const struct body_drive *v, double reach);
 
 #endif

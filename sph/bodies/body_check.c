@@ -360,8 +360,7 @@ double body_speeds(const struct scene *c, struct motion_files *files, double *pr
         body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
         const double length = (b.is->tank ? 2.0 : 1.0) * b.reach;
         most = fmax(most, speed_of(c, &b));
-        *pressure =
-            fmax(*pressure, length * body_drive_acceleration(&b.drive, b.reach, c->time.end));
+        *pressure = fmax(*pressure, length * body_drive_acceleration(&b.drive, b.reach));
         body_destroy(&b);
     }
     return most;

@@ -9,7 +9,7 @@
  * and lines that a step cannot follow. Call on all ranks alike. */
 void body_check(const struct run *r, const struct sph_params *used, struct faults *f);
 /* Largest speed of a body, m/s, that its prescribed motion and its fall let expect. *pressure: the
- * largest p/rho, m^2/s^2, of the fluid that prescribed motion accelerates: that times the length of
+ * largest p/rho, m^2/s^2, of the fluid that harmonic motion accelerates: that times the length of
  * a tank, or times half of the length of a body with fluid around. */
 double body_speeds(const struct scene *c, struct motion_files *files, double *pressure);
 
