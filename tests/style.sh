@@ -76,6 +76,9 @@ found=$(grep -H '^#include "' $(find sph fv coupler common -mindepth 2 -name '*.
 for name in $(grep -rhoE '"error\.[a-z_0-9]+"' --include='*.c' sph fv coupler common | sort -u); do
     grep -q "^ .*$name" common/run/accept.c || bad "$name is missing in the list of common/run/accept.c"
 done
+for name in $(grep -rhoE 'summary_(real|int|bool|text|texts)\([^,]+, *(key_text\()?"[a-zA-Z_0-9]+' --include='*.c' sph fv common | sed 's/.*"//' | sort -u); do
+    grep -qE "^ .*\"$name\"" common/run/accept.c || bad "$name is missing in the first words of common/run/accept.c"
+done
 for f in $(find sph fv coupler common tests -name '*.[ch]'); do
     grep -q 'SPDX-License-Identifier: BSD-3-Clause' "$f" || bad "$f has no licence line"
 done

@@ -195,7 +195,105 @@ static void check_error(const char *what, const char *key, const struct params *
                      word ? "?" : "");
 }
 
-/* A number of the summary is made at the end, but whose it is stands in the case. */
+/* First words of the keys of summary.json that sph and fv write (tests/style.sh compares). */
+static const char *const words[] = {"accepted",
+                                    "balance",
+                                    "body",
+                                    "born",
+                                    "case",
+                                    "cell_steps_per_s",
+                                    "cells",
+                                    "compare",
+                                    "cpu_s",
+                                    "damping",
+                                    "dim",
+                                    "discharge",
+                                    "divergence",
+                                    "dp",
+                                    "drift",
+                                    "drops",
+                                    "dt",
+                                    "du",
+                                    "enstrophy",
+                                    "error",
+                                    "extrema",
+                                    "faces_hold",
+                                    "force",
+                                    "fringe_cells",
+                                    "fringe_cells_linear",
+                                    "gone",
+                                    "halved_steps",
+                                    "height",
+                                    "krylov_per_newton",
+                                    "largest_velocity",
+                                    "level_volume",
+                                    "levels",
+                                    "mass_fluctuation",
+                                    "mass_fluctuation_particles",
+                                    "max_cfl",
+                                    "max_mach",
+                                    "max_mach_late",
+                                    "max_speed_over_U",
+                                    "mesh",
+                                    "modules",
+                                    "momentum",
+                                    "newton_iterations",
+                                    "newton_residual",
+                                    "norm",
+                                    "not_accepted",
+                                    "overlap",
+                                    "pairs_per_s",
+                                    "particles",
+                                    "particles_lost",
+                                    "particles_returned",
+                                    "period",
+                                    "poisson_iterations",
+                                    "poisson_iterations_start",
+                                    "poisson_retries",
+                                    "program",
+                                    "ranks",
+                                    "reflection",
+                                    "reinitialisations",
+                                    "spacing",
+                                    "start_s",
+                                    "status",
+                                    "steps",
+                                    "steps_repeated",
+                                    "sum",
+                                    "t",
+                                    "t_end",
+                                    "through",
+                                    "time_s",
+                                    "us_per_cell_step_outside_hypre",
+                                    "v_cycles",
+                                    "version",
+                                    "viscous_iterations",
+                                    "volume_gained",
+                                    "volume_lost",
+                                    "volume_moved",
+                                    "volume_returned",
+                                    "wall_s",
+                                    "watch"};
+
+/* A number that neither sph nor fv reports. */
+static void check_word(const char *what, const char *key, const struct params *p, struct faults *f)
+{
+    char first[PARAM_TEXT_SIZE];
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(what, "."), what);
+    struct hint_nearest near = hint_nearest_start(first);
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+        if (strcmp(first, words[k]) == 0)
+            return;
+        hint_nearest_try(&near, words[k]);
+    }
+    const char *word = hint_nearest_word(&near);
+    params_fault(p, f, key, "summary.json has no %s%s%s%s", first, word ? ": did you mean " : "",
+                 word ? word : "; a column of series.csv needs a reference to compare it with",
+                 word ? "?" : "");
+}
+
+/* A number of the summary is made at the end, but whose it is stands in the case. That of a job
+ * holds what other programs report, too. */
 static void check_number(const struct scene *s, int k, const struct params *p, struct faults *f)
 {
     const struct {
@@ -207,12 +305,15 @@ static void check_number(const struct scene *s, int k, const struct params *p, s
         {"reflection.", "group of gauges", {s->gauges->name, sizeof *s->gauges, s->ngauges}}};
     const char *what = s->accept[k].what;
     const char *key = key_text("accept.[%d].what", k);
-    if (is_probe(s, what))
+    if (is_probe(s, what)) {
         params_fault(p, f, key,
                      "%s is a gauge, a column of series.csv: give a reference to compare it with, "
                      "or name a number of summary.json",
                      what);
-    what += strncmp(what, "sph.", 4) == 0 ? 4 : strncmp(what, "fv.", 3) == 0 ? 3 : 0;
+        return;
+    }
+    const int skip = strncmp(what, "sph.", 4) == 0 ? 4 : strncmp(what, "fv.", 3) == 0 ? 3 : 0;
+    what += skip;
     for (size_t g = 0; g < sizeof groups / sizeof *groups; g++) {
         const size_t n = strlen(groups[g].group);
         if (strncmp(what, groups[g].group, n) == 0 && !any_begins(&groups[g].among, what + n))
@@ -222,6 +323,8 @@ static void check_number(const struct scene *s, int k, const struct params *p, s
         has_none(what, "gauge of kind discharge", key, p, f);
     if (strncmp(what, "error.", 6) == 0)
         check_error(what, key, p, f);
+    else if (skip > 0 || !s->has_sph || !s->has_fv)
+        check_word(what, key, p, f);
 }
 
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,

@@ -371,6 +371,8 @@ faulty('tank', 's/name = "p"/name = "t"/', r'probes.\[0\].*: t: series.csv has a
 faulty('tank', r's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: p is a gauge, .*give a reference', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "body.c.mass"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: summary.json will have no body.c.mass: no body', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "error.velocty_l2"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: no program reports error.velocty_l2: did you mean error.velocity_l2', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "maximum_mach"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: summary.json has no maximum_mach: did you mean max_mach', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "buoyancy"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: summary.json has no buoyancy; a column of series.csv needs a reference', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "error.x"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: no program reports error.x', 'sph', '--check')
 faulty('tank', r's/^sph:/output: { every = 1e-9; };\n&/', r'output.every: 1e-09 s makes .* snapshots', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "discharge.p.volume"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: .* no gauge of kind discharge', 'sph', '--check')
