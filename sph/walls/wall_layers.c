@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "../../common/scene/scene.h"
 #include "../pairs/sph_pairs.h"
 
 /* int f dS over the plane at the height h, f of the distance, within R. Midpoints. */
@@ -65,4 +66,42 @@ void wall_layers_crowding(const struct sph *s, int n, double *ratio)
             layers += s->dx * h * over_plane(s, h, push);
         ratio[k] = layers / over_plane(s, d, kernel);
     }
+}
+
+/* int (W + 0.04 W^5/W(dx)^4) over int W of a plane at the distance k/n R: what the function
+ * whose gradient the crowding vector sums [4.89] has more than the kernel. Midpoints. */
+static void integrals_of_plane(const struct sph *s, int n, double *ratio)
+{
+    enum { POINTS = 200 };
+    const double W0 = kernel_w(s->dim, s->dx / s->R, 1.0);
+    for (int k = 0; k < n; k++) {
+        const double d = (double)k / n, half = sqrt(1.0 - d * d);
+        double sum = 0.0, more = 0.0;
+        for (int j = 0; j < POINTS; j++) {
+            const double y = (j + 0.5) / POINTS * half, ring = s->dim == 3 ? y : 1.0;
+            const double W = kernel_w(s->dim, hypot(d, y), 1.0), q = W / W0;
+            sum += ring * W;
+            more += 0.04 * ring * W * q * q * q * q;
+        }
+        ratio[k] = 1.0 + more / sum;
+    }
+    ratio[n] = 1.0;
+}
+
+/* Whether the fluid fills all between sides of the domain: nothing else bounds it. */
+static bool fills_sides(const struct sph *s)
+{
+    const struct scene *c = &s->run->scene;
+    bool sides = s->prm.surface != SURFACE_YES && c->nbodies == 0;
+    for (int k = 0; k < c->nwalls; k++)
+        sides = sides && c->walls[k].side >= SIDE_X_MIN;
+    return sides;
+}
+
+void wall_layers_tabulate(const struct sph *s, int n, double *ratio)
+{
+    if (fills_sides(s))
+        wall_layers_crowding(s, n, ratio);
+    else
+        integrals_of_plane(s, n, ratio);
 }

@@ -31,7 +31,7 @@ static const double least_gamma = 0.2; /* of corners below 72 degrees: 15 ran aw
 
 struct nfm {
     struct wall_list list;
-    double crowding[RATIOS + 1]; /* see tabulate */
+    double crowding[RATIOS + 1]; /* wall_layers.h */
     double mu; /* Pa s: that of the pairs whose sum the weight of friction closes, else rho0 nu */
     double *room; /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
@@ -40,54 +40,10 @@ struct nfm {
     double (*q)[3]; /* [q_capacity] N/m^dim: fluxes of the touches of the particle at hand */
 };
 
-/* int (W + 0.04 W^5/W(dx)^4) over int W of a plane at the distance k/RATIOS R: what the function
- * whose gradient the crowding vector sums [4.89] has more than the kernel. Midpoints. */
-static void integrals_of_plane(const struct sph *s, double *ratio)
-{
-    enum { POINTS = 200 };
-    const double W0 = kernel_w(s->dim, s->dx / s->R, 1.0);
-    for (int k = 0; k < RATIOS; k++) {
-        const double d = (double)k / RATIOS, half = sqrt(1.0 - d * d);
-        double sum = 0.0, more = 0.0;
-        for (int j = 0; j < POINTS; j++) {
-            const double y = (j + 0.5) / POINTS * half, ring = s->dim == 3 ? y : 1.0;
-            const double W = kernel_w(s->dim, hypot(d, y), 1.0), q = W / W0;
-            sum += ring * W;
-            more += 0.04 * ring * W * q * q * q * q;
-        }
-        ratio[k] = 1.0 + more / sum;
-    }
-    ratio[RATIOS] = 1.0;
-}
-
-/* Whether the fluid fills all between sides of the domain: nothing else bounds it. */
-static bool fills_sides(const struct sph *s)
-{
-    const struct scene *c = &s->run->scene;
-    bool sides = s->prm.surface != SURFACE_YES && c->nbodies == 0;
-    for (int k = 0; k < c->nwalls; k++)
-        sides = sides && c->walls[k].side >= SIDE_X_MIN;
-    return sides;
-}
-
-/* What a plane pushes with by the crowding vector, over int W of it. Between sides it is that of
- * layers behind them, so that those before them rest in their places: by the integral the first
- * three rest at 0.497, 1.516 and 2.516 dx, which is a tenth of a percent of Poiseuille flow. Behind
- * other faces no layers of a lattice would stand: packed before a ball the nearest particle is 0.11
- * dx from it instead of 0.25. Under a surface, where the shift follows the speed, water at rest is
- * a fifth less still with layers. */
-static void tabulate(const struct sph *s, double *ratio)
-{
-    if (fills_sides(s))
-        wall_layers_crowding(s, RATIOS, ratio);
-    else
-        integrals_of_plane(s, ratio);
-}
-
 static void *nfm_create(struct sph *s)
 {
     struct nfm *m = NEW(struct nfm, 1);
-    tabulate(s, m->crowding);
+    wall_layers_tabulate(s, RATIOS, m->crowding);
     return m;
 }
 
