@@ -176,18 +176,25 @@ static bool has_norm(const char *what)
     return any;
 }
 
+/* The word of list[n] that is nearest to what is none of them; NULL: none is near. *known: it is
+ * one of them. */
+static const char *nearest_of(const char *what, const char *const *list, size_t n, bool *known)
+{
+    struct hint_nearest near = hint_nearest_start(what);
+    *known = false;
+    for (size_t k = 0; k < n; k++) {
+        *known = *known || strcmp(what, list[k]) == 0;
+        hint_nearest_try(&near, list[k]);
+    }
+    return hint_nearest_word(&near);
+}
+
 /* An error that no program reports: told now, not when the run is done. */
 static void check_error(const char *what, const char *key, const struct params *p, struct faults *f)
 {
-    const size_t n = sizeof errors / sizeof *errors;
-    struct hint_nearest near = hint_nearest_start(what);
-    for (size_t k = 0; k < n; k++) {
-        if (strcmp(what, errors[k]) == 0)
-            return;
-        hint_nearest_try(&near, errors[k]);
-    }
-    const char *word = hint_nearest_word(&near);
-    if (word || !has_norm(what))
+    bool known;
+    const char *word = nearest_of(what, errors, sizeof errors / sizeof *errors, &known);
+    if (!known && (word || !has_norm(what)))
         params_fault(p, f, key, "no program reports %s%s%s%s", what, word ? ": did you mean " : "",
                      word ? word
                           : "; error.velocity_l2, error.pressure_rms and others are in "
@@ -196,100 +203,36 @@ static void check_error(const char *what, const char *key, const struct params *
 }
 
 /* First words of the keys of summary.json that sph and fv write (tests/style.sh compares). */
-static const char *const words[] = {"accepted",
-                                    "balance",
-                                    "body",
-                                    "born",
-                                    "case",
-                                    "cell_steps_per_s",
-                                    "cells",
-                                    "compare",
-                                    "cpu_s",
-                                    "damping",
-                                    "dim",
-                                    "discharge",
-                                    "divergence",
-                                    "dp",
-                                    "drift",
-                                    "drops",
-                                    "dt",
-                                    "du",
-                                    "enstrophy",
-                                    "error",
-                                    "extrema",
-                                    "faces_hold",
-                                    "force",
-                                    "fringe_cells",
-                                    "fringe_cells_linear",
-                                    "gone",
-                                    "halved_steps",
-                                    "height",
-                                    "krylov_per_newton",
-                                    "largest_velocity",
-                                    "level_volume",
-                                    "levels",
-                                    "mass_fluctuation",
-                                    "mass_fluctuation_particles",
-                                    "max_cfl",
-                                    "max_mach",
-                                    "max_mach_late",
-                                    "max_speed_over_U",
-                                    "mesh",
-                                    "modules",
-                                    "momentum",
-                                    "newton_iterations",
-                                    "newton_residual",
-                                    "norm",
-                                    "not_accepted",
-                                    "overlap",
-                                    "pairs_per_s",
-                                    "particles",
-                                    "particles_lost",
-                                    "particles_returned",
-                                    "period",
-                                    "poisson_iterations",
-                                    "poisson_iterations_start",
-                                    "poisson_retries",
-                                    "program",
-                                    "ranks",
-                                    "reflection",
-                                    "reinitialisations",
-                                    "spacing",
-                                    "start_s",
-                                    "status",
-                                    "steps",
-                                    "steps_repeated",
-                                    "sum",
-                                    "t",
-                                    "t_end",
-                                    "through",
-                                    "time_s",
-                                    "us_per_cell_step_outside_hypre",
-                                    "v_cycles",
-                                    "version",
-                                    "viscous_iterations",
-                                    "volume_gained",
-                                    "volume_lost",
-                                    "volume_moved",
-                                    "volume_returned",
-                                    "wall_s",
-                                    "watch"};
+/* clang-format off */
+static const char *const words[] = {
+    "accepted", "balance", "body", "born", "case", "cell_steps_per_s", "cells", "compare",
+    "cpu_s", "damping", "dim", "discharge", "divergence", "dp", "drift", "drops", "dt", "du",
+    "enstrophy", "error", "extrema", "faces_hold", "force", "fringe_cells", "fringe_cells_linear",
+    "gone", "halved_steps", "height", "krylov_per_newton", "largest_velocity", "level_volume",
+    "levels", "mass_fluctuation", "mass_fluctuation_particles", "max_cfl", "max_mach",
+    "max_mach_late", "max_speed_over_U", "mesh", "modules", "momentum", "newton_iterations",
+    "newton_residual", "norm", "not_accepted", "overlap", "pairs_per_s", "particles",
+    "particles_lost", "particles_returned", "period", "poisson_iterations",
+    "poisson_iterations_start", "poisson_retries", "program", "ranks", "reflection",
+    "reinitialisations", "spacing", "start_s", "status", "steps", "steps_repeated", "sum", "t",
+    "t_end", "through", "time_s", "us_per_cell_step_outside_hypre", "v_cycles", "version",
+    "viscous_iterations", "volume_gained", "volume_lost", "volume_moved", "volume_returned",
+    "wall_s", "watch",
+};
+/* clang-format on */
 
 /* A number that neither sph nor fv reports. */
 static void check_word(const char *what, const char *key, const struct params *p, struct faults *f)
 {
     char first[PARAM_TEXT_SIZE];
     snprintf(first, sizeof first, "%.*s", (int)strcspn(what, "."), what);
-    struct hint_nearest near = hint_nearest_start(first);
-    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
-        if (strcmp(first, words[k]) == 0)
-            return;
-        hint_nearest_try(&near, words[k]);
-    }
-    const char *word = hint_nearest_word(&near);
-    params_fault(p, f, key, "summary.json has no %s%s%s%s", first, word ? ": did you mean " : "",
-                 word ? word : "; a column of series.csv needs a reference to compare it with",
-                 word ? "?" : "");
+    bool known;
+    const char *word = nearest_of(first, words, sizeof words / sizeof *words, &known);
+    if (!known)
+        params_fault(p, f, key, "summary.json has no %s%s%s%s", first,
+                     word ? ": did you mean " : "",
+                     word ? word : "; a column of series.csv needs a reference to compare it with",
+                     word ? "?" : "");
 }
 
 /* A number of the summary is made at the end, but whose it is stands in the case. That of a job
