@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "blocked.h"
+#include "carried.h"
 #include "mesh_bc.h"
 
 /* Of all blocks, on all ranks alike. */
@@ -16,6 +17,11 @@ unsigned sides_kinds(const struct fv *s)
         for (int side = 0; side < 2 * s->dim; side++)
             kinds |= 1u << (s->sides ? s->m->block[k].side[side] : bc_kind(s, side));
     return kinds;
+}
+
+bool sides_give_inflow(const struct fv *s)
+{
+    return sides_kinds(s) & 1u << MESH_INFLOW || (s->outflows && s->outflows->steady);
 }
 
 bool sides_give_pressure(const struct fv *s)

@@ -113,7 +113,7 @@ static void set_inflow(const struct fv *s, struct outflow *o, int64_t i)
 
 bool outflow_pushes(const struct fv *s)
 {
-    bool any = s->outflows && s->outflows->steady;
+    bool any = false;
     for (int side = SIDE_X_MIN; side < SIDE_X_MIN + 2 * s->dim; side++) {
         const struct scene_wall *w = scene_wall_of(&s->run->scene, side);
         any = any || (w && w->has_discharge && wall_discharge(w, s->t) != 0.0);

@@ -172,8 +172,7 @@ static void meet_pressures(struct fv *s)
  * step is made for its speeds. A partner gives its cells later. */
 static void project_start(struct fv *s)
 {
-    const bool pushed = sides_kinds(s) & 1u << MESH_INFLOW || s->blocked;
-    if (!pushed || s->surface || s->run->coupled)
+    if ((!sides_give_inflow(s) && !s->blocked) || s->surface || s->run->coupled)
         return;
     projection(s, s->t, 0, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->totals.start_iterations = s->totals.iterations;

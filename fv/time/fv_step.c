@@ -145,7 +145,7 @@ static void find_pressure(struct fv *s, double dt)
 void pressure_start(struct fv *s)
 {
     /* newton has no use for the pressure before, but the first output has */
-    if ((s->newton && !s->surface) || sides_kinds(s) & 1u << MESH_INFLOW || outflow_pushes(s))
+    if ((s->newton && !s->surface) || sides_give_inflow(s) || outflow_pushes(s))
         return;
     const size_t bytes = (size_t)s->size * sizeof(double);
     const double dt = 1e-3 * fmin(limits_of(s).dt, s->run->scene.time.end);

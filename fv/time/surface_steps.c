@@ -461,8 +461,7 @@ void surface_back(struct fv *s)
 
 const char *surface_trouble(const struct fv *s)
 {
-    const bool fills = sides_kinds(s) & 1u << MESH_INFLOW || (s->outflows && s->outflows->steady);
-    if (s->surface->cuts == 0 && fills && !sides_give_pressure(s))
+    if (s->surface->cuts == 0 && sides_give_inflow(s) && !sides_give_pressure(s))
         return "the domain is full of water, and more flows in";
     const bool leaves = sides_kinds(s) & 1u << MESH_OUTFLOW; /* then it may all have left */
     return s->surface->wet > 0 || s->surface->forced || leaves ? NULL

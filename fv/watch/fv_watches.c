@@ -338,7 +338,7 @@ static void look_for_surface(struct fv *s, int64_t step)
     w->filled = true;
     log_warn("t = %.4g s, step %lld: no free surface is left, the domain is full of water%s", s->t,
              (long long)step,
-             sides_kinds(s) & 1u << MESH_INFLOW || (s->outflows && s->outflows->steady)
+             sides_give_inflow(s)
                  ? ": the velocity of an inflow is given whatever the level, so more comes in the "
                    "higher it rises; a higher domain, or less inflow"
                  : "");
