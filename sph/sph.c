@@ -185,10 +185,9 @@ static void warn_narrow(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;
     for (int a = 0; a < c->domain.dim; a++) {
-        const struct scene_wall *lo = scene_wall_of(c, SIDE_X_MIN + 2 * a);
-        const struct scene_wall *hi = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
         const double length = c->domain.max[a] - c->domain.min[a];
-        if (lo && hi && lo->kind < WALL_INFLOW && hi->kind < WALL_INFLOW && length < 2.5 * prm->dx)
+        if (scene_side_is_wall(c, SIDE_X_MIN + 2 * a) &&
+            scene_side_is_wall(c, SIDE_X_MIN + 2 * a + 1) && length < 2.5 * prm->dx)
             log_warn("2 particles between the walls along %c, %g m: the flow there is noise; take "
                      "sph.dx = %.3g m or less",
                      "xyz"[a], length, 0.25 * length);
@@ -277,14 +276,14 @@ static void warn_of_pressures(double c0, const struct scene_speed *v)
     const struct {
         double p;
         const char *what;
-    } all[] = {{v->pressure, "the static pressure"},
-               {v->viscous, "friction (nu U/L)"},
-               {v->pushed, "the acceleration of bodies"}};
+    } all[] = {{v->pressure, "the static pressure alone"},
+               {v->viscous, "friction alone (nu U/L)"},
+               {v->pushed, "the acceleration of bodies alone"}};
     double asked = v->moves ? v->speed : INFINITY;
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         asked = fmax(asked, sqrt(all[k].p));
         if (c0 * c0 < 30.0 * all[k].p) {
-            log_warn("sph.c0 = %g m/s: %s alone compresses by %.2g %%; raise it to %.3g m/s", c0,
+            log_warn("sph.c0 = %g m/s: %s compresses by %.2g %%; raise it to %.3g m/s", c0,
                      all[k].what, 100.0 * all[k].p / (c0 * c0), 10.0 * sqrt(all[k].p));
             return;
         }

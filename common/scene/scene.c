@@ -356,6 +356,12 @@ const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side si
     return NULL;
 }
 
+bool scene_side_is_wall(const struct scene *s, enum scene_side side)
+{
+    const struct scene_wall *w = scene_wall_of(s, side);
+    return w && w->kind < WALL_INFLOW;
+}
+
 bool scene_has_wave(const struct scene *s)
 {
     return s->initial.field == FIELD_STANDING_WAVE || s->initial.field == FIELD_STOKES ||

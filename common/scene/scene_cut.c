@@ -100,13 +100,6 @@ static void cut_at(const struct line *wall, double near, struct scene_body *b)
     b->cut = true;
 }
 
-/* Whether a side of the domain, counted from x_min, is a wall. */
-static bool is_shut(const struct scene *s, int side)
-{
-    const struct scene_wall *w = scene_wall_of(s, (enum scene_side)(SIDE_X_MIN + side));
-    return w && w->kind < WALL_INFLOW;
-}
-
 /* A closed side in the plane: the axis across it, where it is, m, and its sense along the other
  * axis with the fluid on its left. */
 struct cut_side {
@@ -130,7 +123,7 @@ static bool goes_on(const struct scene *s, const double *x, double way, double n
         const struct cut_side is = side_of(d, side);
         const int b = 1 - is.axis;
         const double along = way * is.sense;
-        if (!is_shut(s, side) || fabs(x[is.axis] - is.at) > near ||
+        if (!scene_side_is_wall(s, SIDE_X_MIN + side) || fabs(x[is.axis] - is.at) > near ||
             !(along > 0.0 ? x[b] < d->max[b] - near : x[b] > d->min[b] + near))
             continue;
         y[is.axis] = is.at;
@@ -171,7 +164,7 @@ void scene_cut_at_walls(const struct scene *s, struct scene_body *b)
         x[0][a] = x[1][a] = is.at;
         x[is.sense < 0.0][1 - a] = d->min[1 - a] - L;
         x[is.sense > 0.0][1 - a] = d->max[1 - a] + L;
-        if (is_shut(s, side))
+        if (scene_side_is_wall(s, SIDE_X_MIN + side))
             cut_at(&(struct line){2, (const double(*)[2])x, false}, 1e-9 * (d->max[a] - d->min[a]),
                    b);
     }
@@ -183,7 +176,7 @@ bool scene_cut_mesh(const struct scene *s, const struct scene_body *b, struct tr
     bool any = false;
     for (int side = 0; side < 6 && !scene_body_moves(b); side++) {
         const int a = side / 2;
-        if (is_shut(s, side))
+        if (scene_side_is_wall(s, SIDE_X_MIN + side))
             any |= trimesh_end(m, a, side % 2 ? d->max[a] : d->min[a], side % 2,
                                1e-6 * (d->max[a] - d->min[a]));
     }

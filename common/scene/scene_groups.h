@@ -247,6 +247,8 @@ struct scene {
 extern const char *const scene_side_names[6];
 /* The wall on a side of the domain; NULL: the case has none there. Borrowed from the scene. */
 const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
+/* Whether a side of the domain is a wall, with friction or without. */
+bool scene_side_is_wall(const struct scene *s, enum scene_side side);
 
 /* Whether a wall is an opening with fluid outside, i.e. inflow, outflow, absorbing, wave or beach,
  * but not falls. Wave and beach are marked as slip walls before anyone asks. */

@@ -47,9 +47,8 @@ enum beyond basin_look(const struct basins *b, const int *ic, int axis, int way)
     lattice_centre(b->l, jc, s->dim, x);
     if (x[axis] < s->lo[axis] || x[axis] > s->hi[axis]) {
         const int side = 2 * axis + (way > 0);
-        const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
-        const bool wall =
-            w && w->kind < WALL_INFLOW && sph_params_reaches(&s->run->scene.domain, &s->prm, side);
+        const bool wall = scene_side_is_wall(&s->run->scene, SIDE_X_MIN + side) &&
+                          sph_params_reaches(&s->run->scene.domain, &s->prm, side);
         if (s->open[side])
             return BEYOND_OPEN;
         return wall || blocked(b, from, x) ? BEYOND_WALL : BEYOND_AIR; /* a line, a mesh on it */

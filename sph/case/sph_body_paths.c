@@ -113,8 +113,7 @@ static const char *beyond_remedy(const struct run *r, int k, int axis)
                ? "a body may come up to it, not through it; shift the domain, or make it larger"
            : scene_body_moves(r->scene.bodies + k)
                ? "make the domain larger, or the motion smaller; a flap that turns on a side "
-                 "stands on "
-                 "a point there, as points = ((0, 0), (-0.1, 0.1), ...)"
+                 "stands on a point there, as points = ((0, 0), (-0.1, 0.1), ...)"
                : "make the domain larger, or end it on the side: one that crosses "
                  "a closed side once is cut there";
 }

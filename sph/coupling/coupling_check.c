@@ -116,12 +116,12 @@ static void check_side(const struct run *r, const struct sph_params *prm, const 
                        int side, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    const struct scene_wall *wall = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side));
+    const bool opening = scene_wall_of(&r->scene, SIDE_X_MIN + side) != NULL;
     const int a = side / 2;
     double lo[3], hi[3], x[3];
     if (!sph_params_reaches(d, prm, side) || d->periodic[a])
         return;
-    if (wall && wall->kind < WALL_INFLOW)
+    if (scene_side_is_wall(&r->scene, SIDE_X_MIN + side))
         return;
     memcpy(lo, prm->box[0], sizeof lo);
     memcpy(hi, prm->box[1], sizeof hi);
@@ -129,12 +129,12 @@ static void check_side(const struct run *r, const struct sph_params *prm, const 
         lo[a] = hi[a] - prm->dx;
     else
         hi[a] = lo[a] + prm->dx;
-    if (wall || count(d->dim, prm->dx, lo, hi, wet, w, x) > 0.0)
+    if (opening || count(d->dim, prm->dx, lo, hi, wet, w, x) > 0.0)
         params_fault(r->params, f, "sph.box",
                      "it reaches the %c side at %g m, %s: in a coupled job that is fv's; give the "
                      "side a wall, or end the box before it",
                      axes[a], side % 2 ? d->max[a] : d->min[a],
-                     wall ? "an inlet or outlet" : "which has no wall");
+                     opening ? "an inlet or outlet" : "which has no wall");
 }
 
 /* Whether a cell of edges lo + i h lies wholly between a and b. */

@@ -300,7 +300,7 @@ void zones_gauge(struct sph *s)
         return;
     for (int side = 0; side < 2 * s->dim; side++)
         inflow += o->through[side];
-    MPI_Allreduce(MPI_IN_PLACE, &inflow, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
+    inflow = ranks_sum(s->run->comm, inflow);
     const double layer = (gained(s) - inflow) * s->dx / (openings_faces(o) * s->dxD);
     const double level = level_inside(s);
     z->level = isnan(z->level) ? level : z->level + (level - z->level) / level_memory;

@@ -174,9 +174,7 @@ static void free_own(struct wall_mesh *m)
 
 static bool is_wall_side(const struct sph *s, int side)
 {
-    const struct scene_wall *w =
-        scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-    return w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP) &&
+    return scene_side_is_wall(&s->run->scene, SIDE_X_MIN + side) &&
            sph_params_reaches(&s->run->scene.domain, &s->prm, side);
 }
 

@@ -119,7 +119,7 @@ lid = changed(TANK, time='end = 0.005;', fluid='nu = 10.0;', initial='field = "r
               walls=sides('x_min x_max y_min', 'no_slip') + ', { side = "y_max"; kind = "no_slip"; velocity = (1, 0); }')
 runs('lid', lid)
 check(1000 < max(column('lid', 'max density')) < 1030, 'creeping lid: density off by more than 3 %', 'lid.txt')
-told('lid', lid, '^warning: sph.c0 = 10 m/s: friction .* alone .* raise it to 100 m/s', '-p', 'sph.c0=10')
+told('lid', lid, '^warning: sph.c0 = 10 m/s: friction alone .* raise it to 100 m/s', '-p', 'sph.c0=10')
 told('lid', lid, '^warning: 2 particles between the walls along x', '-p', 'sph.dx=0.5')
 told('lid', lid, 'sph.dx: 1 m: one particle has no room between the walls along x', '-p', 'sph.dx=1', code=2)
 

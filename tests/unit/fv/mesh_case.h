@@ -19,7 +19,6 @@
 #include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/time/steps.h"
-#include "../test.h"
 
 #define PERIODIC                                                                                   \
     "i_min = \"periodic\"; i_max = \"periodic\"; j_min = \"periodic\"; j_max = \"periodic\"; "

@@ -80,7 +80,6 @@ TEST(every_particle_finds_its_walls)
     sph_free(&c.s);
 }
 
-/* Periodic along y: as far from the ends of the walls as anywhere. */
 /* int_r^R W s^2 ds by midpoints. */
 static double moment_beyond(double r, double R)
 {
@@ -120,6 +119,7 @@ TEST(weight_behind_a_corner)
     sph_free(&c.s);
 }
 
+/* Periodic along y: as far from the ends of the walls as anywhere. */
 TEST(walls_go_on_beyond_periodic_sides)
 {
     struct sph_case c;
