@@ -113,5 +113,7 @@ void outer_lattice_move(struct sph *s)
         }
         line[at_volume(dim)] = s->dxD;
         line[at_rho(dim)] = rho;
+        if (dim == 2)
+            line[6] = 0.0;
     }
 }

@@ -322,6 +322,7 @@ static void save_particles(const struct sph *s, struct h5 *f)
     h5_write_int(f, name(s, "id"), s->p.n, s->p.id);
     h5_write_int(f, name(s, "zone"), s->p.n, kind);
     h5_write_int(f, name(s, "next_id"), 1, &s->p.next_id);
+    h5_write_real(f, name(s, "false_divergence"), "1/s", s->p.n, 1, s->p.false_divergence, false);
     mem_free(kind);
     if (s->guards)
         h5_write_real(f, name(s, "slope"), "-", s->p.n, s->p.nslope,
@@ -401,6 +402,7 @@ static bool read_particles(struct sph *s, struct h5 *f)
     const bool fits = h5_read_real(f, name(s, "state"), n, s->p.nstate, s->p.y) &&
                       h5_read_int(f, name(s, "id"), n, s->p.id) &&
                       h5_read_int(f, name(s, "zone"), n, kind) &&
+                      h5_read_real(f, name(s, "false_divergence"), n, 1, s->p.false_divergence) &&
                       (!s->guards || h5_read_real(f, name(s, "slope"), n, s->p.nslope, s->p.slope));
     for (int64_t i = 0; fits && i < n; i++) {
         s->p.zone[i] = (unsigned char)(kind[i] % 256);

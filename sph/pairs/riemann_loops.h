@@ -122,7 +122,7 @@ INLINE struct riemann_own load_own(const struct riemann_constants *c, const doub
     i.w = vec_all(c->kernel * prim[at_volume(dim)]);
     i.rho = vec_all(prim[at_rho(dim)]);
     i.Z = impedance(&c->eos, i.rho, c->gamma);
-    i.damped = vec_all(c->damper * divergence);
+    i.damped = vec_all(c->damper * (divergence - (dim == 2 ? prim[6] : slope[15])));
     return i;
 }
 
@@ -174,18 +174,20 @@ INLINE void velocities(const struct riemann_constants *c, const struct riemann_o
 {
     const int dim = v.dim;
     for (int k = 0; k < t->n; k++, j += LANES) {
-        vec d[3], u[3], gu[3][3], spare;
+        vec d[3], u[3], gu[3][3], spare, false_divergence;
         for (int a = 0; a < dim; a++)
             d[a] = t->d[a][k];
         load_gu(s->p.slope, j, gu, dim);
         if (dim == 2) {
             vec_columns(s->p.prim, PRIM, j, 2, u, u + 1);
+            vec_columns(s->p.prim, PRIM, j, 6, &false_divergence, &spare);
         } else {
+            vec_columns(s->p.slope, 16, j, 14, &spare, &false_divergence);
             vec_columns(s->p.prim, PRIM, j, 2, &spare, u);
             vec_columns(s->p.prim, PRIM, j, 4, u + 1, u + 2);
         }
         const vec divergence = dim == 2 ? gu[0][0] + gu[1][1] : gu[0][0] + gu[1][1] + gu[2][2];
-        t->p[1][k] -= c->damper * divergence;
+        t->p[1][k] -= c->damper * (divergence - false_divergence);
         vec parting = vec_all(0.0), slopes = vec_all(0.0);
         for (int a = 0; a < dim; a++) {
             const vec step[2] = {vec_dot(i->gu[a], d, dim), vec_dot(gu[a], d, dim)};

@@ -455,14 +455,16 @@ static void wrap(struct sph *s)
     }
 }
 
-/* A row on its way: state, then the bits of id, then zone and role; with levels slopes. */
+/* A row on its way: state, then the bits of id, then zone and role, then what the trace of grad u
+ * errs by; with levels slopes. */
 static void pack_row(const struct particles *p, int i, double *row, bool slopes)
 {
     memcpy(row, state_row(p, p->y, i), (size_t)p->nstate * sizeof(double));
     memcpy(row + p->nstate, p->id + i, sizeof(double));
     row[p->nstate + 1] = p->zone[i] + 256.0 * p->role[i];
+    row[p->nstate + 2] = p->false_divergence[i];
     if (slopes)
-        memcpy(row + p->nstate + 2, slope_line(p, i), (size_t)p->nslope * sizeof *row);
+        memcpy(row + p->nstate + 3, slope_line(p, i), (size_t)p->nslope * sizeof *row);
 }
 
 /* Appends a particle from what pack_row wrote on another rank. */
@@ -472,9 +474,10 @@ static void unpack_row(struct particles *p, const double *row, bool slopes)
     memcpy(&id, row + p->nstate, sizeof id);
     const int kind = (int)row[p->nstate + 1], i = particles_add(p, id, (enum sph_zone)(kind % 256));
     p->role[i] = (unsigned short)(kind / 256);
+    p->false_divergence[i] = row[p->nstate + 2];
     memcpy(state_row(p, p->y, i), row, (size_t)p->nstate * sizeof(double));
     if (slopes)
-        memcpy(slope_line(p, i), row + p->nstate + 2, (size_t)p->nslope * sizeof *row);
+        memcpy(slope_line(p, i), row + p->nstate + 3, (size_t)p->nslope * sizeof *row);
 }
 
 /* Stayers close ranks in their order, then come the arrivals by sending rank. Order and cells are
@@ -484,7 +487,7 @@ void domain_migrate(struct sph *s)
     const struct domain *d = s->domain;
     struct particles *p = &s->p;
     const bool slopes = s->guards != NULL;
-    const int width = p->nstate + 2 + (slopes ? p->nslope : 0), before = p->n;
+    const int width = p->nstate + 3 + (slopes ? p->nslope : 0), before = p->n;
     int nleave = 0, got = 0;
     wrap(s);
     p->nghost = 0;

@@ -19,8 +19,6 @@ static void set_dummy(struct particles *p, int dim)
     for (int a = 0; a < dim; a++)
         line[a] = 1e15;
     line[at_rho(dim)] = 1.0; /* rho */
-    if (dim == 2)
-        line[7] = 1.0; /* c */
     memset(p->slope + (size_t)p->nslope * p->capacity, 0, (size_t)p->nslope * sizeof(double));
 }
 
@@ -35,6 +33,7 @@ static void grow(struct particles *p, int capacity)
     GROW(p->prim, old * PRIM, (n + 1) * PRIM);
     GROW(p->slope, old * p->nslope, (n + 1) * p->nslope);
     GROW(p->id, old, n);
+    GROW(p->false_divergence, old, n);
     GROW(p->zone, old, n);
     GROW(p->role, old, n);
     if (p->size)
@@ -54,7 +53,8 @@ void particles_create(struct particles *p, int dim, int capacity)
 
 void particles_free(struct particles *p)
 {
-    FREE(p->y, p->y0, p->sum, p->rate, p->prim, p->slope, p->id, p->zone, p->role, p->size);
+    FREE(p->y, p->y0, p->sum, p->rate, p->prim, p->slope, p->id, p->zone, p->role, p->size,
+         p->false_divergence);
     *p = (struct particles){0};
 }
 
@@ -88,6 +88,7 @@ int particles_add(struct particles *p, int64_t id, enum sph_zone zone)
     p->id[p->n] = id;
     p->zone[p->n] = (unsigned char)zone;
     p->role[p->n] = 0;
+    p->false_divergence[p->n] = 0.0;
     memset(p->y + (size_t)p->n * p->nstate, 0, (size_t)p->nstate * sizeof(double));
     return p->n++;
 }
@@ -101,6 +102,7 @@ void particles_copy(struct particles *p, int to, int from)
     p->id[to] = p->id[from];
     p->zone[to] = p->zone[from];
     p->role[to] = p->role[from];
+    p->false_divergence[to] = p->false_divergence[from];
     if (p->size)
         memcpy(p->size[to], p->size[from], sizeof *p->size);
     memcpy(slope_line(p, to), slope_line(p, from), (size_t)p->nslope * sizeof(double));
@@ -136,11 +138,13 @@ void particles_permute(struct particles *p, int n, const int *order, bool slopes
     int64_t *id = NEW(int64_t, p->capacity);
     unsigned char *zone = NEW(unsigned char, p->capacity);
     unsigned short *role = NEW(unsigned short, p->capacity);
+    double *false_divergence = NEW(double, p->capacity);
     for (int i = 0; i < n; i++) {
         memcpy(p->y0 + (size_t)i * row, p->y + (size_t)order[i] * row, row * sizeof(double));
         id[i] = p->id[order[i]];
         zone[i] = p->zone[order[i]];
         role[i] = p->role[order[i]];
+        false_divergence[i] = p->false_divergence[order[i]];
     }
     if (slopes)
         permute_slopes(p, n, order);
@@ -149,7 +153,8 @@ void particles_permute(struct particles *p, int n, const int *order, bool slopes
     p->y0 = y;
     if (p->size)
         permute_sizes(p, n, order);
-    FREE(p->id, p->zone, p->role);
+    FREE(p->id, p->zone, p->role, p->false_divergence);
+    p->false_divergence = false_divergence;
     p->id = id;
     p->zone = zone;
     p->role = role;
@@ -167,9 +172,9 @@ void particles_set(struct sph *s, int i, const double *x, const double *u, doubl
     y[at_mass(dim)] = rho * w;
 }
 
-/* The packed record q of a state: velocity momentum/mass, density mass/volume; in 2D two doubles of
- * the 64 bytes are left for p and c, in 3D there is no room for them. */
-static inline __attribute__((always_inline)) void line(const struct sph *s, const double *y,
+/* The packed record q of a state: velocity momentum/mass, density mass/volume; in 2D, where room is
+ * left in the 64 bytes, the false divergence as well. */
+static inline __attribute__((always_inline)) void line(const double *y, double false_divergence,
                                                        double *q, const int dim)
 {
     const double w = y[at_volume(dim)], m = y[at_mass(dim)], rho = m / w, to_u = 1.0 / m;
@@ -179,16 +184,14 @@ static inline __attribute__((always_inline)) void line(const struct sph *s, cons
     }
     q[at_volume(dim)] = w;
     q[at_rho(dim)] = rho;
-    if (dim == 2) {
-        q[6] = eos_p(rho, s->rho0, s->c0, s->gamma);
-        q[7] = eos_c(rho, s->rho0, s->c0, s->gamma);
-    }
+    if (dim == 2)
+        q[6] = false_divergence;
 }
 
 static inline __attribute__((always_inline)) void lines(struct sph *s, const int dim)
 {
     for (int i = 0; i < s->p.n; i++)
-        line(s, s->p.y + (size_t)s->p.nstate * i, prim_line(&s->p, i), dim);
+        line(s->p.y + (size_t)s->p.nstate * i, s->p.false_divergence[i], prim_line(&s->p, i), dim);
 }
 
 /* Packs states interpolated linearly between y0 and y, part 0 .. 1: levels with steps of their own
@@ -201,7 +204,7 @@ static inline __attribute__((always_inline)) void lines_between(struct sph *s, d
         double y[8];
         for (int k = 0; k < 2 * dim + 2; k++)
             y[k] = y0[k] + part * (y1[k] - y0[k]);
-        line(s, y, prim_line(&s->p, i), dim);
+        line(y, s->p.false_divergence[i], prim_line(&s->p, i), dim);
     }
 }
 

@@ -33,8 +33,9 @@ enum { PRIM = 8 }; /* doubles of a line of prim */
  *   x[dim], q[dim] = m u, w (volume), m (mass).
  * Packed records are multiples of 64 bytes, aligned; record `capacity' is the dummy that pads
  * neighbour rows (far away, volume 0):
- *   prim  [8]:        x[dim] u[dim] w rho (2D: then p c)
+ *   prim  [8]:        x[dim] u[dim] w rho (2D: then the false divergence, and one that is free)
  *   slope [8 | 16]:   grad rho [dim], grad u [dim][dim] (a: component, b: direction), u0 [dim]
+ *                     (3D: then the false divergence)
  * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images, then ghosts of
  * walls and open sides) are n .. n+nghost-1 and have only prim and slope. All arrays are owned. */
 struct particles {
@@ -48,14 +49,15 @@ struct particles {
     double *sum; /* [sum_capacity][nstate] weighted sum of rates, where the Runge-Kutta scheme needs
                     one */
     int sum_capacity;
-    double *prim;         /* [capacity+1][8] packed primitive variables */
-    double *slope;        /* [capacity+1][nslope] packed gradients and transport velocity */
-    int64_t *id;          /* [capacity] unique over all ranks */
-    int64_t next_id;      /* of the next one created on this rank; goes up by the number of ranks */
-    unsigned char *zone;  /* [capacity] enum sph_zone */
-    unsigned short *role; /* [capacity] bits of enum sph_role, 0 without levels */
-    double (*size)[2];    /* [capacity] R, m, and weight, where particles of one set differ in them;
-                             ghosts too; NULL: they do not. refinement/mixed.h */
+    double *prim;    /* [capacity+1][8] packed primitive variables */
+    double *slope;   /* [capacity+1][nslope] packed gradients and transport velocity */
+    int64_t *id;     /* [capacity] unique over all ranks */
+    int64_t next_id; /* of the next one created on this rank; goes up by the number of ranks */
+    double *false_divergence; /* [capacity] 1/s: error of the trace of grad u; see time/damper.h */
+    unsigned char *zone;      /* [capacity] enum sph_zone */
+    unsigned short *role;     /* [capacity] bits of enum sph_role, 0 without levels */
+    double (*size)[2]; /* [capacity] R, m, and weight, where particles of one set differ in them;
+                          ghosts too; NULL: they do not. refinement/mixed.h */
 };
 
 /* Offsets within a record of the state and within prim; x and u (q) come first in both. */

@@ -409,10 +409,6 @@ INLINE void take(struct sph *s, int i, struct guard_sums sum[2], const struct gu
     }
     y[at_volume(dim)] = q[at_volume(dim)] = m / rho;
     q[at_rho(dim)] = rho;
-    if (dim == 2) {
-        q[6] = eos_p(rho, s->rho0, s->c0, s->gamma);
-        q[7] = eos_c(rho, s->rho0, s->c0, s->gamma);
-    }
 }
 
 /* The first n guards of level s, or of these what stands where its level is about to flow (waking);

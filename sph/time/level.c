@@ -19,6 +19,7 @@
 #include "../refinement/sph_refinement.h"
 #include "../surface/sph_surface.h"
 #include "../walls/sph_walls.h"
+#include "damper.h"
 #include "runge_kutta.h"
 
 static void start(struct sph *s, const char *timer) { timer_start(&s->run->timers, timer); }
@@ -110,8 +111,8 @@ static void pass(struct sph *s, void (*rows)(struct sph *s), const char *timer, 
 }
 
 /* What follows the first pass: the surface is detected once for each list; walls add their terms to
- * the slopes; then shifts are bounded and the divergence that the acoustic damper sees is cleared
- * at the surface. Collective where there is a surface. */
+ * the slopes; then shifts are bounded and the divergence that the acoustic damper sees is
+ * corrected. Collective where there is a surface. */
 static void finish_slopes(struct sph *s)
 {
     const bool shifts = s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO;
@@ -127,8 +128,7 @@ static void finish_slopes(struct sph *s)
         transport_finish(s);
     if (s->walls && shifts)
         at_walls(s, s->walls->model->bound_shifts);
-    if (s->surface && s->prm.damper > 0.0 && s->prm.scheme <= SCHEME_RIEMANN)
-        surface_calm(s);
+    damper_correct(s);
 }
 
 /* Adds the body force of the acceleration -W^2 x about the origin, of rotating patches. */
@@ -285,6 +285,8 @@ void level_update(struct sph *s, int k, double dt)
     const struct rk_stages *c = s->stages;
     const bool summed = c->weight[0] != 0.0, last = k == c->n - 1;
     start(s, "update");
+    if (last)
+        damper_learn(s, dt);
     if (summed)
         add_rates(s, c->weight[k], k == 0);
     if (!last) {

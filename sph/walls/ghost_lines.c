@@ -32,10 +32,8 @@ void ghost_set_line(const struct sph *s, double *line, const double *x, const do
     }
     line[at_volume(dim)] = w;
     line[at_rho(dim)] = rho;
-    if (dim == 2) {
-        line[6] = eos_p(rho, s->rho0, s->c0, s->gamma);
-        line[7] = eos_c(rho, s->rho0, s->c0, s->gamma);
-    }
+    if (dim == 2)
+        line[6] = 0.0;
 }
 
 int ghost_append(struct sph *s, struct ghost_block *g, int n)

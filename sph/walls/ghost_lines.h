@@ -17,7 +17,7 @@ struct ghost_block {
 /* Density at the distance d, m, along n from a point with density rho, by (1/rho) dp/dn = K, m/s^2
  * [3.9-3.10]. */
 double ghost_density(const struct sph *s, double rho, double K, double d);
-/* Writes x, u, w, rho (2D: p, c) into the packed record of a ghost. */
+/* Writes x, u, w, rho into the packed record of a ghost. */
 void ghost_set_line(const struct sph *s, double *line, const double *x, const double *u, double w,
                     double rho);
 /* Adds to the rates of momentum the difference between no-slip and slip ghosts in the Laplacian

@@ -447,6 +447,7 @@ INLINE struct seen look(const struct sph *s, int i, const int dim)
     double divergence = 0.0;
     for (int a = 0; a < dim; a++)
         divergence += g[dim + (dim + 1) * a];
+    divergence -= s->p.false_divergence[i];
     return (struct seen){.x = q,
                          .u = q + dim,
                          .u0 = g + dim + dim * dim,

@@ -1,0 +1,66 @@
+/* damper.c - the acoustic damper takes beta rho0 c0 R div u from the pressure of pairs. div u is
+ * the trace of renormalised gradients, and these err: beside walls, where a support sees one side
+ * only, and wherever the flow bends within a support. Times c0 the error is a pressure: before a
+ * square of four particles in a stream of U it was 5 rho U^2/2 with c0 = 67 U, and 1.2 with 10 U.
+ * What div u really is, the density says, which changes by the fluxes of the pairs themselves:
+ * div u = (dw/dt)/w - (dm/dt)/m. So each particle has a slow mean e of what its trace exceeds this
+ * by, the false divergence, and the damper acts on what is left:
+ *   de/dt = (trace - div u - e)/T,   damper on trace - e.
+ * Sound, faster than T, is damped as before; slow flow by what its density says, which in steady
+ * flow is next to nothing. T is the time in which the fluid passes a quarter of R, for then it is
+ * beside another part of the wall, but at least 2.5 R/c0: below, the damper follows the density
+ * with a delay.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "damper.h"
+
+#include <math.h>
+
+#include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
+#include "../surface/sph_surface.h"
+
+/* Mixed sets of particles have a damper of their own (refinement/mixed_pairs.c). */
+static bool has_damper(const struct sph *s)
+{
+    return s->prm.damper > 0.0 && s->prm.scheme <= SCHEME_RIEMANN && !s->mixed;
+}
+
+void damper_correct(struct sph *s)
+{
+    if (!has_damper(s))
+        return;
+    for (int i = 0; s->dim == 3 && i < s->p.n; i++)
+        slope_line(&s->p, i)[15] = s->p.false_divergence[i];
+    if (s->surface)
+        surface_calm(s);
+}
+
+/* Whether the rates of a particle are those of its pairs and walls, and its gradients whole. */
+static bool can_learn(const struct sph *s, int i)
+{
+    return s->p.zone[i] == ZONE_FREE && !particles_is_guard(&s->p, i) &&
+           !(s->surface && s->surface->lambda[i] < 1.0);
+}
+
+void damper_learn(struct sph *s, double dt)
+{
+    const int dim = s->dim;
+    if (!has_damper(s))
+        return;
+    const double passed = 0.25 * s->R / fmax(s->step.stray, 1e-300);
+    const double share = fmin(dt / fmax(passed, 2.5 * s->R / s->c0), 1.0);
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i), *rate = state_row(&s->p, s->p.rate, i);
+        const double *gu = slope_line(&s->p, i) + dim;
+        double *e = s->p.false_divergence + i, trace = 0.0;
+        if (!can_learn(s, i)) {
+            *e = 0.0;
+            continue;
+        }
+        for (int a = 0; a < dim; a++)
+            trace += gu[(dim + 1) * a];
+        const double is =
+            rate[at_volume(dim)] / y[at_volume(dim)] - rate[at_mass(dim)] / y[at_mass(dim)];
+        *e += share * (trace - is - *e);
+    }
+}
