@@ -309,7 +309,7 @@ static int couple(struct coupler *c, struct faults *faults)
         usleep(100);
     failure_closed();
     rendezvous_close(c);
-    sums_free(c);
+    FREE(c->sums);
     log_file(NULL);
     return code;
 }

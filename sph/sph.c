@@ -412,15 +412,6 @@ static void *create(struct run *r, struct h5 *f)
     return s;
 }
 
-static void destroy(void *state)
-{
-    struct sph *s = state;
-    if (has_partner_flow(s->run))
-        sph_coupling_free(s);
-    body_coupling_free(s);
-    sph_free(&s);
-}
-
 static struct overlap *watched(const struct sph *s) { return s->zones ? s->zones->watched : NULL; }
 
 static struct level_gap *gap(const struct sph *s) { return s->zones ? s->zones->gap : NULL; }
@@ -548,7 +539,7 @@ static struct program sph_program = {.name = "sph",
                                      .draw = draw,
                                      .offer = offer,
                                      .create = create,
-                                     .destroy = destroy,
+                                     .destroy = mem_free,
                                      .step = step,
                                      .longest_window = longest_window,
                                      .window_begin = window_begin,

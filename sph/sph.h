@@ -112,7 +112,7 @@ struct level_places {
     double (*share)(const struct sph *s, const double *x);
 };
 
-/* One level of particles with all that acts on it. Made by sph_create, freed by sph_free
+/* One level of particles with all that acts on it. Made by sph_create, freed by FREE
  * (sph_state.h). */
 struct sph {
     struct run *run;       /* borrowed from run_main */

@@ -9,24 +9,18 @@
 
 #include "mem.h"
 
-void fit_add(struct fit *f, double t, double v)
+void fit_add(void *owner, struct fit *f, double t, double v)
 {
     if (f->n > 0 && t <= f->t[f->n - 1])
         return; /* the same time twice: the last row before an output */
     if (f->n == f->capacity) {
         const int more = 2 * f->capacity + 256;
-        GROW(f->t, f->capacity, more);
-        GROW(f->v, f->capacity, more);
+        GROW_IN(owner, f->t, f->capacity, more);
+        GROW_IN(owner, f->v, f->capacity, more);
         f->capacity = more;
     }
     f->t[f->n] = t;
     f->v[f->n++] = v;
-}
-
-void fit_free(struct fit *f)
-{
-    FREE(f->t, f->v);
-    *f = (struct fit){0};
 }
 
 /* The t at which v is zero between samples k and k+1, by inverse interpolation: t as a polynomial

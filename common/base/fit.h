@@ -4,7 +4,8 @@
 #ifndef COMMON_FIT_H
 #define COMMON_FIT_H
 
-/* The samples collected so far. Start from zeroed memory; fit_free gives the arrays back. */
+/* The samples collected so far. Start from zeroed memory; the arrays belong to the owner that
+ * fit_add is called with. */
 struct fit {
     /* samples held; elements allocated */
     int n, capacity;
@@ -14,9 +15,7 @@ struct fit {
 
 /* Appends a sample at time t, s. A time that is not later than the last one is ignored: an output
  * repeats the last row of a series. */
-void fit_add(struct fit *f, double t, double v);
-/* Frees the samples and zeroes *f, which may then be filled again. */
-void fit_free(struct fit *f);
+void fit_add(void *owner, struct fit *f, double t, double v);
 /* Period in s: twice the mean distance of consecutive zeros of v, each from the inverse cubic
  * through the four samples around it (linear where that leaves the interval). NAN with fewer than
  * three zeros. */

@@ -43,11 +43,19 @@ static void require_names(int n, const char *const *columns)
                 abort_run("series.csv has two columns `%s'", columns[k]);
 }
 
+static void close_file(void *p)
+{
+    const struct series *s = p;
+    if (s->file)
+        fclose(s->file);
+}
+
 /* With `keep', but no file of an earlier run, a new one begins. */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart)
 {
     struct series *s = NEW(struct series, 1);
+    mem_at_free(s, close_file);
     s->ncolumns = ncolumns;
     require_names(ncolumns, columns);
     if (!path)
@@ -75,12 +83,4 @@ void series_row(struct series *s, const double *values)
         fprintf(s->file, "%.12g%s", values[k], k < s->ncolumns - 1 ? "," : "\n");
     if (s->file && ferror(s->file))
         disk_failed(s->path);
-}
-
-void series_free(struct series **s)
-{
-    if (*s && (*s)->file)
-        fclose((*s)->file);
-    mem_free(*s);
-    *s = NULL;
 }

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-/* an open series.csv: made by series_create, freed by series_free */
+/* an open series.csv: made by series_create; FREE closes it */
 struct series;
 /* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; two of the
  * same name end the run through abort_run(). keep: append to an existing file, without its rows
@@ -17,14 +17,11 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
                              double t_restart);
 /* Writes one row, values[ncolumns] with 12 digits, flushed at once. */
 void series_row(struct series *s, const double *values);
-/* Closes the file and sets *s to NULL. */
-void series_free(struct series **s);
 
 /* The summary in memory: an ordered list of keys with values. Keys with dots become nested objects,
  * "error.velocity_l2"; the order of insertion is kept. Keys and texts are copied. */
 struct summary;
 struct summary *summary_create(void);
-void summary_free(struct summary **s);
 /* Each sets the value of a key, replacing an earlier one in its place. Non-finite numbers become
  * null. */
 void summary_real(struct summary *s, const char *key, double v);

@@ -25,16 +25,18 @@ struct summary {
     struct entry *of;
 };
 
-struct summary *summary_create(void) { return NEW(struct summary, 1); }
-
-void summary_free(struct summary **s)
+static void free_texts(void *p)
 {
-    for (int k = 0; *s && k < (*s)->n; k++)
-        free((*s)->of[k].text);
-    if (*s)
-        mem_free((*s)->of);
-    mem_free(*s);
-    *s = NULL;
+    const struct summary *s = p;
+    for (int k = 0; k < s->n; k++)
+        free(s->of[k].text);
+}
+
+struct summary *summary_create(void)
+{
+    struct summary *s = NEW(struct summary, 1);
+    mem_at_free(s, free_texts);
+    return s;
 }
 
 /* The entry of this key, emptied; made if need be. */
@@ -47,7 +49,7 @@ static struct entry *entry(struct summary *s, const char *key)
             return s->of + k;
         }
     if (s->n == s->capacity) {
-        GROW(s->of, s->capacity, 2 * s->capacity + 32);
+        GROW_IN(s, s->of, s->capacity, 2 * s->capacity + 32);
         s->capacity = 2 * s->capacity + 32;
     }
     struct entry *e = s->of + s->n++;

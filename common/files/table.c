@@ -33,12 +33,12 @@ static char *next_field(char **line)
 static void read_names(struct table *t, char *line)
 {
     t->ncolumns = count_fields(line);
-    t->name = NEW(char *, t->ncolumns);
+    t->name = NEW_IN(t, char *, t->ncolumns);
     for (int k = 0; k < t->ncolumns; k++) {
         char *field = next_field(&line), *unit = strstr(field, " [");
         if (unit)
             *unit = '\0';
-        t->name[k] = NEW(char, strlen(field) + 1);
+        t->name[k] = NEW_IN(t, char, strlen(field) + 1);
         memcpy(t->name[k], field, strlen(field) + 1);
     }
 }
@@ -49,7 +49,7 @@ static void read_row(struct table *t, char *line)
 {
     const int n = t->ncolumns, at = t->nrows * n;
     if ((t->nrows & (t->nrows - 1)) == 0) /* room doubles */
-        GROW(t->v, at, (t->nrows ? 2 * t->nrows : 1) * n);
+        GROW_IN(t, t->v, at, (t->nrows ? 2 * t->nrows : 1) * n);
     for (int k = 0; k < n; k++) {
         char *field = next_field(&line), *end;
         t->v[at + k] = strtod(field, &end);
@@ -78,18 +78,8 @@ struct table *table_read(const char *path)
     fclose(f);
     free(line); /* getline's own */
     if (t->nrows == 0)
-        table_free(&t);
+        FREE(t);
     return t;
-}
-
-void table_free(struct table **t)
-{
-    if (!*t)
-        return;
-    for (int k = 0; k < (*t)->ncolumns; k++)
-        mem_free((*t)->name[k]);
-    FREE((*t)->name, (*t)->v, *t);
-    *t = NULL;
 }
 
 int table_column(const struct table *t, const char *name)

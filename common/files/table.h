@@ -15,10 +15,8 @@ struct table {
 };
 
 /* Reads the file. Rows shorter than the header are filled with NaN, longer ones are cut. NULL if
- * the file cannot be read or has no row of numbers. Owned by the caller, freed by table_free. */
+ * the file cannot be read or has no row of numbers. Owned by the caller, freed by FREE. */
 struct table *table_read(const char *path);
-/* Frees the table and sets *t to NULL; *t may be NULL. */
-void table_free(struct table **t);
 /* Index of the column of this name (without unit); -1 if there is none. */
 int table_column(const struct table *t, const char *name);
 

@@ -53,25 +53,24 @@ static void read_pieces(struct xdmf *x, double t)
         fclose(f);
 }
 
+static void close_stream(void *p)
+{
+    const struct xdmf *x = p;
+    if (x->to)
+        fclose(x->to);
+    free(x->text);
+}
+
 struct xdmf *xdmf_create(const char *path, bool keep, double t_restart)
 {
     struct xdmf *x = NEW(struct xdmf, 1);
+    mem_at_free(x, close_stream);
     snprintf(x->path, sizeof x->path, "%s", path);
     x->to = open_memstream(&x->text, &x->n);
     require(x->to);
     if (keep)
         read_pieces(x, t_restart);
     return x;
-}
-
-void xdmf_free(struct xdmf **x)
-{
-    if (!*x)
-        return;
-    fclose((*x)->to);
-    free((*x)->text);
-    mem_free(*x);
-    *x = NULL;
 }
 
 /* Begins the piece of a snapshot at t: one grid, or a collection of several. */

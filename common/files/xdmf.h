@@ -19,7 +19,6 @@ struct xdmf; /* the list of snapshots so far */
 /* path: out/CASE/sph.xdmf, copied. keep: continue the list of an existing file (restart), leaving
  * out entries at or after t_restart, s. Nothing is written before the first snapshot. */
 struct xdmf *xdmf_create(const char *path, bool keep, double t_restart);
-void xdmf_free(struct xdmf **x); /* sets *x to NULL */
 
 /* A field of the snapshot: `name' is that of the dataset in the HDF5 file and in ParaView; ncomp 1,
  * 2 or 3 components. */

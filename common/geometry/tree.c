@@ -157,10 +157,10 @@ struct tree *tree_create(const struct trimesh *m)
     trimesh_bounds(m, lo, hi);
     for (int a = 0; a < 3; a++)
         t->origin[a] = m->nvertices > 0 ? 0.5 * (lo[a] + hi[a]) : 0.0;
-    t->nodes = NEW(struct node, 2 * ((n + LEAF - 1) / LEAF));
-    t->order = NEW(int, n);
-    t->n = (float(*)[3])mem_new((size_t)m->nvertices, sizeof *t->n);
-    t->rim = NEW(bool, m->nvertices);
+    t->nodes = NEW_IN(t, struct node, 2 * ((n + LEAF - 1) / LEAF));
+    t->order = NEW_IN(t, int, n);
+    t->n = (float(*)[3])mem_new_in(t, (size_t)m->nvertices, sizeof *t->n);
+    t->rim = NEW_IN(t, bool, m->nvertices);
     float(*c)[3] = (float(*)[3])mem_new((size_t)n, sizeof *c);
     for (int i = 0; i < n; i++) {
         double low[3], high[3];
@@ -174,14 +174,6 @@ struct tree *tree_create(const struct trimesh *m)
     mem_free(c);
     find_normals(t);
     return t;
-}
-
-void tree_free(struct tree **t)
-{
-    if (!*t)
-        return;
-    FREE((*t)->nodes, (*t)->order, (*t)->n, (*t)->rim, *t);
-    *t = NULL;
 }
 
 /* --- boxes --- */

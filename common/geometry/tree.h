@@ -9,11 +9,9 @@
 
 struct tree;
 
-/* Builds the tree. m is borrowed until tree_free and must be connected (trimesh_connect); if its
- * vertices move, the tree must be built anew. A mesh without triangles is legal. */
+/* Builds the tree. m is borrowed until the tree is freed and must be connected (trimesh_connect);
+ * if its vertices move, the tree must be built anew. A mesh without triangles is legal. */
 struct tree *tree_create(const struct trimesh *m);
-/* Frees the tree, not the mesh, and sets *t to NULL. */
-void tree_free(struct tree **t);
 /* Writes the triangles whose bounding boxes meet [lo, hi], m, to who[most], ascending, and returns
  * their number. If it is more than `most', an arbitrary selection is written: call again with more
  * room. */

@@ -289,7 +289,7 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
             params_fault(p, f, key, "%s: its first column must be t", path);
         else if (table_column(t, column_of(a)) < 0)
             params_fault(p, f, key, "%s has no column %s", path, column_of(a));
-        table_free(&t);
+        FREE(t);
     }
 }
 
@@ -371,7 +371,7 @@ static struct table *find_series(const char *dir, const char *what)
         struct table *t = table_read(path);
         if (t && table_column(t, what) >= 0)
             return t;
-        table_free(&t);
+        FREE(t);
     }
     return NULL;
 }
@@ -393,8 +393,8 @@ static double compare(const struct scene_accept *a, const char *case_dir, const 
         d = accept_distance(a->measure, of_run, of_ref, a->from, a->until);
         FREE(room[0], room[1]);
     }
-    table_free(&ref);
-    table_free(&run);
+    FREE(ref);
+    FREE(run);
     return d;
 }
 

@@ -50,5 +50,5 @@ void discharge_gauges_judge(const struct scene *s, const char *path, struct summ
     for (int k = 0; t && k < s->nprobes; k++)
         if (s->probes[k].kind == PROBE_DISCHARGE)
             judge_one(s, s->probes + k, t, summary);
-    table_free(&t);
+    FREE(t);
 }

@@ -117,7 +117,7 @@ static void keep_text(struct life *l)
     if (!text)
         text = NEW(char, n);
     MPI_Bcast(text, n, MPI_CHAR, 0, r->comm);
-    l->files.case_text = text;
+    l->files.case_text = mem_own(l, text);
 }
 
 /* Names of snapshots have six digits, and no disk wants more of them. */
@@ -256,11 +256,11 @@ static void start_series(struct life *l)
     for (int k = 0; k < l->p->ncolumns; k++)
         columns[k + 2] = l->p->columns[k];
     files_path(r, "series.csv", path, sizeof path);
-    l->series =
-        series_create(r->rank == 0 ? path : NULL, l->p->ncolumns + 2, columns, r->restart, r->t);
+    l->series = mem_own(l, series_create(r->rank == 0 ? path : NULL, l->p->ncolumns + 2, columns,
+                                         r->restart, r->t));
     snprintf(path, sizeof path, "%s/%s.xdmf", r->dir, r->name);
     if (r->rank == 0)
-        l->files.xdmf = xdmf_create(path, r->restart, r->t * (1.0 + 1e-9));
+        l->files.xdmf = mem_own(l, xdmf_create(path, r->restart, r->t * (1.0 + 1e-9)));
 }
 
 /* --- while it runs --- */
@@ -486,7 +486,7 @@ static int loop_coupled(struct life *l)
         if (l->p->tell)
             l->p->tell(l->s, s);
         c->advance(r->partner_ctx, t1, s, stop_asked(r));
-        summary_free(&s);
+        FREE(s);
         if (output)
             files_snapshot(&l->files, NULL);
         if (save) {
@@ -576,13 +576,7 @@ static void free_life(struct life *l)
 {
     if (l->s)
         l->p->destroy(l->s);
-    if (l->series)
-        series_free(&l->series);
-    xdmf_free(&l->files.xdmf);
-    mem_free(l->files.case_text);
-    summary_free(&l->r.summary);
     scene_meshes_free(&l->r.scene);
-    motion_files_free(l->r.motions);
     params_free(&l->params);
     mem_free(l->faults.text);
     log_file(NULL);
@@ -682,7 +676,7 @@ static int live(struct life *l)
     struct h5 *restart = NULL;
     char path[1400];
     run_case_dir(l->line.case_file, r->case_dir, sizeof r->case_dir);
-    r->motions = motion_files_create(r->case_dir);
+    r->motions = mem_own(l, motion_files_create(r->case_dir));
     collect_groups(l);
     int faults = read_case(l);
     run_case_name(l->line.case_file, r->case_name, sizeof r->case_name);
@@ -715,7 +709,7 @@ static int live(struct life *l)
     log_file(path);
     banner(l);
     l->p->describe(r);
-    r->summary = summary_create();
+    r->summary = mem_own(l, summary_create());
     l->status = "done";
     start_files(l);
     return run_state(l, restart);

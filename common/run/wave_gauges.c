@@ -365,5 +365,5 @@ void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
         }
         free_history(&h, n);
     }
-    table_free(&t);
+    FREE(t);
 }

@@ -41,7 +41,7 @@ static void read_rows(struct motion_file *m)
         sound = got == m->columns && (m->n == 0 || v[0] > m->rows[size - m->columns]);
         if (!sound)
             break;
-        GROW(m->rows, size, size + m->columns);
+        GROW_IN(m, m->rows, size, size + m->columns);
         memcpy(m->rows + size, v, (size_t)m->columns * sizeof *v);
         m->n++;
     }
@@ -58,24 +58,15 @@ struct motion_files *motion_files_create(const char *dir)
     return all;
 }
 
-void motion_files_free(struct motion_files *all)
-{
-    for (int k = 0; all && k < all->n; k++)
-        FREE(all->of[k]->path, all->of[k]->rows, all->of[k]);
-    if (all)
-        mem_free(all->of);
-    mem_free(all);
-}
-
 /* An empty one of that name. */
 static struct motion_file *new_file(struct motion_files *all, const char *file, int columns)
 {
-    struct motion_file *m = NEW(struct motion_file, 1);
+    struct motion_file *m = NEW_IN(all, struct motion_file, 1);
     const size_t size = strlen(all->dir) + strlen(file) + 2;
-    m->path = NEW(char, size);
+    m->path = NEW_IN(m, char, size);
     snprintf(m->path, size, "%s/%s", all->dir, file);
     m->columns = columns;
-    GROW(all->of, all->n, all->n + 1);
+    GROW_IN(all, all->of, all->n, all->n + 1);
     return all->of[all->n++] = m;
 }
 

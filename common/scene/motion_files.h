@@ -28,8 +28,6 @@ struct motion_files {
 
 /* An empty list, owned by the caller; dir is borrowed. */
 struct motion_files *motion_files_create(const char *dir);
-/* Frees the list and its files; NULL does nothing. */
-void motion_files_free(struct motion_files *all);
 /* The file as it was when it was first asked for with this number of columns; owned by the list.
  * NULL if `all' is NULL. A file that cannot be read has n <= 0. */
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file,

@@ -143,7 +143,7 @@ static double *rows_of(const struct scene *s, bool wavy, double x, int *n)
         waves_at(made, t);
         rows[2 * k + 1] += grown * (waves_flux(made, x) - off);
     }
-    waves_free(&made);
+    FREE(made);
     return rows;
 }
 
@@ -177,7 +177,7 @@ void scene_currents_resolve(struct scene *s, struct motion_files *files)
     struct waves *made = waves_create(&of);
     const double flux = flux_of(s, made);
     double width = 1.0;
-    waves_free(&made);
+    FREE(made);
     for (int a = 0; a < s->domain.dim; a++)
         width *= a == axis || a == up ? 1.0 : s->domain.max[a] - s->domain.min[a];
     for (int upper = 0; upper < 2; upper++)

@@ -94,7 +94,7 @@ bool scene_mesh_holds(const struct scene_mesh *m, const double *x)
 void scene_meshes_free(struct scene *s)
 {
     for (int k = 0; s->meshes && k < s->meshes->n; k++) {
-        tree_free(&s->meshes->of[k].tree);
+        DROP(s->meshes->of[k].tree);
         trimesh_free(&s->meshes->of[k].mesh);
     }
     mem_free(s->meshes);

@@ -281,7 +281,7 @@ static void orient(const struct reading *r, struct scene_mesh *m)
                         : wanted == FLUID_INSIDE || wanted == FLUID_OUTSIDE
                             ? wanted
                             : side_of_closed(r->s, m);
-        tree_free(&m->tree);
+        DROP(m->tree);
     }
     if (m->mesh.closed && m->fluid_side == FLUID_OUTSIDE)
         trimesh_orient_closed(&m->mesh, -1);

@@ -408,7 +408,7 @@ void scene_waves_check(struct scene *s, const struct params *p, struct faults *f
         warn_of_sides(s);
     }
     resolve(s, made);
-    waves_free(&made);
+    FREE(made);
 }
 
 /* --- what stands in zones --- */
@@ -566,7 +566,7 @@ void scene_waves_describe(const struct scene *s)
         struct waves *made = waves_create(&of);
         describe_made(s, made);
         scene_currents_describe(s, made);
-        waves_free(&made);
+        FREE(made);
         wave_makers_describe(s);
     }
     for (int k = 0; k < s->nwalls; k++) {

@@ -72,7 +72,7 @@ struct wave_absorber *wave_absorber_create(const struct scene *s, const struct s
                                 .still = scene_waves_level(s),
                                 .depth = of.depth,
                                 .g = of.g,
-                                .waves = waves_create(&of)};
+                                .waves = mem_own(a, waves_create(&of))};
     scene_waves_direction(s, a->along, NULL);
     a->k = 2.0 * M_PI / a->waves->length;
     a->omega = 2.0 * M_PI / a->waves->period;
@@ -84,15 +84,6 @@ struct wave_absorber *wave_absorber_create(const struct scene *s, const struct s
     a->at[up] = s->fluid.gravity[up] < 0.0 ? a->still : -a->still;
     tune(a);
     return a;
-}
-
-void wave_absorber_free(struct wave_absorber **a)
-{
-    if (!*a)
-        return;
-    waves_free(&(*a)->waves);
-    mem_free(*a);
-    *a = NULL;
 }
 
 /* A paddle makes seas of first order. */

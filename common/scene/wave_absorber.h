@@ -36,11 +36,9 @@ struct wave_absorber {
 };
 
 /* The absorber of a motion of kind waves with absorb = true, its gauge `distance' m before the
- * face; owned by the caller (wave_absorber_free). s must have been through wave_makers_resolve. */
+ * face; owned by the caller (FREE). s must have been through wave_makers_resolve. */
 struct wave_absorber *wave_absorber_create(const struct scene *s, const struct scene_body *b,
                                            const struct scene_motion *m, double distance);
-/* Frees the absorber and sets *a to NULL. */
-void wave_absorber_free(struct wave_absorber **a);
 /* Level over the still one, m, that the gauge would read at time t, s, if nothing came back, while
  * the paddle is displaced by X metres at the still level, of which `made' make the waves. */
 double wave_absorber_wanted(struct wave_absorber *a, double t, double X, double made);

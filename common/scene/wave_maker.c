@@ -178,7 +178,7 @@ void wave_makers_resolve(struct scene *s, struct motion_files *files)
         for (int i = 0; i < s->bodies[k].motion.n; i++)
             if (s->bodies[k].motion.of[i].kind == MOTION_WAVES)
                 resolve_one(s, s->bodies + k, s->bodies[k].motion.of + i, w, files);
-    waves_free(&w);
+    FREE(w);
 }
 
 void wave_makers_describe(const struct scene *s)
@@ -200,6 +200,6 @@ void wave_makers_describe(const struct scene *s)
                     : l < 0.0 && second_order(0.5 * of.height, number, of.depth) != 0.0
                         ? ", second order"
                         : ", first order");
-            waves_free(&w);
+            FREE(w);
         }
 }

@@ -285,5 +285,5 @@ void wave_picture(const char *path, const struct scene *s)
     if (ferror(f) || fclose(f))
         disk_failed(path);
     log_say("picture: %s", path);
-    waves_free(&w);
+    FREE(w);
 }

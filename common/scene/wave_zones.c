@@ -50,7 +50,7 @@ static double mean_of(const struct scene *s)
     const struct wave_spec of = scene_waves_spec(s);
     struct waves *made = waves_create(&of);
     const double mean = scene_currents_mean(s, made);
-    waves_free(&made);
+    FREE(made);
     return mean;
 }
 
@@ -78,23 +78,13 @@ struct wave_zones *wave_zones_create(const struct scene *s, bool pass)
         z->zone[z->n].per = 1.0 / z->zone[z->n].length;
         z->zone[z->n].rate = 4.0 * M_PI / w->beach_period;
         if (w->zone == ZONE_WAVE)
-            z->zone[z->n].waves = waves_of(s, z, w, pass);
+            z->zone[z->n].waves = mem_own(z, waves_of(s, z, w, pass));
         z->n++;
     }
     if (z->n > 0)
         return z;
     mem_free(z);
     return NULL;
-}
-
-void wave_zones_free(struct wave_zones **z)
-{
-    if (!*z)
-        return;
-    for (int k = (*z)->n - 1; k >= 0; k--)
-        waves_free(&(*z)->zone[k].waves);
-    mem_free(*z);
-    *z = NULL;
 }
 
 void wave_zones_at(struct wave_zones *z, double t)

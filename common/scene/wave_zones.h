@@ -6,12 +6,10 @@
 #include "../files/files.h"
 #include "scene_groups.h"
 
-/* The zones of a resolved scene; NULL: there are none. Owned by the caller (wave_zones_free). Each
+/* The zones of a resolved scene; NULL: there are none. Owned by the caller (FREE). Each
  * rank makes its own. pass: the sides behind have the waves' own velocity, so that zones need not
  * make up for what a side takes off them (zone_gain.h). */
 struct wave_zones *wave_zones_create(const struct scene *s, bool pass);
-/* Frees the zones and sets *z to NULL, which it may be. */
-void wave_zones_free(struct wave_zones **z);
 /* Prepares the waves for the time t, s; before wave_zones_rate. */
 void wave_zones_at(struct wave_zones *z, double t);
 /* The rate r, 1/s, at x[3], and the wanted velocity u_w[3], m/s, 0 outside of the zones. Where

@@ -23,40 +23,27 @@ struct evolution *evolution_create(const struct evolution_spec *of, struct wave_
 {
     struct evolution *e = NEW(struct evolution, 1);
     const size_t n = (size_t)grid->cells * 2;
-    *e = (struct evolution){.of = *of, .grid = grid};
-    e->layer = layer_create(grid, of->depth, of->height, of->nodes);
+    *e = (struct evolution){.of = *of, .grid = mem_own(e, grid)};
+    e->layer = mem_own(e, layer_create(grid, of->depth, of->height, of->nodes));
     if (of->order > 0)
-        e->hos = hos_create(grid, of->depth, of->order, of->highest);
-    e->state = NEW(double, n);
-    e->linear = NEW(double, grid->cells);
+        e->hos = mem_own(e, hos_create(grid, of->depth, of->order, of->highest));
+    e->state = NEW_IN(e, double, n);
+    e->linear = NEW_IN(e, double, grid->cells);
     for (int i = 0; i < grid->cells; i++) {
         const double k = grid->size[i];
         e->linear[i] =
             k * tanh(fmin(k * of->depth, 300.0)) * (e->hos ? 1.0 : layer_flat_rise(e->layer, k));
     }
-    e->eta = NEW(double, n);
-    e->phi = NEW(double, n);
-    e->fields = NEW(double, n *FIELDS);
+    e->eta = NEW_IN(e, double, n);
+    e->phi = NEW_IN(e, double, n);
+    e->fields = NEW_IN(e, double, n *FIELDS);
     for (int i = 0; i < 2; i++) {
-        e->work[i] = NEW(double, n *FIELDS);
-        e->at[i] = NEW(double, n);
+        e->work[i] = NEW_IN(e, double, n *FIELDS);
+        e->at[i] = NEW_IN(e, double, n);
     }
     for (int i = 0; i < EVOLUTION_STAGES; i++)
-        e->rate[i] = NEW(double, n);
+        e->rate[i] = NEW_IN(e, double, n);
     return e;
-}
-
-void evolution_free(struct evolution **e)
-{
-    if (!*e)
-        return;
-    struct evolution *q = *e;
-    layer_free(&q->layer);
-    hos_free(&q->hos);
-    wave_grid_free(&q->grid);
-    FREE(q->state, q->eta, q->phi, q->fields, q->work[0], q->work[1], q->at[0], q->at[1],
-         q->rate[0], q->rate[1], q->rate[2], q->rate[3], q->linear, q);
-    *e = NULL;
 }
 
 static void to_state(struct evolution *e, double *z)

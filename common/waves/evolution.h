@@ -44,8 +44,6 @@ struct evolution {
 
 /* Makes an evolution at rest; takes over the grid. Owned by the caller. */
 struct evolution *evolution_create(const struct evolution_spec *of, struct wave_grid *grid);
-/* Frees it with its grid and sets *e to NULL. */
-void evolution_free(struct evolution **e);
 /* Sets the state from eta[cells], m, and phi_s[cells], m^2/s, as step 0. */
 void evolution_start(struct evolution *e, const double *eta, const double *phi);
 /* Sets the state after `step' steps from its modes [cells][2], as `state' has them. */

@@ -38,7 +38,7 @@ struct fft *fft_create(int n)
     static const int radices[] = {4, 2, 3, 5};
     struct fft *f = NEW(struct fft, 1);
     f->n = n;
-    f->turn = NEW(double, (size_t)n * 2);
+    f->turn = NEW_IN(f, double, (size_t)n * 2);
     for (int k = 0; k < n; k++) {
         f->turn[2 * k] = cos(2.0 * M_PI * k / n);
         f->turn[2 * k + 1] = sin(2.0 * M_PI * k / n);
@@ -47,14 +47,6 @@ struct fft *fft_create(int n)
         for (; n % radices[i] == 0; n /= radices[i])
             f->factor[f->nfactors++] = radices[i];
     return f;
-}
-
-void fft_free(struct fft **f)
-{
-    if (!*f)
-        return;
-    FREE((*f)->turn, *f);
-    *f = NULL;
 }
 
 /* What one sum needs: where its terms stand, the factors of its results and of the radix. */

@@ -6,14 +6,13 @@
 #ifndef COMMON_FFT_H
 #define COMMON_FFT_H
 
-/* factors of a transform: made by fft_create, freed by fft_free */
+/* factors of a transform: made by fft_create */
 struct fft;
 
 /* The smallest even number >= n without prime factors other than 2, 3 and 5. */
 int fft_size(int n);
 /* For n points along the first index, n = fft_size(n) or 1. Owned by the caller. */
 struct fft *fft_create(int n);
-void fft_free(struct fft **f);
 /* z_k <- sum over j of z_j exp(sign 2 pi i jk/n), sign = -1 or 1, not scaled. `work' is as large as
  * z; the result is in z. */
 void fft_run(const struct fft *f, int sign, int inner, int batch, double *z, double *work);

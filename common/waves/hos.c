@@ -27,12 +27,12 @@ struct hos *hos_create(const struct wave_grid *grid, double depth, int order, do
     struct hos *h = NEW(struct hos, 1);
     const size_t cells = (size_t)grid->cells, all = cells * (size_t)(order + 1);
     *h = (struct hos){.grid = grid, .order = order};
-    h->factor = NEW(double, cells *TERMS);
-    h->keep = NEW(double, cells);
-    h->W = NEW(double, all);
-    h->phi = NEW(double, all);
-    h->z = NEW(double, cells *(TERMS + 2));
-    h->work = NEW(double, cells *(TERMS + 2));
+    h->factor = NEW_IN(h, double, cells *TERMS);
+    h->keep = NEW_IN(h, double, cells);
+    h->W = NEW_IN(h, double, all);
+    h->phi = NEW_IN(h, double, all);
+    h->z = NEW_IN(h, double, cells *(TERMS + 2));
+    h->work = NEW_IN(h, double, cells *(TERMS + 2));
     for (size_t m = 0; m < cells; m++) {
         const double k = grid->size[m], t = tanh(fmin(k * depth, 300.0));
         h->keep[m] = k <= highest;
@@ -40,14 +40,6 @@ struct hos *hos_create(const struct wave_grid *grid, double depth, int order, do
             h->factor[m * TERMS + (size_t)q] = h->keep[m] * pow(k, q) * (q % 2 ? t : 1.0);
     }
     return h;
-}
-
-void hos_free(struct hos **h)
-{
-    if (!*h)
-        return;
-    FREE((*h)->factor, (*h)->keep, (*h)->W, (*h)->phi, (*h)->z, (*h)->work, *h);
-    *h = NULL;
 }
 
 /* Fields d_z^q phi, q = 1 .. n, of a field phi: q odd in real parts, even in imaginary ones (the

@@ -11,13 +11,12 @@
 
 enum { HOS_ORDERS = 9 };
 
-/* work arrays of the expansion: made by hos_create, freed by hos_free */
+/* work arrays of the expansion: made by hos_create */
 struct hos;
 
 /* Of the order M <= HOS_ORDERS over water of depth m; modes with |k| > highest, 1/m, are left out.
- * The grid is borrowed until hos_free. */
+ * The grid is borrowed. */
 struct hos *hos_create(const struct wave_grid *grid, double depth, int order, double highest);
-void hos_free(struct hos **h);
 /* From eta, m, phi_s, m^2/s, and slope2 = |grad eta|^2, all [cells], consistently to order M: rise
  * = (1 + |grad eta|^2) W, m/s, and square = (1 + |grad eta|^2) W^2, m^2/s^2, [cells]. */
 void hos_rise(struct hos *h, const double *eta, const double *phi, const double *slope2,

@@ -93,10 +93,8 @@ bool waves_refuse(const struct wave_spec *of, const char **key, char *text, size
 double waves_period(const struct wave_spec *of);
 /* Length of the peak, m, or of a regular wave, by linear theory. */
 double waves_length(const struct wave_spec *of);
-/* Waves of a spec that waves_refuse accepts; owned by the caller (waves_free). Local to a rank. */
+/* Waves of a spec that waves_refuse accepts; owned by the caller (FREE). Local to a rank. */
 struct waves *waves_create(const struct wave_spec *of);
-/* Frees all but a shared field and sets *w to NULL; *w may be NULL. */
-void waves_free(struct waves **w);
 /* Lets w use the evolving field of `owner', which makes the same waves for another zone and
  * outlives w. */
 void waves_share(struct waves *w, const struct waves *owner);

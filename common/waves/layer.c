@@ -57,28 +57,16 @@ struct sigma_layer *layer_create(const struct wave_grid *grid, double depth, dou
     struct sigma_layer *l = NEW(struct sigma_layer, 1);
     const size_t cells = (size_t)grid->cells;
     *l = (struct sigma_layer){.grid = grid, .nodes = nodes, .rows = (nodes + 3) / 4 * 4, .a = a};
-    l->sigma = NEW(double, l->rows);
-    l->phi = NEW(double, cells *(size_t)l->rows);
-    l->phi_s = NEW(double, cells *(size_t)l->rows);
+    l->sigma = NEW_IN(l, double, l->rows);
+    l->phi = NEW_IN(l, double, cells *(size_t)l->rows);
+    l->phi_s = NEW_IN(l, double, cells *(size_t)l->rows);
     double **const of[] = {&l->D, &l->eta_x[0], &l->eta_x[1], &l->eta_xx};
     for (int i = 0; i < 4; i++)
-        *of[i] = NEW(double, cells);
+        *of[i] = NEW_IN(l, double, cells);
     for (int b = 0; b < 2; b++)
-        l->phi_x[b] = NEW(double, cells *(size_t)l->rows);
-    l->solver = layer_solver_create(l, depth);
+        l->phi_x[b] = NEW_IN(l, double, cells *(size_t)l->rows);
+    l->solver = mem_own(l, layer_solver_create(l, depth));
     return l;
-}
-
-void layer_free(struct sigma_layer **l)
-{
-    if (!*l)
-        return;
-    struct sigma_layer *q = *l;
-    FREE(q->sigma, q->phi, q->phi_s, q->phi_x[0], q->phi_x[1], q->D, q->eta_x[0], q->eta_x[1],
-         q->eta_xx);
-    layer_solver_free(&q->solver);
-    mem_free(q);
-    *l = NULL;
 }
 
 void layer_shape(struct sigma_layer *l, const double *eta)

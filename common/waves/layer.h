@@ -29,10 +29,8 @@ struct sigma_layer {
 };
 
 /* Over a level bed at `depth', m: the layer reaches a, m, below the still level, a <= depth, and
- * has `nodes' points along sigma. grid is borrowed until layer_free. Owned by the caller. */
+ * has `nodes' points along sigma. grid is borrowed. Owned by the caller. */
 struct sigma_layer *layer_create(const struct wave_grid *grid, double depth, double a, int nodes);
-/* Frees the layer and sets *l to NULL. */
-void layer_free(struct sigma_layer **l);
 /* The height at rest, m, that suits waves of wave number k, 1/m, and the amplitude, m, over that
  * depth, m. */
 double layer_height(double k, double amplitude, double depth);

@@ -73,17 +73,17 @@ struct layer_solver *layer_solver_create(const struct sigma_layer *l, double dep
     const size_t cells = (size_t)l->grid->cells, rows = (size_t)l->rows;
     double largest = 0.0;
     require(l->nodes <= 64);
-    s->D1 = NEW(double, rows *rows);
-    s->D2 = NEW(double, rows *rows);
-    s->lower = NEW(double, cells);
+    s->D1 = NEW_IN(s, double, rows *rows);
+    s->D2 = NEW_IN(s, double, rows *rows);
+    s->lower = NEW_IN(s, double, cells);
     const bool plane = l->grid->n[1] > 1; /* along a line f_y leaves room */
     s->batch = l->rows + plane;
     s->at_lower = plane ? l->rows : s->batch + l->nodes - 1;
-    s->packed = NEW(double, cells * 2 * (size_t)s->batch);
-    s->work = NEW(double, cells * 2 * (size_t)s->batch);
-    s->slopes = NEW(double, cells * 2 * rows);
-    s->level = NEW(double, cells * 2 * (size_t)s->batch);
-    s->start = NEW(double, cells *rows);
+    s->packed = NEW_IN(s, double, cells * 2 * (size_t)s->batch);
+    s->work = NEW_IN(s, double, cells * 2 * (size_t)s->batch);
+    s->slopes = NEW_IN(s, double, cells * 2 * rows);
+    s->level = NEW_IN(s, double, cells * 2 * (size_t)s->batch);
+    s->start = NEW_IN(s, double, cells *rows);
     for (int i = 0; i <= LAYER_VECTORS; i++)
         s->vectors[i] = NULL;
     make_points(l->nodes, l->rows, l->sigma, s->D1, s->D2);
@@ -94,23 +94,11 @@ struct layer_solver *layer_solver_create(const struct sigma_layer *l, double dep
     }
     s->kinds = plane ? PLANE_KINDS : l->grid->n[0] / 2 + 1;
     s->kind = largest / (s->kinds - 1);
-    s->inverse = NEW(double, (size_t)s->kinds *rows *rows);
-    s->flat = NEW(double, s->kinds);
+    s->inverse = NEW_IN(s, double, (size_t)s->kinds *rows *rows);
+    s->flat = NEW_IN(s, double, s->kinds);
     for (int kind = 0; kind < s->kinds; kind++)
         invert(l, s, depth, kind);
     return s;
-}
-
-void layer_solver_free(struct layer_solver **s)
-{
-    if (!*s)
-        return;
-    FREE((*s)->D1, (*s)->D2, (*s)->lower, (*s)->inverse, (*s)->packed, (*s)->work, (*s)->slopes,
-         (*s)->level, (*s)->start, (*s)->flat);
-    for (int i = 0; i <= LAYER_VECTORS; i++)
-        mem_free((*s)->vectors[i]);
-    mem_free(*s);
-    *s = NULL;
 }
 
 /* The modes k and -k of real fields of which rows s and s + rows/2 were transformed as one complex
@@ -236,7 +224,7 @@ static void combine(struct layer_solver *s, size_t n, int m, double H[][LAYER_VE
 static double *vector(struct layer_solver *s, size_t n, int i)
 {
     if (!s->vectors[i])
-        s->vectors[i] = NEW(double, n);
+        s->vectors[i] = NEW_IN(s, double, n);
     return s->vectors[i];
 }
 

@@ -29,7 +29,6 @@ void layer_solver_multiply(const double *transposed, int nodes, int rows, const 
                            double *restrict y);
 /* The solver of a layer over water of `depth', m; owned by the layer. */
 struct layer_solver *layer_solver_create(const struct sigma_layer *l, double depth);
-void layer_solver_free(struct layer_solver **s);
 /* From y the potential P^-1 y and its derivatives, as fields in slopes and level. P is the operator
  * of the flat surface. */
 void layer_solver_flat(struct sigma_layer *l, const double *y);

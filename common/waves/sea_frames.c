@@ -35,7 +35,7 @@ static void apply_gains(struct waves *w)
         q->a *= cabs(G);
         q->phase -= carg(G);
     }
-    sea_gains_free(&is);
+    FREE(is);
 }
 
 /* [component][2][WAVE_NODES]: cosh and sinh over sinh at the still level. exp(-2 k (z + h)) instead
@@ -167,7 +167,7 @@ static void make_tables(struct waves *w)
                   of->spread > 0.0 ? (int)ceil((of->window[1][1] - of->window[1][0]) / gap) + 5 : 1;
     for (int f = 0; f <= WAVE_FRAMES; f++) {
         struct wave_table *t = f < WAVE_FRAMES ? w->frames + f : &w->table;
-        *t = wave_table_create(n, rows, gap, sea_reach(of->depth, w->longest), of->order > 1);
+        *t = wave_table_create(w, n, rows, gap, sea_reach(of->depth, w->longest), of->order > 1);
         t->first = of->window[0][0] - 2.0 * gap;
         t->first_row = of->window[1][0] - 2.0 * gap;
         t->decay = t->reach < of->depth ? low->k : 0.0;
@@ -175,8 +175,8 @@ static void make_tables(struct waves *w)
         if (f < WAVE_FRAMES)
             w->frame[f] = -1000000 - f;
     }
-    w->profile = profiles_of(w);
-    w->turning = NEW(double complex, (size_t)w->ncomponents * 2);
+    w->profile = mem_own(w, profiles_of(w));
+    w->turning = NEW_IN(w, double complex, (size_t)w->ncomponents * 2);
 }
 
 /* A group keeps the mean that it has below it: there is still water before and after it. */
@@ -185,8 +185,8 @@ static void make_second(struct waves *w)
     double nodes[WAVE_NODES];
     for (int j = 0; j < WAVE_NODES; j++)
         nodes[j] = wave_table_height(&w->table, 0, j);
-    w->second = second_order_create(w->ncomponents, w->components, w->of.g, w->of.depth, nodes,
-                                    w->of.kind == WAVE_FOCUSED);
+    w->second = mem_own(w, second_order_create(w->ncomponents, w->components, w->of.g, w->of.depth,
+                                               nodes, w->of.kind == WAVE_FOCUSED));
     w->transport = w->of.kind == WAVE_SEA ? transport_of(w) : 0.0;
     w->current = w->of.closed ? -w->transport / w->of.depth : 0.0;
 }
@@ -200,13 +200,15 @@ static void make_field(struct waves *w)
         of->window[0][k] -= of->at[0];
     w->field = read ? wave_field_of_file(of, w->length, &w->components, &w->ncomponents)
                     : wave_field_create(of, w->period, w->length, &w->components, &w->ncomponents);
+    mem_own(w, w->field);
+    mem_own(w, w->components);
     w->longest = 2.0 * M_PI / w->components[0].k;
     w->shortest = 2.0 * M_PI / w->components[w->ncomponents - 1].k;
     w->dt = w->field->of->of.dt;
-    w->filter = wave_field_filter(w->field, of, w->components, w->ncomponents);
-    w->table = wave_field_table(w->field, of, w->longest);
+    w->filter = mem_own(w, wave_field_filter(w->field, of, w->components, w->ncomponents));
+    w->table = wave_field_table(w, w->field, of, w->longest);
     for (int f = 0; f < WAVE_FRAMES; f++) {
-        w->frames[f] = wave_field_table(w->field, of, w->longest);
+        w->frames[f] = wave_field_table(w, w->field, of, w->longest);
         w->frame[f] = -1000000 - f;
     }
     w->transport = of->kind != WAVE_FOCUSED ? transport_of(w) : 0.0;
@@ -260,7 +262,7 @@ void sea_make(struct waves *w)
     if (of->evolve != EVOLVE_NO || of->kind == WAVE_FILE)
         make_field(w);
     else {
-        w->components = sea_components(of, w->period, &w->ncomponents);
+        w->components = mem_own(w, sea_components(of, w->period, &w->ncomponents));
         make_tables(w);
         if (of->order > 1)
             make_second(w);

@@ -71,12 +71,6 @@ struct sea_gains *sea_gains_create(const struct wave_spec *of, double low, doubl
     return is;
 }
 
-void sea_gains_free(struct sea_gains **is)
-{
-    mem_free(*is);
-    *is = NULL;
-}
-
 /* Linear between frequencies and between cosines; below the least nothing is to be made up for. */
 double complex sea_gains_at(const struct sea_gains *is, double omega, double cosine)
 {

@@ -17,9 +17,8 @@ double _Complex sea_gain_open(const struct wave_spec *of, double k, double _Comp
 
 struct sea_gains;
 
-/* A table for angular frequencies from low to high, rad/s; owned by the caller (sea_gains_free). */
+/* A table for angular frequencies from low to high, rad/s; owned by the caller (FREE). */
 struct sea_gains *sea_gains_create(const struct wave_spec *of, double low, double high);
-void sea_gains_free(struct sea_gains **is);
 /* Factor of velocities ~ e^(i omega t) of waves whose direction has this cosine with the side's
  * normal. */
 double _Complex sea_gains_at(const struct sea_gains *is, double omega, double cosine);

@@ -163,14 +163,14 @@ struct second_order *second_order_create(int n, const struct wave_component *of,
     s->ncomponents = n;
     s->n = n < FREQUENCIES ? n : FREQUENCIES;
     s->npairs = s->n * (s->n + 1) / 2;
-    s->of = NEW(struct wave_component, n);
+    s->of = NEW_IN(s, struct wave_component, n);
     memcpy(s->of, of, (size_t)n * sizeof *of);
-    s->shares = NEW(struct share, n);
-    s->w = NEW(double, s->n);
-    s->kernels = NEW(struct kernel, s->npairs);
-    s->e = NEW(double complex, n);
-    s->step = NEW(double complex, n);
-    s->E = mem_new((size_t)s->n, sizeof *s->E);
+    s->shares = NEW_IN(s, struct share, n);
+    s->w = NEW_IN(s, double, s->n);
+    s->kernels = NEW_IN(s, struct kernel, s->npairs);
+    s->e = NEW_IN(s, double complex, n);
+    s->step = NEW_IN(s, double complex, n);
+    s->E = mem_new_in(s, (size_t)s->n, sizeof *s->E);
     for (int j = 0; j < LEVELS; j++) {
         const double at = (double)j / (LEVELS - 1); /* nodes close up towards the surface */
         level[j] = nodes[WAVE_NODES - 1] * at * at;
@@ -182,14 +182,6 @@ struct second_order *second_order_create(int n, const struct wave_component *of,
     if (!mean)
         find_mean(s);
     return s;
-}
-
-void second_order_free(struct second_order **s)
-{
-    if (!*s)
-        return;
-    FREE((*s)->of, (*s)->shares, (*s)->w, (*s)->kernels, (*s)->e, (*s)->step, (*s)->E, *s);
-    *s = NULL;
 }
 
 int second_order_frequencies(const struct second_order *s) { return s->n; }

@@ -37,7 +37,6 @@ struct second_order;
  * the caller. */
 struct second_order *second_order_create(int n, const struct wave_component *of, double g,
                                          double depth, const double *nodes, bool mean);
-void second_order_free(struct second_order **s);
 /* Adds to the levels eta[n], m, and to the velocities u[n][WAVE_NODES][2] (along, up), m/s, of n
  * columns that stand gap, m, apart from x, m, on, at time t, s. */
 void second_order_add(struct second_order *s, double t, double x, double gap, int n, double *eta,

@@ -128,9 +128,17 @@ static bool read_header(struct swd *s)
     return true;
 }
 
+static void close_file(void *p)
+{
+    const struct swd *s = p;
+    if (s->f)
+        fclose(s->f);
+}
+
 struct swd *swd_open(const char *path, char *error, size_t size)
 {
     struct swd *s = NEW(struct swd, 1);
+    mem_at_free(s, close_file);
     snprintf(s->path, sizeof s->path, "%s", path);
     s->error = error;
     s->size = size;
@@ -138,21 +146,11 @@ struct swd *swd_open(const char *path, char *error, size_t size)
     if (!s->f)
         snprintf(error, size, "%s cannot be read", path);
     if (!s->f || !read_header(s)) {
-        swd_close(&s);
+        mem_free(s);
         return NULL;
     }
-    s->values = NEW(float, block_of(s) / 4);
+    s->values = NEW_IN(s, float, block_of(s) / 4);
     return s;
-}
-
-void swd_close(struct swd **s)
-{
-    if (!*s)
-        return;
-    if ((*s)->f)
-        fclose((*s)->f);
-    FREE((*s)->values, *s);
-    *s = NULL;
 }
 
 struct swd_header swd_header_of(const struct swd *s) { return s->of; }

@@ -21,8 +21,6 @@ struct swd_header {
 /* Opens and checks a file. NULL: it cannot be read; error[size] says why, with the byte at fault.
  * Owned by the caller. Local to a rank. */
 struct swd *swd_open(const char *path, char *error, size_t size);
-/* Closes the file and sets *s to NULL. */
-void swd_close(struct swd **s);
 struct swd_header swd_header_of(const struct swd *s);
 /* Reads the amplitudes h, m, and c, m^2/s, of one time, [n + 1][2] (real, imaginary). */
 void swd_read(struct swd *s, int step, double *h, double *c);

@@ -52,7 +52,7 @@ static void make_raise(struct wave_field *f)
 {
     const int n = f->of->layer->nodes;
     const double *sigma = f->of->layer->sigma;
-    f->raise = NEW(double, f->upper *n);
+    f->raise = NEW_IN(f, double, f->upper *n);
     for (int i = 0; i < f->upper; i++) {
         const double s = -(double)i / (f->upper - 1);
         double sum = 0.0, *row = f->raise + i * n;
@@ -76,7 +76,7 @@ static void make_lower(struct wave_field *f, const struct wave_table *t)
     const int n = WAVE_NODES - f->upper;
     const double h = f->of->of.depth, a = f->of->of.height;
     for (int b = 0; b < 2; b++)
-        f->lower[b] = NEW(double, g->cells *n);
+        f->lower[b] = NEW_IN(f, double, g->cells *n);
     for (int m = 0; m < g->cells; m++)
         for (int i = 0; i < n; i++) {
             const double k = g->size[m], z = wave_table_height(t, 0, f->upper + i),
@@ -89,8 +89,8 @@ static void make_lower(struct wave_field *f, const struct wave_table *t)
 
 /* Columns stand on the fine grid's points, so that a frame needs no interpolation; still = 0 where
  * the layer reaches as deep as the table: then all nodes move. */
-struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,
-                                   double longest)
+struct wave_table wave_field_table(void *owner, const struct wave_field *f,
+                                   const struct wave_spec *of, double longest)
 {
     const double gap = f->fine->length[0] / f->fine->n[0], still = f->of->of.height;
     int first[2], n[2];
@@ -98,7 +98,7 @@ struct wave_table wave_field_table(const struct wave_field *f, const struct wave
         first[a] = (int)floor(of->window[a][0] / gap) - 2;
         n[a] = (int)ceil(of->window[a][1] / gap) + 3 - first[a];
     }
-    struct wave_table t = wave_table_create(n[0], f->fine->n[1] > 1 ? n[1] : 1, gap,
+    struct wave_table t = wave_table_create(owner, n[0], f->fine->n[1] > 1 ? n[1] : 1, gap,
                                             fmax(sea_reach(of->depth, longest), still), false);
     t.still = still < t.reach ? still : 0.0;
     t.first = first[0] * gap;
@@ -116,22 +116,23 @@ static void finish(struct wave_field *f, const struct wave_spec *of,
     const double longest = 2.0 * M_PI / components[0].k, still = f->of->of.height;
     f->components = components;
     f->n = n;
-    f->fine = wave_grid_create((int[2]){plane ? g->n[0] : 2 * g->n[0], g->n[1]}, g->length);
-    f->start = NEW(double, g->cells * 2);
+    f->fine =
+        mem_own(f, wave_grid_create((int[2]){plane ? g->n[0] : 2 * g->n[0], g->n[1]}, g->length));
+    f->start = NEW_IN(f, double, g->cells * 2);
     struct wave_table t =
-        wave_table_create(4, 1, 1.0, fmax(sea_reach(of->depth, longest), still), false);
+        wave_table_create(NULL, 4, 1, 1.0, fmax(sea_reach(of->depth, longest), still), false);
     t.still = still < t.reach ? still : 0.0;
     f->upper = t.still > 0.0 ? WAVE_UPPER : WAVE_NODES;
     make_raise(f);
     make_lower(f, &t);
-    wave_table_free(&t);
+    FREE(t.eta, t.u);
     const size_t size = (size_t)f->fine->cells * 2 * (WAVE_NODES + 1);
-    f->z = NEW(double, (size_t)g->cells * 2 * (WAVE_NODES + 1));
-    f->padded = NEW(double, size);
-    f->work = NEW(double, size);
+    f->z = NEW_IN(f, double, (size_t)g->cells * 2 * (WAVE_NODES + 1));
+    f->padded = NEW_IN(f, double, size);
+    f->work = NEW_IN(f, double, size);
     for (int i = 0; i < WAVE_FIELD_KEPT; i++) {
         f->kept[i] = -1;
-        f->states[i] = NEW(double, g->cells * 2);
+        f->states[i] = NEW_IN(f, double, g->cells * 2);
     }
 }
 
@@ -153,7 +154,7 @@ struct wave_field *wave_field_create(const struct wave_spec *of, double period, 
                                         .order = of->evolve != EVOLVE_HOS ? 0
                                                  : k * a > 0.2            ? STEEP_ORDER
                                                                           : LINE_ORDER};
-    f->of = evolution_create(&spec, g);
+    f->of = mem_own(f, evolution_create(&spec, g));
     f->t0 = -LEAD * period;
     *components = wave_field_components(of, period, g, undamped * spec.highest, n);
     finish(f, of, *components, *n);
@@ -167,7 +168,7 @@ struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
 {
     struct wave_field *f = NEW(struct wave_field, 1);
     char error[600];
-    f->file = swd_open(of->file, error, sizeof error);
+    f->file = mem_own(f, swd_open(of->file, error, sizeof error));
     if (!f->file)
         abort_run("%s", error);
     const struct swd_header is = swd_header_of(f->file);
@@ -178,27 +179,12 @@ struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
                                         .highest = is.dk * (is.n + 0.5),
                                         .height = layer_height(k, 1.4 * of->height, of->depth),
                                         .nodes = FILE_NODES};
-    f->of = evolution_create(&spec, wave_grid_create((int[2]){fft_size(3 * is.n), 1}, line));
-    f->modes = NEW(double, 4 * (is.n + 1));
+    f->of = mem_own(
+        f, evolution_create(&spec, wave_grid_create((int[2]){fft_size(3 * is.n), 1}, line)));
+    f->modes = NEW_IN(f, double, 4 * (is.n + 1));
     *components = wave_file_components(f->file, of->g, of->depth, n);
     finish(f, of, *components, *n);
     return f;
-}
-
-void wave_field_free(struct wave_field **f)
-{
-    if (!*f)
-        return;
-    evolution_free(&(*f)->of);
-    swd_close(&(*f)->file);
-    mem_free((*f)->modes);
-    wave_grid_free(&(*f)->fine);
-    FREE((*f)->raise, (*f)->lower[0], (*f)->lower[1], (*f)->start, (*f)->z, (*f)->padded,
-         (*f)->work);
-    for (int i = 0; i < WAVE_FIELD_KEPT; i++)
-        mem_free((*f)->states[i]);
-    mem_free(*f);
-    *f = NULL;
 }
 
 /* Below the components' frequencies what is bound to them needs nothing; above, as at the highest.
@@ -221,7 +207,7 @@ double complex *wave_field_filter(const struct wave_field *f, const struct wave_
         const double complex is = w < low ? 1.0 : sea_gains_at(gains, fmin(w, high), cosine);
         filter[m] = way > 0.0 ? conj(is) : is; /* e^(i(kx - wt)) of k > 0, its conjugate of k < 0 */
     }
-    sea_gains_free(&gains);
+    FREE(gains);
     return filter;
 }
 

@@ -43,11 +43,9 @@ struct wave_field *wave_field_create(const struct wave_spec *of, double period, 
 /* One whose frames are the times of the file of->file, which wave_file_probe found sound. */
 struct wave_field *wave_field_of_file(const struct wave_spec *of, double length,
                                       struct wave_component **components, int *n);
-/* Frees the field and what it owns and sets *f to NULL; *f may be NULL. */
-void wave_field_free(struct wave_field **f);
 /* An empty table that covers of->window; longest: length of the longest waves, m. */
-struct wave_table wave_field_table(const struct wave_field *f, const struct wave_spec *of,
-                                   double longest);
+struct wave_table wave_field_table(void *owner, const struct wave_field *f,
+                                   const struct wave_spec *of, double longest);
 /* Factors of the velocities that correct for the zone, [modes]; NULL: there is no zone. Owned by
  * the caller (mem_free). */
 double _Complex *wave_field_filter(const struct wave_field *f, const struct wave_spec *of,

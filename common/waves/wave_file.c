@@ -60,7 +60,7 @@ bool wave_file_probe(const char *path, double depth, double t0, double t1, doubl
     const struct swd_header is = swd_header_of(s);
     const double end = (is.nsteps - 3) * is.dt;
     measure(s, height, length);
-    swd_close(&s);
+    FREE(s);
     const bool deep = isinf(is.depth);
     const double wanted = deep ? 0.5 * *length : is.depth;
     if (!(*height > 0.0))

@@ -16,16 +16,16 @@ struct wave_grid *wave_grid_create(const int n[2], const double length[2])
     for (int a = 0; a < 2; a++) {
         g->n[a] = n[a];
         g->length[a] = length[a];
-        g->of[a] = fft_create(n[a]);
-        g->k[a] = NEW(double, n[a]);
+        g->of[a] = mem_own(g, fft_create(n[a]));
+        g->k[a] = NEW_IN(g, double, n[a]);
         all[a] = NEW(double, n[a]);
         for (int j = 0; j < n[a]; j++) {
             all[a][j] = n[a] > 1 ? 2.0 * M_PI / length[a] * (2 * j > n[a] ? j - n[a] : j) : 0.0;
             g->k[a][j] = 2 * j == n[a] ? 0.0 : all[a][j];
         }
     }
-    g->size = NEW(double, g->cells);
-    g->mirror = NEW(int, g->cells);
+    g->size = NEW_IN(g, double, g->cells);
+    g->mirror = NEW_IN(g, int, g->cells);
     for (int j = 0; j < n[1]; j++)
         for (int i = 0; i < n[0]; i++) {
             g->size[j * n[0] + i] = hypot(all[0][i], all[1][j]);
@@ -33,18 +33,6 @@ struct wave_grid *wave_grid_create(const int n[2], const double length[2])
         }
     FREE(all[0], all[1]);
     return g;
-}
-
-void wave_grid_free(struct wave_grid **g)
-{
-    if (!*g)
-        return;
-    for (int a = 0; a < 2; a++) {
-        fft_free(&(*g)->of[a]);
-        mem_free((*g)->k[a]);
-    }
-    FREE((*g)->size, (*g)->mirror, *g);
-    *g = NULL;
 }
 
 static void transform(const struct wave_grid *g, int sign, int batch, double *z, double *work)

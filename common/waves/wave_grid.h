@@ -21,7 +21,6 @@ struct wave_grid {
 /* n: numbers of points, values of fft_size, n[1] = 1 for a line; length in m. Owned by the
  * caller. */
 struct wave_grid *wave_grid_create(const int n[2], const double length[2]);
-void wave_grid_free(struct wave_grid **g);
 /* Transforms fields to modes, divided by the number of cells, and back, in place; work: as large as
  * z. */
 void wave_grid_to_modes(const struct wave_grid *g, int batch, double *z, double *work);

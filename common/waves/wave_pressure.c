@@ -12,7 +12,7 @@ void waves_need_pressure(struct waves *w)
         return;
     require(w->table.flat && w->table.parts == 2);
     const struct wave_table *of = &w->table;
-    w->rise = wave_table_create(of->n, of->rows, of->gap, of->reach, of->slope != NULL);
+    w->rise = wave_table_create(w, of->n, of->rows, of->gap, of->reach, of->slope != NULL);
     w->rise.flat = true;
     w->rise.first = of->first;
     w->rise.first_row = of->first_row;

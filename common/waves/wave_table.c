@@ -9,7 +9,8 @@
 
 #include "../base/base.h"
 
-struct wave_table wave_table_create(int n, int rows, double gap, double reach, bool slope)
+struct wave_table wave_table_create(void *owner, int n, int rows, double gap, double reach,
+                                    bool slope)
 {
     const int parts = rows > 1 ? 3 : 2;
     const size_t columns = (size_t)n * (size_t)rows;
@@ -18,15 +19,9 @@ struct wave_table wave_table_create(int n, int rows, double gap, double reach, b
                                .parts = parts,
                                .gap = gap,
                                .reach = reach,
-                               .eta = NEW(double, columns),
-                               .u = NEW(double, columns *WAVE_NODES *(size_t)parts),
-                               .slope = slope ? NEW(double, columns * 2) : NULL};
-}
-
-void wave_table_free(struct wave_table *t)
-{
-    FREE(t->eta, t->u, t->slope);
-    *t = (struct wave_table){.n = 0};
+                               .eta = NEW_IN(owner, double, columns),
+                               .u = NEW_IN(owner, double, columns *WAVE_NODES *(size_t)parts),
+                               .slope = slope ? NEW_IN(owner, double, columns * 2) : NULL};
 }
 
 /* From 0 on the surface to -1. */

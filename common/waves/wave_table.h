@@ -32,10 +32,10 @@ struct wave_table {
 /* Weights of four equidistant values for the position s = 0 .. 1 between the second and the
  * third. */
 void wave_table_cubic(double s, double weight[4]);
-/* n >= 4 columns, one row or rows >= 4, all values 0; slope: with the array slope. Freed by
- * wave_table_free. */
-struct wave_table wave_table_create(int n, int rows, double gap, double reach, bool slope);
-void wave_table_free(struct wave_table *t);
+/* n >= 4 columns, one row or rows >= 4, all values 0; slope: with the array slope. The
+ * arrays belong to the block `owner', which may be NULL. */
+struct wave_table wave_table_create(void *owner, int n, int rows, double gap, double reach,
+                                    bool slope);
 /* Height z of a node of a column, m; uses the column's eta. */
 double wave_table_height(const struct wave_table *t, int column, int node);
 /* to = sum weight[k] of[k] of tables of the same shape. */

@@ -248,8 +248,8 @@ static void make_regular(struct waves *w)
     w->period = w->length / w->celerity;
     w->crest = s->crest;
     w->trough = s->trough;
-    w->table =
-        wave_table_create(COLUMNS, 1, w->length / COLUMNS, sea_reach(of->depth, w->length), false);
+    w->table = wave_table_create(w, COLUMNS, 1, w->length / COLUMNS,
+                                 sea_reach(of->depth, w->length), false);
     w->table.periodic = true;
     w->table.decay = w->table.reach < of->depth ? s->k : 0.0;
     for (int i = 0; i < COLUMNS; i++) {
@@ -280,27 +280,11 @@ struct waves *waves_create(const struct wave_spec *of)
     return w;
 }
 
-void waves_free(struct waves **w)
-{
-    if (!*w)
-        return;
-    wave_table_free(&(*w)->table);
-    wave_table_free(&(*w)->rise);
-    for (int f = 0; f < WAVE_FRAMES; f++)
-        wave_table_free(&(*w)->frames[f]);
-    FREE((*w)->components, (*w)->profile, (*w)->turning, (*w)->filter);
-    if (!(*w)->shares)
-        wave_field_free(&(*w)->field);
-    second_order_free(&(*w)->second);
-    mem_free(*w);
-    *w = NULL;
-}
-
 void waves_share(struct waves *w, const struct waves *owner)
 {
     if (!w->field || w->shares)
         return;
-    wave_field_free(&w->field);
+    DROP(w->field);
     w->field = owner->field;
     w->shares = true;
 }

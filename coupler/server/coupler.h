@@ -207,7 +207,6 @@ void checkpoint_saved(struct coupler *c, struct solver *s, struct message *m);
 void sums_window(struct coupler *c);
 /* The same at the end of the job. */
 void sums_summarise(const struct coupler *c, struct summary *to);
-void sums_free(struct coupler *c);
 
 /* report.c: progress lines and the summary of the job. Takes the keys and values in a message. */
 void report_told(struct wire *w, struct message *m, struct told *t);

@@ -338,6 +338,6 @@ int report_summary(struct coupler *c, double coupler_cpu)
         }
     snprintf(path, sizeof path, "%s/summary.json", c->dir);
     summary_write(s, path);
-    summary_free(&s);
+    FREE(s);
     return code;
 }

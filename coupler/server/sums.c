@@ -54,13 +54,13 @@ void sums_window(struct coupler *c)
         char path[1100];
         snprintf(path, sizeof path, "%s/series.csv", c->dir);
         s = c->sums = NEW(struct server_sums, 1);
-        s->file = series_create(path, 1 + n, columns, c->command->restart,
-                                window_start(c, c->window - 1));
+        s->file = mem_own(s, series_create(path, 1 + n, columns, c->command->restart,
+                                           window_start(c, c->window - 1)));
     }
     memcpy(s->now, row + 1, sizeof s->now);
     series_row(s->file, row);
     if (c->scene.initial.field == FIELD_STANDING_WAVE) /* its history is for a fit at the end */
-        fit_add(&s->fit, t, s->now[SIGNAL]);
+        fit_add(s, &s->fit, t, s->now[SIGNAL]);
 }
 
 /* For a standing wave over both programs: period and damping from the signal's history, enstrophy
@@ -78,14 +78,4 @@ void sums_summarise(const struct coupler *c, struct summary *to)
     summary_real(
         to, "error.enstrophy",
         fabs(enstrophy / exact_enstrophy(&e, d->min, d->max, window_start(c, c->window)) - 1.0));
-}
-
-void sums_free(struct coupler *c)
-{
-    if (!c->sums)
-        return;
-    series_free(&c->sums->file);
-    fit_free(&c->sums->fit);
-    mem_free(c->sums);
-    c->sums = NULL;
 }

@@ -110,7 +110,7 @@ static struct outflow *list_places(struct fv *s, struct bc *bc, int k, struct ou
 {
     const struct block *b = &s->b;
     struct bc_side d = side_of(bc, b, k, true);
-    struct outflow *o = carried_add(list, count, b->dim, k, d.a, d.in, bc->n[k], bc->n[k]);
+    struct outflow *o = carried_add(s, list, count, b->dim, k, d.a, d.in, bc->n[k], bc->n[k]);
     const bool inflow = bc->kind[k] == MESH_CARRIED && bc->wall[k]->kind == WALL_INFLOW;
     for (int m = 0; m < 2 && inflow; m++) { /* held ones set ghosts of phi, too */
         d.lo[m] = -b->g[d.t[m]];
@@ -165,8 +165,8 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
     const struct bc_side d = side_of(bc, b, k, true), inner = side_of(bc, b, k, false);
     bc->n[k] = (int64_t)d.width * (b->n[d.t[1]] + 2 * b->g[d.t[1]]);
     for (int q = 0; q < b->dim; q++) {
-        bc->w[k][q] = NEW(double, bc->n[k]);
-        bc->slip[k][q] = NEW(double, bc->n[k]);
+        bc->w[k][q] = NEW_IN(bc, double, bc->n[k]);
+        bc->slip[k][q] = NEW_IN(bc, double, bc->n[k]);
         for (int j = -b->g[d.t[1]]; j < b->n[d.t[1]] + b->g[d.t[1]]; j++)
             for (int i = -b->g[d.t[0]]; i < b->n[d.t[0]] + b->g[d.t[0]]; i++)
                 bc->w[k][q][place(b, &d, i, j)] = wall->velocity[q] * profile_at(s, wall, &d, i, j);
@@ -218,18 +218,6 @@ struct bc *bc_create(struct fv *s)
     if (s->outflows)
         s->outflows->given = bc->outflux;
     return bc;
-}
-
-void bc_free(struct bc **bp)
-{
-    struct bc *bc = *bp;
-    if (!bc)
-        return;
-    for (int k = 0; k < 6; k++)
-        for (int q = 0; q < 3; q++)
-            FREE(bc->w[k][q], bc->slip[k][q]);
-    mem_free(bc);
-    *bp = NULL;
 }
 
 enum mesh_side bc_behind(const struct fv *s, const int *at, int a)

@@ -46,10 +46,8 @@ enum bc_value {
     BC_AHEAD   /* of one that is still to be projected: what that takes off is added */
 };
 
-/* The sides of the case; NULL if no side has a kind. Owned by the caller (bc_free). */
+/* The sides of the case; NULL if no side has a kind. Owned by the caller (FREE). */
 struct bc *bc_create(struct fv *s);
-/* Frees them and sets *b to NULL; *b may be NULL. */
-void bc_free(struct bc **b);
 /* Kind of side k: where it has none MESH_PERIODIC or MESH_EXACT. */
 enum mesh_side bc_kind(const struct fv *s, int k);
 /* Kind of the side behind which the local cell `at' lies along axis a; MESH_NONE if it is

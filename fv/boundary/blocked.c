@@ -55,7 +55,7 @@ static void mark(const struct fv *s, struct blocked *w)
     const int n = s->prm.nboxes;
     for (int k = 0; k < n; k++)
         blocked_cells(&s->run->scene.domain, &s->prm, k, cells[k][0], cells[k][1]);
-    w->box = NEW(unsigned char, b->size);
+    w->box = NEW_IN(w, unsigned char, b->size);
     for (int64_t c = 0; c < b->size; c++) {
         int at[3];
         block_place(b, c, at);
@@ -80,7 +80,7 @@ static int count_free(const struct blocked *w, int64_t c, int64_t d, int most, i
  * and products of all own cells find theirs. */
 static void list_near(const struct block *b, struct blocked *w, int a)
 {
-    w->near[a] = NEW(struct near_box, b->size);
+    w->near[a] = NEW_IN(w, struct near_box, b->size);
     for (int k = b->g[2] ? -1 : 0; k < b->n[2] + (b->g[2] ? 1 : 0); k++)
         for (int j = -1; j < b->n[1] + 1; j++)
             for (int i = -1; i < b->n[0] + 1; i++) {
@@ -97,14 +97,14 @@ static void list_near(const struct block *b, struct blocked *w, int a)
                 if (x.free[0] < 3 || x.free[1] < 3)
                     w->near[a][w->nnear[a]++] = x;
             }
-    w->slip[a] = mem_new((size_t)w->nnear[a] + 1, sizeof *w->slip[a]);
+    w->slip[a] = mem_new_in(w, (size_t)w->nnear[a] + 1, sizeof *w->slip[a]);
 }
 
 /* in points away from the box, or from the upper one of two. */
 static void list_beside(const struct block *b, struct blocked *w, int a, int t)
 {
     const int64_t d = b->stride[a], e = b->stride[t];
-    w->beside[a][t] = NEW(struct beside_box, b->size);
+    w->beside[a][t] = NEW_IN(w, struct beside_box, b->size);
     for (int k = 0; k < b->n[2] + (a == 2); k++)
         for (int j = 0; j < b->n[1] + (a == 1); j++)
             for (int i = 0; i < b->n[0] + (a == 0); i++) {
@@ -152,21 +152,6 @@ struct blocked *blocked_create(const struct fv *s)
                 list_beside(b, w, a, t);
     }
     return w;
-}
-
-void blocked_free(struct blocked **wp)
-{
-    struct blocked *w = *wp;
-    if (!w)
-        return;
-    mem_free(w->box);
-    for (int a = 0; a < 3; a++) {
-        FREE(w->near[a], w->slip[a]);
-        for (int t = 0; t < 3; t++)
-            mem_free(w->beside[a][t]);
-    }
-    mem_free(w);
-    *wp = NULL;
 }
 
 /* Three layers of ghosts follow the last own cell. */

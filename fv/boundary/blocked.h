@@ -55,10 +55,8 @@ struct blocked {
  * nearest faces of cells. */
 void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int k, int lo[3],
                    int hi[3]);
-/* NULL if the case has no boxes. Freed by blocked_free. */
+/* NULL if the case has no boxes. Owned by the caller. */
 struct blocked *blocked_create(const struct fv *s);
-/* Frees the boxes and sets *w to NULL; *w may be NULL. */
-void blocked_free(struct blocked **w);
 
 /* A free cell of this rank as list near has it, along the axis a: near a box or not. */
 struct near_box blocked_near(const struct fv *s, int64_t c, int a);

@@ -34,58 +34,34 @@ void carried_create(struct fv *s)
     }
     if (!any)
         return;
-    s->outflows = NEW(struct outflows, 1);
+    s->outflows = NEW_IN(s, struct outflows, 1);
     s->outflows->convects = convects;
     s->outflows->steady = steady;
     for (int q = 0; q < s->dim; q++)
-        s->outflows->kept[q] = NEW(double, s->size);
+        s->outflows->kept[q] = NEW_IN(s->outflows, double, s->size);
 }
 
 /* Everything is under water (share, wet 1) until a surface says otherwise. */
-struct outflow *carried_add(struct outflow **list, int *count, int dim, int side, int a, int64_t in,
-                            int64_t n, int64_t values)
+struct outflow *carried_add(void *owner, struct outflow **list, int *count, int dim, int side,
+                            int a, int64_t in, int64_t n, int64_t values)
 {
-    GROW(*list, *count, *count + 1);
+    GROW_IN(owner, *list, *count, *count + 1);
     struct outflow *o = *list + (*count)++;
     *o = (struct outflow){.side = side, .a = a, .in = in, .face = in < 0 ? -in : 0};
-    o->place = NEW(int64_t, n);
-    o->cell = NEW(int64_t, n);
-    o->own = NEW(bool, n);
-    o->share = NEW(double, n);
-    o->wet = NEW(double, n);
+    o->place = NEW_IN(owner, int64_t, n);
+    o->cell = NEW_IN(owner, int64_t, n);
+    o->own = NEW_IN(owner, bool, n);
+    o->share = NEW_IN(owner, double, n);
+    o->wet = NEW_IN(owner, double, n);
     for (int64_t i = 0; i < n; i++)
         o->share[i] = o->wet[i] = 1.0;
-    o->h = NEW(double, n);
+    o->h = NEW_IN(owner, double, n);
     for (int q = 0; q < dim; q++) {
-        o->S[q] = NEW(double, n);
-        o->line[q] = NEW(double, 3 * n);
-        o->change[q] = NEW(double, values);
+        o->S[q] = NEW_IN(owner, double, n);
+        o->line[q] = NEW_IN(owner, double, 3 * n);
+        o->change[q] = NEW_IN(owner, double, values);
     }
     return o;
-}
-
-/* The w of the sides are theirs and stay. */
-void carried_free_list(struct outflow **list, int n)
-{
-    for (int k = 0; k < n; k++) {
-        struct outflow *o = *list + k;
-        FREE(o->place, o->cell, o->own, o->share, o->wet, o->h, o->level, o->stood, o->full);
-        for (int q = 0; q < 3; q++)
-            FREE(o->S[q], o->line[q], o->change[q], o->given[q]);
-    }
-    mem_free(*list);
-    *list = NULL;
-}
-
-void carried_free(struct outflows **all)
-{
-    if (!*all)
-        return;
-    carried_free_list(&(*all)->of, (*all)->n);
-    for (int q = 0; q < 3; q++)
-        mem_free((*all)->kept[q]);
-    mem_free(*all);
-    *all = NULL;
 }
 
 double carried_flux(const struct outflow *o, int dim, int64_t i)

@@ -91,10 +91,8 @@ static inline double carried_held(const struct fv *s, int64_t c, int64_t in)
 void carried_create(struct fv *s);
 /* Adds an opening with room for n cells, none filled, to *list; a: the axis across it, in: offset
  * inwards, values: entries of w. */
-struct outflow *carried_add(struct outflow **list, int *count, int dim, int side, int a, int64_t in,
-                            int64_t n, int64_t values);
-void carried_free(struct outflows **o);
-void carried_free_list(struct outflow **list, int n);
+struct outflow *carried_add(void *owner, struct outflow **list, int *count, int dim, int side,
+                            int a, int64_t in, int64_t n, int64_t values);
 /* Flow outwards through face i of an opening, m^dim/s, and the size of the face, m^(dim-1). */
 double carried_flux(const struct outflow *o, int dim, int64_t i);
 double carried_area(const struct outflow *o, int64_t i);

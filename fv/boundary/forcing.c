@@ -146,7 +146,7 @@ static void mark_known(const struct fv *s, struct forcing *f)
     for (int64_t i = 0; i < f->npartner + f->nrim; i++)
         field[f->partner[i]] = 1.0;
     grid_halo(&s->grid, 1, fields);
-    f->known = NEW(bool, s->size);
+    f->known = NEW_IN(f, bool, s->size);
     for (int64_t c = 0; c < s->size; c++)
         f->known[c] = field[c] == 1.0;
     mem_free(field);
@@ -161,10 +161,10 @@ static void list_partner(const struct fv *s, struct forcing *f)
                 f->partner[f->npartner + f->nrim++] = c;
     mark_known(s, f);
     for (int a = 0; a < f->dim; a++) {
-        f->v[a] = NEW(double, f->npartner + f->nrim);
-        f->v_next[a] = NEW(double, f->npartner + f->nrim);
-        f->v_old[a] = NEW(double, f->npartner + f->nrim);
-        f->given[a] = new_field(s);
+        f->v[a] = NEW_IN(f, double, f->npartner + f->nrim);
+        f->v_next[a] = NEW_IN(f, double, f->npartner + f->nrim);
+        f->v_old[a] = NEW_IN(f, double, f->npartner + f->nrim);
+        f->given[a] = mem_own(f, new_field(s));
     }
 }
 
@@ -173,9 +173,9 @@ static void list_partner(const struct fv *s, struct forcing *f)
 static void list_cells(const struct fv *s, struct forcing *f)
 {
     int at[3];
-    f->local = NEW(int64_t, s->size);
-    f->set = NEW(int64_t, s->size);
-    f->partner = NEW(int64_t, s->size);
+    f->local = NEW_IN(f, int64_t, s->size);
+    f->set = NEW_IN(f, int64_t, s->size);
+    f->partner = NEW_IN(f, int64_t, s->size);
     ALL_CELLS (s, p, at, c) {
         if (!f->forced[c] || f->forced[c] == 4)
             continue;
@@ -217,10 +217,10 @@ static bool is_outline(const struct fv *s, struct forcing *f, const int *at, int
 static void list_faces(const struct fv *s, struct forcing *f, int a)
 {
     int at[3];
-    f->face[a] = NEW(int64_t, s->size);
-    f->sign[a] = NEW(signed char, s->size);
-    f->counts[a] = NEW(bool, s->size);
-    f->open[a] = s->m ? NULL : NEW(double, s->size);
+    f->face[a] = NEW_IN(f, int64_t, s->size);
+    f->sign[a] = NEW_IN(f, signed char, s->size);
+    f->counts[a] = NEW_IN(f, bool, s->size);
+    f->open[a] = s->m ? NULL : NEW_IN(f, double, s->size);
     ALL_CELLS (s, p, at, c) {
         const int64_t d = p->stride[a];
         if (at[a] == -p->g[a])
@@ -297,10 +297,10 @@ struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2]
     f->from_partner = partner;
     f->whole = partner && s->surface;
     f->near = NEAR + (partner && s->partners.past[0][0] ? AHEAD : 0);
-    f->forced = NEW(unsigned char, s->size);
-    f->layer = NEW(unsigned char, s->size);
+    f->forced = NEW_IN(f, unsigned char, s->size);
+    f->layer = NEW_IN(f, unsigned char, s->size);
     if (count_kind(s, f, n, box) == 0) {
-        forcing_free(&f);
+        FREE(f);
         return NULL;
     }
     find_layers(s, f);
@@ -311,25 +311,10 @@ struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2]
             forcing_list_fixes(s, f, a);
     }
     f->net = net_of(s, f);
-    f->parted = partner ? parted_create(s, f->forced) : NULL;
+    f->parted = partner ? mem_own(f, parted_create(s, f->forced)) : NULL;
     if (s->m)
         given_rows_create(s, f);
     return f;
-}
-
-void forcing_free(struct forcing **fp)
-{
-    struct forcing *f = *fp;
-    if (!f)
-        return;
-    FREE(f->forced, f->layer, f->local, f->set, f->partner, f->known);
-    given_rows_free(&f->gradient);
-    parted_free(&f->parted);
-    for (int a = 0; a < 3; a++)
-        FREE(f->fix[a], f->face[a], f->sign[a], f->counts[a], f->open[a], f->v[a], f->v_next[a],
-             f->v_old[a], f->given[a]);
-    mem_free(f);
-    *fp = NULL;
 }
 
 void forcing_zero(const struct forcing *f, double *q)

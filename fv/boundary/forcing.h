@@ -78,10 +78,8 @@ struct forcing {
 
 /* partner: the n boxes (lower, upper corner, m) are filled by partners, else by the exact solution;
  * cells all of whose corners lie inside one are imposed; lo >= hi: no box. NULL if nothing is
- * imposed. Freed by forcing_free. Collective. */
+ * imposed. Owned by the caller. Collective. */
 struct forcing *forcing_create(const struct fv *s, int n, const double (*box)[2][3], bool partner);
-/* Frees the lists and sets *f to NULL; *f may be NULL. */
-void forcing_free(struct forcing **f);
 /* Whether a cell of this rank is solved for; on blocks dry cells are not. */
 static inline bool forcing_is_free(const struct fv *s, int64_t c)
 {
@@ -126,7 +124,6 @@ void forcing_average(const struct fv *s, int64_t c, double t, double *v, double 
 
 /* given_cells.c, for blocks: finds the gradients that need one-sided stencils. */
 void given_rows_create(const struct fv *s, struct forcing *f);
-void given_rows_free(struct one_sided **g);
 /* Replaces the gradients of computed cells near imposed ones by those of q extrapolated along the
  * indices. */
 void given_gradient(const struct fv *s, enum continuation how, const double *q, double *const g[3]);

@@ -132,7 +132,7 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
                 continue;
             if (f->nfix[a] == room) {
                 room = 2 * room + 64;
-                GROW(f->fix[a], f->nfix[a], room);
+                GROW_IN(f, f->fix[a], f->nfix[a], room);
             }
             f->fix[a][f->nfix[a]++] = x;
         }

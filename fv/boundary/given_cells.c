@@ -174,8 +174,8 @@ static void add_cell(const struct mesh *m, const struct part *p, int64_t c, stru
             continue;
         if (n == *room) {
             *room = 2 * *room + 1024;
-            GROW(g->place, n, *room);
-            GROW(g->w, 6 * n, 6 * *room);
+            GROW_IN(g, g->place, n, *room);
+            GROW_IN(g, g->w, 6 * n, 6 * *room);
         }
         g->place[n] = c + step_to(p, at);
         for (int q = 0; q < 6; q++)
@@ -189,7 +189,7 @@ static void add_cell(const struct mesh *m, const struct part *p, int64_t c, stru
 /* Pass 0 counts. */
 void given_rows_create(const struct fv *s, struct forcing *f)
 {
-    struct one_sided *g = f->gradient = NEW(struct one_sided, 1);
+    struct one_sided *g = f->gradient = NEW_IN(f, struct one_sided, 1);
     int64_t room = 0, n = 0;
     for (int pass = 0; pass < 2; pass++) {
         FLOW_ROWS_AT (s, part, j, at, len)
@@ -201,19 +201,10 @@ void given_rows_create(const struct fv *s, struct forcing *f)
                 n += pass == 0;
             }
         if (pass == 0) {
-            g->cell = NEW(int64_t, n);
-            g->first = NEW(int64_t, n + 1);
+            g->cell = NEW_IN(g, int64_t, n);
+            g->first = NEW_IN(g, int64_t, n + 1);
         }
     }
-}
-
-void given_rows_free(struct one_sided **gp)
-{
-    struct one_sided *g = *gp;
-    if (!g)
-        return;
-    FREE(g->cell, g->first, g->place, g->w, g);
-    *gp = NULL;
 }
 
 /* Replaces, not adds. */

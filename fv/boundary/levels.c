@@ -30,16 +30,7 @@
 void levels_create(struct fv *s)
 {
     if (s->prm.integrator != INTEGRATOR_NEWTON)
-        s->levels = NEW(struct levels, 1);
-}
-
-void levels_free(struct levels **l)
-{
-    if (!*l)
-        return;
-    carried_free_list(&(*l)->of, (*l)->n);
-    FREE((*l)->p, *l);
-    *l = NULL;
+        s->levels = NEW_IN(s, struct levels, 1);
 }
 
 bool levels_set_any(const struct fv *s) { return s->levels && s->levels->p; }
@@ -117,7 +108,7 @@ void levels_start(struct fv *s)
     if (!l || !s->surface)
         return;
     if (!l->p)
-        l->p = NEW(double, s->size);
+        l->p = NEW_IN(l, double, s->size);
     for (int k = 0; k < LEVEL_GROUPS; k++)
         l->level[k] = s->gravity.level;
     for (int k = 0; k < s->run->scene.nwalls; k++) {

@@ -39,8 +39,6 @@ struct levels {
 
 /* Makes s->levels; before the sides are made, which list their cells. */
 void levels_create(struct fv *s);
-/* Frees it and sets *l to NULL; *l may be NULL. */
-void levels_free(struct levels **l);
 /* Whether any pressure is set. */
 bool levels_set_any(const struct fv *s);
 /* At the start of a run under a surface: sets the level outside of each group, from the case or

@@ -9,8 +9,6 @@
 
 /* mesh_sides.c: makes s->sides, the physical sides of this rank's parts of blocks. */
 void mesh_bc_create(struct fv *s);
-/* Frees them and sets *b to NULL; *b may be NULL. */
-void mesh_bc_free(struct mesh_bc **b);
 /* Sets the velocities of the sides to those of time t, s; those before are kept for BC_CHANGE. */
 void mesh_bc_time(struct fv *s, double t);
 /* At the start: what walls that move gain at once is what they have more than the water beside. */

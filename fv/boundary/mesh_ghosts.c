@@ -152,7 +152,7 @@ void mesh_bc_level(const struct fv *s, bool keep, double *phi)
     for (int k = 0; k < s->sides->n; k++) {
         struct side *d = s->sides->side + k;
         if (!d->tilt)
-            d->tilt = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+            d->tilt = NEW_IN(s->sides, double, d->width *(d->n[1] + 2 * d->g[1]));
         SIDE_PLACES (d, 1, i, j, at, c) {
             double *q = phi + c;
             if (!keep)

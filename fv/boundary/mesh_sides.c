@@ -97,7 +97,7 @@ static struct outflow *list_places(struct fv *s, const struct side *d, struct ou
     const struct mesh *m = s->m;
     const int64_t n = d->width * (d->n[1] + 2 * d->g[1]);
     struct outflow *o =
-        carried_add(list, count, m->dim, m->block[d->p->block].on[d->k], d->a, d->in, n, n);
+        carried_add(s, list, count, m->dim, m->block[d->p->block].on[d->k], d->a, d->in, n, n);
     SIDE_PLACES (d, 1, i, j, at, c) {
         const bool inside = i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1];
         double S2 = 0.0;
@@ -147,7 +147,7 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
         double **const all[] = {&d->w[c], &d->w_old[c], &d->slip[c], &d->grad_xi[0][c],
                                 &d->grad_xi[1][c]};
         for (int q = 0; q < 5; q++)
-            *all[q] = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+            *all[q] = NEW_IN(s->sides, double, d->width *(d->n[1] + 2 * d->g[1]));
     }
     turn_slopes(s, d);
     d->bends = bends(s, d);
@@ -209,8 +209,8 @@ static void find_beyond(struct mesh *m, struct mesh_bc *bc)
             continue;
         const int64_t around = d->width * (d->n[1] + 2 * d->g[1]) - (int64_t)d->n[0] * d->n[1];
         const size_t most = (size_t)(bc->nbeyond + around);
-        request = mem_grow(request, (size_t)bc->nbeyond, most, sizeof *request);
-        bc->beyond = mem_grow(bc->beyond, (size_t)bc->nbeyond, most, sizeof *bc->beyond);
+        GROW(request, bc->nbeyond, most);
+        GROW_IN(bc, bc->beyond, bc->nbeyond, most);
         SIDE_PLACES (d, 1, i, j, at, c) {
             one.in = c - d->in;
             if ((i >= 0 && i < d->n[0] && j >= 0 && j < d->n[1]) || !find_wall(m, d, i, j, &one))
@@ -219,7 +219,7 @@ static void find_beyond(struct mesh *m, struct mesh_bc *bc)
             request[bc->nbeyond++] = one;
         }
     }
-    mesh_exchange_create(m, &bc->walls, 1, bc->nbeyond, request);
+    mesh_exchange_create(bc, m, &bc->walls, 1, bc->nbeyond, request);
     mem_free(request);
 }
 
@@ -227,8 +227,8 @@ static void find_beyond(struct mesh *m, struct mesh_bc *bc)
 void mesh_bc_create(struct fv *s)
 {
     const struct mesh *m = s->m;
-    struct mesh_bc *bc = s->sides = NEW(struct mesh_bc, 1);
-    bc->side = NEW(struct side, 6 * m->nparts);
+    struct mesh_bc *bc = s->sides = NEW_IN(s, struct mesh_bc, 1);
+    bc->side = NEW_IN(bc, struct side, 6 * m->nparts);
     carried_create(s);
     levels_create(s);
     for (int k = 0; k < m->nblocks; k++)
@@ -248,23 +248,6 @@ void mesh_bc_create(struct fv *s)
     if (slip_anywhere)
         find_beyond(s->m, bc);
     mesh_bc_time(s, s->t);
-}
-
-void mesh_bc_free(struct mesh_bc **b)
-{
-    for (int k = 0; *b && k < (*b)->n; k++)
-        for (int c = 0; c < 3; c++) {
-            struct side *d = (*b)->side + k;
-            FREE(d->w[c], d->w_old[c], d->slip[c], d->grad_xi[0][c], d->grad_xi[1][c]);
-            if (c == 0)
-                FREE(d->tilt, d->once, d->turn);
-        }
-    if (*b) {
-        FREE((*b)->side, (*b)->beyond);
-        mesh_exchange_free(&(*b)->walls);
-    }
-    mem_free(*b);
-    *b = NULL;
 }
 
 bool mesh_bc_pressure_given(const struct fv *s) { return s->sides->pressure_given; }
@@ -424,7 +407,7 @@ static double turning(const struct fv *s, const struct side *d, int64_t at, int6
 static void set_turn(const struct fv *s, struct side *d, double tau)
 {
     if (!d->turn)
-        d->turn = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+        d->turn = NEW_IN(s->sides, double, d->width *(d->n[1] + 2 * d->g[1]));
     SIDE_PLACES (d, 1, i, j, at, c) {
         const bool inside = i >= -1 && i <= d->n[0] && j >= -1 && j <= d->n[1];
         double S[3] = {0.0, 0.0, 0.0};

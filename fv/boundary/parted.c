@@ -120,23 +120,15 @@ struct parted *parted_create(const struct fv *s, const unsigned char *forced)
     p->forced = forced;
     p->n = find_cut(s, forced, &axis, part);
     if (p->n > 0) {
-        p->of = NEW(signed char, s->size);
+        p->of = NEW_IN(p, signed char, s->size);
         for (int64_t c = 0; c < s->size; c++)
             p->of[c] = (signed char)part[layer_of(b, axis, c)];
         count_parts(s, forced, p);
     }
     mem_free(part);
     if (!any_floats(p))
-        parted_free(&p);
+        FREE(p);
     return p;
-}
-
-void parted_free(struct parted **p)
-{
-    if (!*p)
-        return;
-    FREE((*p)->of, *p);
-    *p = NULL;
 }
 
 bool parted_all_float(const struct parted *p)

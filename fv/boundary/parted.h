@@ -23,8 +23,6 @@ struct parted {
 /* NULL unless whole layers of imposed cells lie between computed ones and some part floats.
  * `forced' as in struct forcing. Uniform cells without a surface alone. Collective. */
 struct parted *parted_create(const struct fv *s, const unsigned char *forced);
-/* Frees the parts and sets *p to NULL; *p may be NULL. */
-void parted_free(struct parted **p);
 /* Whether no side gives the pressure of any part. */
 bool parted_all_float(const struct parted *p);
 /* Takes the mean over the computed cells of each floating part out of x, a field that is 0 in

@@ -88,12 +88,12 @@ void mesh_bc_share_faces(const struct fv *s)
         if (!side_is_wall(d->kind) || !walls_follow(m, d))
             continue;
         if (!d->once)
-            d->once = NEW(double, d->width *(d->n[1] + 2 * d->g[1]));
+            d->once = NEW_IN(s->sides, double, d->width *(d->n[1] + 2 * d->g[1]));
         SIDE_PLACES (d, 0, i, j, at, c)
             d->once[at] = m->status[c] == CELL_COMPUTED ? share_of_face(s, o, d, i, j) : 1.0;
     }
     if (o != m->search)
-        overset_free(&o);
+        FREE(o);
     bc->shared = true;
     bc->shared_at = s->t;
 }

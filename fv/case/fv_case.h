@@ -81,8 +81,6 @@ void fv_make_fields(struct fv *s);
 void mesh_state_create(struct fv *s);
 /* Projects the velocities of the start, without a surface, which does so in its first stage. */
 void mesh_state_start(struct fv *s);
-/* Frees what mesh_state_create has made beyond that of uniform cells. */
-void mesh_state_free(struct fv *s);
 /* shape_velocity.c: adds to u what the scene's shapes do, the mean over a cell of edges h (m)
  * around x, or over a face, whose h is 0 across it; h NULL: at x. Nothing where fv has a surface.
  */

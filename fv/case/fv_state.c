@@ -27,33 +27,26 @@ static void make_vectors(struct fv *s, int a)
 {
     double **const all[] = {&s->u[a], &s->U[a], &s->rhs[a]};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        *all[k] = NEW(double, s->size);
+        *all[k] = NEW_IN(s, double, s->size);
     if (s->m || s->nu > 0.0)
-        s->delta[a] = NEW(double, s->size);
+        s->delta[a] = NEW_IN(s, double, s->size);
     if (s->m || a == 0)
-        s->faces[a] = NEW(double, s->size);
+        s->faces[a] = NEW_IN(s, double, s->size);
 }
 
 void fv_make_fields(struct fv *s)
 {
-    s->p = NEW(double, s->size);
-    s->p_before = NEW(double, s->size);
-    s->flux = NEW(double, s->size);
+    s->p = NEW_IN(s, double, s->size);
+    s->p_before = NEW_IN(s, double, s->size);
+    s->flux = NEW_IN(s, double, s->size);
     for (int a = 0; a < s->dim; a++)
         make_vectors(s, a);
     stage_fields_create(s);
     if (s->m) {
         if (s->dim < 3) /* stays 0 */
-            s->u[2] = NEW(double, s->size);
-        s->free = NEW(double, s->size);
+            s->u[2] = NEW_IN(s, double, s->size);
+        s->free = NEW_IN(s, double, s->size);
     }
-}
-
-static void free_fields(struct fv *s)
-{
-    FREE(s->p, s->p_before, s->flux, s->free);
-    for (int a = 0; a < 3; a++)
-        FREE(s->u[a], s->U[a], s->rhs[a], s->delta[a], s->faces[a]);
 }
 
 /* Exact averages, in forced cells and ghosts too; p less what gravity makes at rest. */
@@ -98,7 +91,7 @@ static void make_forcing(struct fv *s)
         coupling_boxes(s, box);
         fv_coupling_create(s);
     } else
-        s->forcing = forcing_create(s, 1, (const double(*)[2][3]) & s->prm.hole, false);
+        s->forcing = mem_own(s, forcing_create(s, 1, (const double(*)[2][3]) & s->prm.hole, false));
 }
 
 /* Forced cells that never get values must not hold those of the start: the largest velocity sets
@@ -219,15 +212,15 @@ static void create_grid(struct fv *s)
     s->whole = block_part(&s->b);
     s->grid = (struct grid){d->dim, 1, &s->whole, &s->b, NULL};
     s->ops = &even_ops;
-    s->blocked = blocked_create(s);
-    s->bc = bc_create(s);
+    s->blocked = mem_own(s, blocked_create(s));
+    s->bc = mem_own(s, bc_create(s));
     if (s->prm.upwind < 0.0)
         s->prm.upwind = limits_upwind(s->run, s->bc || s->blocked,
                                       (double)s->b.cells[0] * s->b.cells[1] * s->b.cells[2]);
-    s->surface = levelset_create(s);
+    s->surface = mem_own(s, levelset_create(s));
     fv_make_fields(s);
     fill(s);
-    s->viscous = viscous_solver_create(s);
+    s->viscous = mem_own(s, viscous_solver_create(s));
     fill_fluxes(s);
     make_forcing(s);
     empty_hole(s);
@@ -239,10 +232,10 @@ static void create_grid(struct fv *s)
         surface_start(s);
     poisson_create(s);
     if (s->prm.integrator == INTEGRATOR_NEWTON)
-        s->newton = newton_create(s);
+        s->newton = mem_own(s, newton_create(s));
     measure(s);
     set_limit(s);
-    s->watches = fv_watches_create(s);
+    s->watches = mem_own(s, fv_watches_create(s));
 }
 
 struct fv *fv_create(struct run *r, struct h5 *f)
@@ -256,13 +249,13 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     s->nu = r->scene.fluid.nu;
     s->t = r->t;
     s->exact = exact_create(&r->scene);
-    s->wave_zones = wave_zones_create(&r->scene, false);
+    s->wave_zones = mem_own(s, wave_zones_create(&r->scene, false));
     s->gravity = still_split(&r->scene);
     if (blocks)
         mesh_state_create(s);
     else
         create_grid(s);
-    s->output = output_create(s);
+    s->output = mem_own(s, output_create(s));
     if (f && !fv_restore(s, f)) {
         fv_free(&s);
         return NULL;
@@ -290,37 +283,17 @@ struct fv *fv_create(struct run *r, struct h5 *f)
     return s;
 }
 
+/* The libraries' objects go with their owners, before hypre and the grid's communicator do. */
 void fv_free(struct fv **sp)
 {
     struct fv *s = *sp;
     if (!s)
         return;
-    if (s->link)
-        fv_coupling_free(s);
-    newton_free(&s->newton);
-    poisson_free(&s->poisson);
-    forcing_free(&s->forcing);
-    wave_zones_free(&s->wave_zones);
-    blocked_free(&s->blocked);
-    if (s->surface)
-        surface_forced_free(&s->surface->forced);
-    if (s->surface)
-        fraction_free(&s->surface->fraction);
-    near_water_free(s);
-    levelset_free(&s->surface);
-    bc_free(&s->bc);
-    carried_free(&s->outflows);
-    levels_free(&s->levels);
-    watches_free(&s->watches);
-    output_free(&s->output);
-    stage_fields_free(s);
-    viscous_solver_free(s);
-    free_fields(s);
-    if (s->m)
-        mesh_state_free(s);
-    else
-        block_free(&s->b);
-    HYPRE_Finalize();
+    const bool even = !s->m;
+    struct block b = s->b;
     mem_free(s);
+    HYPRE_Finalize();
+    if (even)
+        block_free(&b);
     *sp = NULL;
 }

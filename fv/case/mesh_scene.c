@@ -335,7 +335,7 @@ static void check_probes(const struct run *r, struct faults *f, const struct mes
                          "probe \"%s\": no block has computed cells around (%g, %g, %g) m", p->name,
                          p->at[0], p->at[1], p->at[2]);
     }
-    overset_free(&o);
+    FREE(o);
 }
 
 void mesh_scene_check(const struct run *r, struct faults *f, const struct mesh *m)

@@ -80,6 +80,7 @@ void mesh_state_create(struct fv *s)
     s->m = r->coupled
                ? mesh_take(r, &s->prm.blocks, s->partners.n, (const double(*)[2][3])box, &faults)
                : mesh_take(r, &s->prm.blocks, fv_hole(&s->prm) != NULL, fv_hole(&s->prm), &faults);
+    mem_own(s, s->m);
     if (!s->m && r->coupled)
         coupling_refuse(s, faults.text);
     if (!s->m)
@@ -97,14 +98,14 @@ void mesh_state_create(struct fv *s)
     }
     fv_make_fields(s);
     fill(s);
-    s->viscous = viscous_solver_create(s);
+    s->viscous = mem_own(s, viscous_solver_create(s));
     mesh_bc_create(s);
-    s->moving = moving_create(s);
-    s->surface = levelset_create(s);
+    s->moving = mem_own(s, moving_create(s));
+    s->surface = mem_own(s, levelset_create(s));
     if (r->coupled)
         fv_coupling_create(s);
     else if (s->m->has_given)
-        s->forcing = forcing_create(s, 0, NULL, false);
+        s->forcing = mem_own(s, forcing_create(s, 0, NULL, false));
     poisson_create(s);
     sides_velocity(s, BC_GIVEN, s->u);
     if (s->outflows) {
@@ -124,13 +125,6 @@ void mesh_state_create(struct fv *s)
     s->speed.reference = fmax(s->max.u[0], fmax(s->speed.scene, s->speed.partner));
     s->speed.limit = 10.0 * s->speed.reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
-        s->newton = newton_create(s);
-    s->watches = fv_watches_create(s);
-}
-
-void mesh_state_free(struct fv *s)
-{
-    mesh_bc_free(&s->sides);
-    moving_free(s);
-    mesh_free(&s->m);
+        s->newton = mem_own(s, newton_create(s));
+    s->watches = mem_own(s, fv_watches_create(s));
 }

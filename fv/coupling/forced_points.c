@@ -48,16 +48,16 @@ static int points_of(const struct fv *s, int64_t i, double h, double *x)
 
 /* ids are the cell's number in the whole grid times MOST^3, so that they are unique and do not
  * depend on the ranks. */
-struct forced_points forced_points_create(const struct fv *s, double h)
+struct forced_points forced_points_create(const struct fv *s, void *owner, double h)
 {
     const struct forcing *f = s->forcing;
     struct forced_points p = {.ncells = f->npartner + f->nrim};
-    p.first = NEW(int64_t, p.ncells + 1);
+    p.first = NEW_IN(owner, int64_t, p.ncells + 1);
     for (int64_t i = 0; i < p.ncells; i++)
         p.first[i + 1] = p.first[i] + points_of(s, i, h, NULL);
     p.n = p.first[p.ncells];
-    p.x = NEW(double, 3 * p.n);
-    p.id = NEW(int64_t, p.n);
+    p.x = NEW_IN(owner, double, 3 * p.n);
+    p.id = NEW_IN(owner, int64_t, p.n);
     for (int64_t i = 0; i < p.ncells; i++) {
         points_of(s, i, h, p.x + 3 * p.first[i]);
         const int64_t number = grid_number(&s->grid, f->partner[i]);
@@ -65,12 +65,6 @@ struct forced_points forced_points_create(const struct fv *s, double h)
             p.id[k] = number * MOST * MOST * MOST + (k - p.first[i]);
     }
     return p;
-}
-
-void forced_points_free(struct forced_points *p)
-{
-    FREE(p->first, p->x, p->id);
-    *p = (struct forced_points){0};
 }
 
 /* A cell has a value if any of its positions has one. */

@@ -15,8 +15,7 @@ struct forced_points {
 
 /* Of the cells in s->forcing->partner. h: m, edge of a cell whose average the kernel is; along y of
  * rows and, if the box moves, of blocks, cells are cut to it. */
-struct forced_points forced_points_create(const struct fv *s, double h);
-void forced_points_free(struct forced_points *p);
+struct forced_points forced_points_create(const struct fv *s, void *owner, double h);
 /* Means of the points' values v[n][ncomp] where the partner has some (mask 1), of each cell to
  * to[ncells][ncomp] and has[ncells]. */
 void forced_points_mean(const struct forced_points *p, int ncomp, const double *v,

@@ -52,6 +52,7 @@ struct link {
     double *share, *share_of_one; /* of a kernel that the sources' water fills, at the places */
     struct patch patch;
     struct course *course;
+    void *room; /* owns what follows, which depends on the cells */
     struct forced_points points;
     double *got, *one;    /* scratch: velocities, pressures of one source at the points */
     double *mean, *level; /* the same of the cells */
@@ -200,7 +201,7 @@ static void meet_source(struct fv *s, const struct link *k, struct source *g)
 
 void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])
 {
-    struct link *k = s->link = NEW(struct link, 1);
+    struct link *k = s->link = NEW_IN(s, struct link, 1);
     char names[PARAM_PROGRAMS_MAX][64];
     k->c = s->run->partner_ctx;
     k->n = params_programs(s->run->params, "sph", names);
@@ -275,30 +276,24 @@ static void start_forced(struct fv *s, double before)
         }
 }
 
-static void free_room(struct link *k)
-{
-    FREE(k->got, k->one, k->mean, k->level, k->whose, k->has, k->p, k->mask, k->share,
-         k->share_of_one);
-}
-
 /* For what the partner gives. */
 static void make_room(const struct fv *s, struct link *k)
 {
     const int64_t n = s->forcing->npartner + s->forcing->nrim;
-    free_room(k);
-    forced_points_free(&k->points);
-    k->points = forced_points_create(s, k->seen);
-    k->got = NEW(double, k->points.n * s->dim);
-    k->one = NEW(double, k->points.n);
-    k->whose = NEW(unsigned char, k->points.n);
-    k->mean = NEW(double, n * s->dim);
-    k->level = NEW(double, n);
-    k->has = NEW(unsigned char, n);
-    k->p = NEW(double, n);
-    k->mask = NEW(unsigned char, n);
+    DROP(k->room);
+    void *room = k->room = NEW_IN(k, char, 1);
+    k->points = forced_points_create(s, room, k->seen);
+    k->got = NEW_IN(room, double, k->points.n * s->dim);
+    k->one = NEW_IN(room, double, k->points.n);
+    k->whose = NEW_IN(room, unsigned char, k->points.n);
+    k->mean = NEW_IN(room, double, n * s->dim);
+    k->level = NEW_IN(room, double, n);
+    k->has = NEW_IN(room, unsigned char, n);
+    k->p = NEW_IN(room, double, n);
+    k->mask = NEW_IN(room, unsigned char, n);
     const int64_t nplaces = s->surface ? s->surface->forced->nplaces : 0;
-    k->share = s->surface ? NEW(double, nplaces) : NULL;
-    k->share_of_one = s->surface ? NEW(double, nplaces) : NULL;
+    k->share = s->surface ? NEW_IN(room, double, nplaces) : NULL;
+    k->share_of_one = s->surface ? NEW_IN(room, double, nplaces) : NULL;
 }
 
 /* Windows over which the pressure is smoothed, as the one wants it that wants most. */
@@ -359,7 +354,7 @@ void fv_coupling_create(struct fv *s)
     boxes_of(k, false, all);
     if (s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2])
         moved_box_prepare(s, (const double(*)[2][3])all);
-    s->forcing = forcing_create(s, k->n, (const double(*)[2][3])all, true);
+    s->forcing = mem_own(s, forcing_create(s, k->n, (const double(*)[2][3])all, true));
     if (s->forcing && s->forcing->parted && s->prm.integrator == INTEGRATOR_NEWTON)
         refuse(k,
                "fv.integrator: newton solves for one pressure, and sph.box cuts the flow in parts "
@@ -378,11 +373,11 @@ void fv_coupling_create(struct fv *s)
     k->seen = seen_size(s);
     k->wish = s->m && k->of[0].fastest > 0.0 ? least_height(s) / k->of[0].fastest : INFINITY;
     if (s->surface)
-        s->surface->forced = surface_forced_create(s);
+        s->surface->forced = mem_own(s->surface, surface_forced_create(s));
     tell_of_friction(s);
     declare(s, k);
     k->knows_mean = mean_velocity_is_known(s);
-    k->course = course_create(s, &k->patch, longest_memory(k));
+    k->course = mem_own(k, course_create(s, &k->patch, longest_memory(k)));
     make_room(s, k);
     if (s->m) /* the start makes fluxes before the partner has said a word */
         start_forced(s, 1e-3);
@@ -394,18 +389,6 @@ void fv_coupling_create(struct fv *s)
                   "if cells of fv are finer than sph.dx, take coarser fv.cells",
         .warn = 0.05,
         .stop = 0.25};
-}
-
-void fv_coupling_free(struct fv *s)
-{
-    struct link *k = s->link;
-    course_free(&k->course);
-    patch_free(&k->patch);
-    free_room(k);
-    forced_points_free(&k->points);
-    mem_free(k);
-    s->link = NULL;
-    moved_box_free(s);
 }
 
 /* Pa: the partner's pressure over ours in the computed cells beside its own: sum and number by

@@ -25,31 +25,16 @@ struct course *course_create(const struct fv *s, struct patch *p, int memory)
     c->linear = s->run->scene.coupling.in_time == IN_TIME_LINEAR;
     c->n = p->n;
     for (int m = 0; m < COURSE_LEVELS; m++)
-        c->q[m] = NEW(double, c->n * c->width);
+        c->q[m] = NEW_IN(c, double, c->n * c->width);
     for (int m = 0; m < COURSE_TERMS; m++)
-        c->term[m] = NEW(double, c->n * c->dim);
-    c->tried = NEW(double, c->n * c->width);
-    c->kept = kept_create(s);
+        c->term[m] = NEW_IN(c, double, c->n * c->dim);
+    c->tried = NEW_IN(c, double, c->n * c->width);
+    c->kept = mem_own(c, kept_create(s));
     if (c->memory > 1) {
-        c->rate = NEW(double, c->n);
-        c->scatter = scene_has_surface(&s->run->scene) ? NEW(double, c->n) : NULL;
+        c->rate = NEW_IN(c, double, c->n);
+        c->scatter = scene_has_surface(&s->run->scene) ? NEW_IN(c, double, c->n) : NULL;
     }
     return c;
-}
-
-void course_free(struct course **cp)
-{
-    struct course *c = *cp;
-    if (!c)
-        return;
-    for (int m = 0; m < COURSE_LEVELS; m++)
-        mem_free(c->q[m]);
-    for (int m = 0; m < COURSE_TERMS; m++)
-        mem_free(c->term[m]);
-    FREE(c->tried, c->rate, c->scatter);
-    kept_free(&c->kept);
-    mem_free(c);
-    *cp = NULL;
 }
 
 /* Under a surface the partner knows the level of the pressure itself, so that it is sent what
@@ -357,6 +342,6 @@ bool course_load(const struct fv *s, struct course *c, struct h5 *f)
         c->t_tried = -INFINITY;
         good = !c->rate || load_trends(s, c, f, l);
     }
-    layout_free(&l);
+    FREE(l);
     return good;
 }

@@ -36,7 +36,6 @@ struct course {
 };
 
 struct course *course_create(const struct fv *s, struct patch *p, int memory);
-void course_free(struct course **c);
 /* At the start: the state now, and two levels before it of an exact solution, `before' s apart. */
 void course_start(struct fv *s, struct course *c, double before);
 /* The state now, as a new level. */

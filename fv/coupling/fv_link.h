@@ -16,8 +16,6 @@ void coupling_refuse(const struct fv *s, const char *reason);
 /* Makes s->forcing and the lists of cells whose values go to partners and come from them. The
  * fields of the start must be there. */
 void fv_coupling_create(struct fv *s);
-/* Frees s->link and sets it to NULL. */
-void fv_coupling_free(struct fv *s);
 /* Sets d where partners have given no values to too large a share of the imposed cells, or where a
  * box has moved to where cells have no donors. */
 void coupling_judge(struct fv *s, struct diagnosis *d);

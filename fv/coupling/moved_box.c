@@ -50,14 +50,14 @@ static void carry(const struct fv *s, struct forcing *to)
 /* Takes over the partner's surface of the last coupling step where both lists have it. */
 static void carry_surface(struct fv *s, struct surface_forced *from)
 {
-    struct surface_forced *to = surface_forced_create(s);
+    struct surface_forced *to = mem_own(s->surface, surface_forced_create(s));
     for (int k = 0; k < 2; k++) {
         to->t[k] = from->t[k];
         for (int64_t i = 0; i < from->n; i++)
             to->phi[k][from->cell[i]] = from->phi[k][from->cell[i]];
     }
     s->surface->forced = to;
-    surface_forced_free(&from);
+    FREE(from);
 }
 
 /* --- blocks --- */
@@ -179,7 +179,7 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char wh
 static void renew_pressure(struct fv *s)
 {
     viscous_solver_renew(s);
-    poisson_free(&s->poisson);
+    DROP(s->poisson);
     poisson_create(s);
 }
 
@@ -191,23 +191,14 @@ void moved_box_prepare(struct fv *s, const double (*box)[2][3])
 {
     for (int m = 0; m < 2; m++)
         for (int a = 0; a < s->dim; a++)
-            s->partners.past[m][a] = NEW(double, s->size);
+            s->partners.past[m][a] = NEW_IN(s, double, s->size);
     if (!s->m)
         return;
     if (s->prm.integrator == INTEGRATOR_BDF2)
-        s->partners.born = NEW(unsigned char, s->size);
-    s->m->search = overset_search(s->run, s->m);
+        s->partners.born = NEW_IN(s, unsigned char, s->size);
+    s->m->search = mem_own(s->m, overset_search(s->run, s->m));
     s->m->given.layers += AHEAD;
     cut(s, box);
-}
-
-void moved_box_free(struct fv *s)
-{
-    for (int m = 0; m < 2; m++)
-        for (int a = 0; a < 3; a++)
-            mem_free(s->partners.past[m][a]);
-    mem_free(s->partners.born);
-    s->partners = (struct fv_partners){.n = 0};
 }
 
 /* Makes the lists for these boxes; NULL: they are the same, or none can be. Pressures are extended
@@ -218,7 +209,7 @@ static struct forcing *new_lists(struct fv *s, int n, const double (*box)[2][3],
         return NULL;
     struct forcing *f = s->m ? NULL : forcing_create(s, n, box, true);
     if (f && !differs(s, f)) {
-        forcing_free(&f);
+        FREE(f);
         return NULL;
     }
     if (f || s->m) {
@@ -243,8 +234,8 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
         return false;
     carry(s, f);
     const double before = s->surface ? surface_volume(s) : 0.0;
-    forcing_free(&s->forcing);
-    s->forcing = f;
+    DROP(s->forcing);
+    s->forcing = mem_own(s, f);
     if (s->surface)
         carry_surface(s, s->surface->forced);
     if (s->m || !s->surface)

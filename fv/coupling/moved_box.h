@@ -9,7 +9,6 @@
 
 /* Before the first lists are made: room for what cells had, and on blocks the first cut. */
 void moved_box_prepare(struct fv *s, const double (*box)[2][3]);
-void moved_box_free(struct fv *s);
 /* Forces the cells of these n boxes instead of those before; false: they are the same. why: gets
  * what is wrong with that place, "": nothing. Collective. */
 bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256]);

@@ -38,7 +38,7 @@ static struct blend blend_rows(const struct block *b, double from, double to)
 }
 
 /* Equal layers go on to the domain's bottom: this rank's are those with their middle in its own. */
-static void blend_grid(const struct block *b, struct patch *p)
+static void blend_grid(void *owner, const struct block *b, struct patch *p)
 {
     const struct rows *r = b->rows;
     const double h = b->h[1], bottom = r->edge[0], top = r->edge[r->even];
@@ -56,7 +56,7 @@ static void blend_grid(const struct block *b, struct patch *p)
     }
     p->of.lo[1] = first;
     p->of.n[1] = n;
-    p->blend = mem_new((size_t)n + 1, sizeof *p->blend);
+    p->blend = mem_new_in(owner, (size_t)n + 1, sizeof *p->blend);
     for (int j = 0; j < n; j++)
         p->blend[j] =
             blend_rows(b, p->origin[1] + (first + j) * h, p->origin[1] + (first + j + 1) * h);
@@ -254,8 +254,8 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
         if (known)
             request[n++].in = i;
     }
-    mesh_exchange_create(s->m, &p->sample, 4, n, request);
-    block_walls_free(&walls);
+    mesh_exchange_create(s->link, s->m, &p->sample, 4, n, request);
+    FREE(walls);
     FREE(request, weight);
     return good;
 }
@@ -316,7 +316,7 @@ static bool create_on_blocks(const struct fv *s, const struct partners *by, stru
         make_grid(s, k, lo, hi, h, p);
     const bool good = k >= 0 && agree(s, find_donors(s, o, p, by, where), where);
     if (!s->m->search)
-        overset_free(&o);
+        FREE(o);
     return good;
 }
 
@@ -332,7 +332,7 @@ bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const do
     of_grid(s, p);
     find_hull(&by, lo, hi);
     if (s->b.rows && box && (s->partners.moves[1] || !in_even_rows(s, lo[1])))
-        blend_grid(&s->b, p);
+        blend_grid(s->link, &s->b, p);
     p->n = (int64_t)p->of.n[0] * p->of.n[1] * p->of.n[2];
     return true;
 }
@@ -343,12 +343,6 @@ bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const dou
     const struct partners by = {n, box, inner};
     mesh_exchange_free(&p->sample);
     return agree(s, find_donors(s, s->m->search, p, &by, where), where);
-}
-
-void patch_free(struct patch *p)
-{
-    mesh_exchange_free(&p->sample);
-    mem_free(p->blend);
 }
 
 /* x of cells beyond dim is 0. */

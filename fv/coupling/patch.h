@@ -34,7 +34,6 @@ bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const do
 /* Of blocks cut anew around boxes that move, which stand there now. */
 bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                  struct patch *p, double *where);
-void patch_free(struct patch *p);
 /* Centre of the local cell with this number. */
 void patch_centre(const struct patch *p, int64_t i, double *x);
 /* Averages over its cells, x fastest, of a field with ghosts. Collective. */

@@ -115,8 +115,8 @@ bool shared_walls_agree(const struct fv *s, int n, const double (*given)[2][3],
                  "blocks.[%d]: at (%g, %g) m its side is a wall, within sph.box, and sph has none "
                  "there: draw it in walls, as points",
                  face.block, face.x[0], face.x[1]);
-    block_walls_free(&walls);
+    FREE(walls);
     if (o != s->m->search)
-        overset_free(&o);
+        FREE(o);
     return !line && !side;
 }

@@ -83,7 +83,7 @@ static void add_side(struct block_walls *w, const struct mesh *m, int block, int
                               .max = {-INFINITY, -INFINITY, -INFINITY}};
     if (s->first + s->n > *room) {
         const int64_t more = 2 * *room + s->n;
-        GROW(w->face, s->first, more);
+        GROW_IN(w, w->face, s->first, more);
         *room = more;
     }
     for (int64_t i = 0; i < s->n; i++) {
@@ -107,14 +107,6 @@ struct block_walls *block_walls_create(const struct mesh *m)
             if (is_closed(m->block[q].side[k]))
                 add_side(w, m, q, k, &room);
     return w;
-}
-
-void block_walls_free(struct block_walls **wp)
-{
-    if (!*wp)
-        return;
-    FREE((*wp)->face, *wp);
-    *wp = NULL;
 }
 
 /* m: from x to the box around a side. */

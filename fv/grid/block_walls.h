@@ -10,10 +10,8 @@ enum { WALLS_MOST = 6, IMAGES_MOST = 1 << WALLS_MOST };
 
 struct block_walls;
 
-/* Of all blocks where they are now; freed by block_walls_free. m is borrowed. */
+/* Of all blocks where they are now; freed by FREE. m is borrowed. */
 struct block_walls *block_walls_create(const struct mesh *m);
-/* Frees the list of faces and sets *w to NULL; *w may be NULL. */
-void block_walls_free(struct block_walls **w);
 /* x[0] is a point; its images beyond walls nearer than R, m, are put behind it. Returns the number
  * of points, itself included, at most IMAGES_MOST. */
 int block_walls_images(const struct block_walls *w, double R, double (*x)[3]);

@@ -61,8 +61,8 @@ struct layout *layout_load(struct h5 *f, const char *name)
     struct layout *l = rows && first ? NEW(struct layout, 1) : NULL;
     if (l) {
         l->nboxes = (int)(n / NUMBERS);
-        l->of = NEW(struct layout_box, l->nboxes);
-        l->writer = NEW(int, l->nboxes);
+        l->of = NEW_IN(l, struct layout_box, l->nboxes);
+        l->writer = NEW_IN(l, int, l->nboxes);
     }
     for (int k = 0, w = 0; l && k < l->nboxes; k++) {
         while (first[w + 1] <= (int64_t)k * NUMBERS)
@@ -72,14 +72,6 @@ struct layout *layout_load(struct h5 *f, const char *name)
     }
     FREE(rows, first);
     return l;
-}
-
-void layout_free(struct layout **l)
-{
-    if (!*l)
-        return;
-    FREE((*l)->of, (*l)->writer, *l);
-    *l = NULL;
 }
 
 /* The largest end of all boxes of this grid along each axis. */

@@ -28,10 +28,8 @@ struct layout {
 struct layout_box layout_block(const struct block *b);
 /* Writes the n boxes of each rank to the file as dataset `name'. Collective. */
 void layout_save(struct h5 *f, const char *name, int n, const struct layout_box *of);
-/* Reads them; NULL: the file has none. Owned by the caller (layout_free). Collective. */
+/* Reads them; NULL: the file has none. Owned by the caller (FREE). Collective. */
 struct layout *layout_load(struct h5 *f, const char *name);
-/* Frees the boxes and sets *l to NULL; *l may be NULL. */
-void layout_free(struct layout **l);
 /* Whether as many ranks wrote the file as now read it. */
 bool layout_same_ranks(const struct h5 *f, int size);
 /* Whether the file is of a grid of these cells; if not, logs of which. */

@@ -180,11 +180,9 @@ enum { MESH_SOURCES = 12 };
 int mesh_given_sources(const struct mesh *m, const struct part *p, int64_t c, int (*offset)[3]);
 
 /* mesh_create.c: the mesh of these blocks, which must outlive it; cells in the n boxes (lo, hi) are
- * imposed. NULL if there are faults. Owned by the caller (mesh_free). Collective over r->comm. */
+ * imposed. NULL if there are faults. Owned by the caller (FREE). Collective over r->comm. */
 struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int n,
                          const double (*box)[2][3], struct faults *f);
-/* Frees the mesh with all it owns and sets *m to NULL; *m may be NULL. */
-void mesh_free(struct mesh **m);
 /* The mesh that mesh_leave left, if it is of the same case and boxes and its blocks do not move,
  * else a new one: so that checks and the run make it once. */
 struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
@@ -247,8 +245,8 @@ struct mesh_request {
     const double *weight; /* [width^dim] of a stencil; borrowed during mesh_exchange_create */
 };
 /* mesh_halo.c: makes an exchange for n values that this rank wants. Collective. */
-void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
-                          const struct mesh_request *request);
+void mesh_exchange_create(void *owner, struct mesh *m, struct mesh_exchange *x, int width,
+                          int64_t n, const struct mesh_request *request);
 /* Frees the lists and leaves an exchange of nothing. */
 void mesh_exchange_free(struct mesh_exchange *x);
 /* Exchanges nf fields. Collective. */

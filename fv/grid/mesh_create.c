@@ -46,9 +46,9 @@ static bool set_cells(const struct run *r, struct faults *f, struct mesh *m, int
     int64_t bad = 0;
     int i[3], first[3] = {0, 0, 0};
     double worst = 0.0;
-    b->centre = (double(*)[3])NEW(double, 3 * n);
-    b->volume = NEW(double, n);
-    b->status = NEW(unsigned char, n);
+    b->centre = (double(*)[3])NEW_IN(m, double, 3 * n);
+    b->volume = NEW_IN(m, double, n);
+    b->status = NEW_IN(m, unsigned char, n);
     for (i[2] = 0; i[2] < b->n[2]; i[2]++)
         for (i[1] = 0; i[1] < b->n[1]; i[1]++)
             for (i[0] = 0; i[0] < b->n[0]; i[0]++) {
@@ -85,7 +85,7 @@ static void deal_out(struct mesh *m)
             if (b->n[a] > b->n[b->cut])
                 b->cut = a;
         const int64_t row = mesh_count(b) / b->n[b->cut];
-        b->first = NEW(int, m->size + 1);
+        b->first = NEW_IN(m, int, m->size + 1);
         int last = 0;
         for (int i = 0; i < b->n[b->cut]; i++, before += row) {
             const int to = (int)((before + row / 2) * m->size / m->cells);
@@ -229,6 +229,7 @@ struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int 
         for (int s = 0; s < 6; s++)
             b->side[s] = (enum mesh_side)sides[s];
         good = mesh_map_vertices(r, f, b) && good;
+        mem_own(m, b->x);
     }
     if (good)
         mesh_take_walls(r, m);
@@ -239,12 +240,12 @@ struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int 
     struct overset *o = NULL;
     good = good && (o = overset_create(r, f, m)) != NULL;
     if (!good) {
-        mesh_free(&m);
+        FREE(m);
         return NULL;
     }
     deal_out(m);
     make_parts(m);
-    m->status = NEW(unsigned char, m->size_local);
+    m->status = NEW_IN(m, unsigned char, m->size_local);
     mesh_set_status(m);
     mesh_metrics(m);
     mesh_given_close(m);
@@ -252,34 +253,10 @@ struct mesh *mesh_create(const struct run *r, const struct mesh_blocks *of, int 
     mesh_halo_create(m);
     overset_exchange(m, o);
     if (m->moves)
-        m->search = o;
+        m->search = mem_own(m, o);
     else
-        overset_free(&o);
+        FREE(o);
     return m;
-}
-
-/* What this mesh owns; *mp becomes NULL. */
-void mesh_free(struct mesh **mp)
-{
-    struct mesh *m = *mp;
-    if (!m)
-        return;
-    mesh_motion_free(m);
-    overset_free(&m->search);
-    for (int k = 0; k < m->nblocks; k++) {
-        struct mesh_block *b = m->block + k;
-        FREE(b->x, b->centre, b->volume, b->status, b->first);
-    }
-    for (int a = 0; a < 3; a++) {
-        mem_free(m->open[a]);
-        for (int k = 0; k < 3; k++)
-            FREE(m->S[a][k], m->G[a][k]);
-    }
-    FREE(m->V, m->status, m->fringes);
-    mesh_exchange_free(&m->halo);
-    mesh_exchange_free(&m->fringe);
-    mem_free(m);
-    *mp = NULL;
 }
 
 /* The mesh that was checked last: the description and the state are made of it, not of another. */
@@ -299,13 +276,13 @@ struct mesh *mesh_take(const struct run *r, const struct mesh_blocks *of, int n,
     checked = NULL;
     if (m && m->comm == r->comm && m->prm_of == r->params && !m->moves && same_boxes(m, n, box))
         return m;
-    mesh_free(&m);
+    FREE(m);
     return mesh_create(r, of, n, box, f);
 }
 
 void mesh_leave(struct mesh **m)
 {
-    mesh_free(&checked);
+    FREE(checked);
     checked = *m;
     *m = NULL;
 }

@@ -63,8 +63,8 @@ static void swap(const struct mesh *m, const int *wanted, const int *given, int 
 
 /* in is ordered by peer as recv will be, out as send; both sides list the entries of a pair of
  * ranks in the same order, that of the one who wants. */
-void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, int64_t n,
-                          const struct mesh_request *request)
+void mesh_exchange_create(void *owner, struct mesh *m, struct mesh_exchange *x, int width,
+                          int64_t n, const struct mesh_request *request)
 {
     int *wanted = NEW(int, m->size), *given = NEW(int, m->size);
     int64_t *out = NEW(int64_t, n), total = 0;
@@ -72,16 +72,16 @@ void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, in
     x->width = width;
     const int w = stencil(m, x);
     double *weight = NEW(double, width > 1 ? n * w : 0);
-    x->in = NEW(int64_t, n);
+    x->in = NEW_IN(owner, int64_t, n);
     sort_requests(m, x, n, request, wanted, out, weight, part);
     MPI_Alltoall(wanted, 1, MPI_INT, given, 1, MPI_INT, m->comm);
     for (int q = 0; q < m->size; q++) {
         total += given[q];
         x->npeers += wanted[q] > 0 || given[q] > 0;
     }
-    x->out = NEW(int64_t, total);
-    x->part = NEW(int, total);
-    x->weight = width > 1 ? NEW(double, total *w) : NULL;
+    x->out = NEW_IN(x->in, int64_t, total);
+    x->part = NEW_IN(x->in, int, total);
+    x->weight = width > 1 ? NEW_IN(x->in, double, total *w) : NULL;
     swap(m, wanted, given, 1, out, x->out, MPI_INT64_T);
     swap(m, wanted, given, 1, part, x->part, MPI_INT);
     for (int64_t k = 0; k < total; k++) /* of a block: of this rank's part */
@@ -90,9 +90,9 @@ void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, in
                 x->part[k] = p;
     if (width > 1)
         swap(m, wanted, given, w, weight, x->weight, MPI_DOUBLE);
-    x->peer = NEW(int, x->npeers);
-    x->first_in = NEW(int64_t, x->npeers + 1);
-    x->first_out = NEW(int64_t, x->npeers + 1);
+    x->peer = NEW_IN(x->in, int, x->npeers);
+    x->first_in = NEW_IN(x->in, int64_t, x->npeers + 1);
+    x->first_out = NEW_IN(x->in, int64_t, x->npeers + 1);
     int k = 0;
     for (int q = 0; q < m->size; q++)
         if (wanted[q] > 0 || given[q] > 0) {
@@ -106,7 +106,7 @@ void mesh_exchange_create(struct mesh *m, struct mesh_exchange *x, int width, in
 
 void mesh_exchange_free(struct mesh_exchange *x)
 {
-    FREE(x->peer, x->first_in, x->first_out, x->in, x->out, x->weight, x->part, x->send, x->recv);
+    mem_free(x->in); /* owns the rest */
     *x = (struct mesh_exchange){0};
 }
 
@@ -147,8 +147,8 @@ void mesh_exchange_to(const struct mesh *m, struct mesh_exchange *x, int nf, dou
     MPI_Request *requests = NEW(MPI_Request, 2 * x->npeers);
     int n = 0;
     if (x->room < nf) {
-        x->send = mem_grow(x->send, 0, (size_t)(nout * nf), sizeof(double));
-        x->recv = mem_grow(x->recv, 0, (size_t)(nin * nf), sizeof(double));
+        GROW_IN(x->in, x->send, 0, nout * nf);
+        GROW_IN(x->in, x->recv, 0, nin * nf);
         x->room = nf;
     }
     for (int q = 0; q < x->npeers; q++)
@@ -208,7 +208,7 @@ void mesh_halo_create(struct mesh *m)
             mesh_owner(m, k, at, &r->rank, &r->out);
         }
     }
-    mesh_exchange_create(m, &m->halo, 1, n, request);
+    mesh_exchange_create(m, m, &m->halo, 1, n, request);
     mem_free(request);
 }
 

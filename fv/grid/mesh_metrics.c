@@ -280,13 +280,13 @@ static enum part_kind kind_of(const struct mesh *m, const struct part *p)
 void mesh_metrics(struct mesh *m)
 {
     for (int a = 0; a < m->dim; a++) {
-        m->open[a] = mesh_field(m);
+        m->open[a] = mem_own(m, mesh_field(m));
         for (int k = 0; k < m->dim; k++) {
-            m->S[a][k] = mesh_field(m);
-            m->G[a][k] = mesh_field(m);
+            m->S[a][k] = mem_own(m, mesh_field(m));
+            m->G[a][k] = mem_own(m, mesh_field(m));
         }
     }
-    m->V = mesh_field(m);
+    m->V = mem_own(m, mesh_field(m));
     for (int k = 0; k < m->nparts; k++) {
         part_metrics(m, m->part + k);
         m->part[k].kind = kind_of(m, m->part + k);

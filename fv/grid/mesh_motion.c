@@ -126,14 +126,14 @@ void mesh_motion_place(struct mesh *m, double t)
 
 /* The block's vertices and centres get a second store, that of the places as made. made shares all
  * other arrays with the block. */
-static void keep_made(struct mesh_block *b)
+static void keep_made(struct mesh *m, struct mesh_block *b)
 {
-    struct mesh_block *made = NEW(struct mesh_block, 1);
+    struct mesh_block *made = NEW_IN(m, struct mesh_block, 1);
     const size_t nv = (size_t)vertices(b) * sizeof *b->x,
                  n = (size_t)mesh_count(b) * sizeof *b->centre;
     *made = *b;
-    b->x = (double(*)[3])NEW(double, 3 * vertices(b));
-    b->centre = (double(*)[3])NEW(double, 3 * mesh_count(b));
+    b->x = (double(*)[3])NEW_IN(m, double, 3 * vertices(b));
+    b->centre = (double(*)[3])NEW_IN(m, double, 3 * mesh_count(b));
     memcpy(b->x, made->x, nv);
     memcpy(b->centre, made->centre, n);
     made->motion = NULL;
@@ -166,7 +166,7 @@ static bool ever_turns(const struct body_drive *v)
 static struct mesh_motion *create_one(const struct run *r, struct faults *f, struct mesh *m, int k)
 {
     const struct mesh_block_params *p = m->block[k].prm;
-    struct mesh_motion *v = NEW(struct mesh_motion, 1);
+    struct mesh_motion *v = NEW_IN(m, struct mesh_motion, 1);
     const int before = f->n;
     v->block = k;
     memcpy(v->centre, p->centre, sizeof v->centre);
@@ -243,7 +243,7 @@ bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, d
     for (int k = 0; k < m->nblocks; k++)
         if (m->block[k].motion) {
             good = check_sides(r, f, m, k) && good;
-            keep_made(m->block + k);
+            keep_made(m, m->block + k);
             set_reach(m->block[k].motion, m->block + k, m->dim);
         }
     for (int k = 0; k < m->nblocks && good; k++) {
@@ -256,27 +256,12 @@ bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, d
     return good;
 }
 
-void mesh_motion_free(struct mesh *m)
-{
-    for (int k = 0; k < m->nblocks; k++) {
-        struct mesh_block *b = m->block + k;
-        if (b->motion && b->motion->block == k) {
-            mem_free(b->motion);
-        }
-        if (b->made && b->made != b)
-            FREE(b->made->x, b->made->centre, (struct mesh_block *)b->made);
-        mem_free(b->faces);
-    }
-    for (int a = 0; a < 3; a++)
-        mem_free(m->grid[a]);
-}
-
 /* faces: [cell][axis] S[3], R[3] as made, of one part. */
 static void keep_faces(struct mesh *m, const struct part *p)
 {
     struct mesh_block *b = m->block + p->block;
     int i[3];
-    b->faces = NEW(double, 6 * m->dim * p->size);
+    b->faces = NEW_IN(m, double, 6 * m->dim * p->size);
     PART_ALL (p, i, c)
         for (int a = 0; a < m->dim; a++) {
             const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
@@ -293,7 +278,7 @@ void mesh_motion_metrics(struct mesh *m)
     if (!m->moves)
         return;
     for (int a = 0; a < m->dim; a++)
-        m->grid[a] = mesh_field(m);
+        m->grid[a] = mem_own(m, mesh_field(m));
     for (int q = 0; q < m->nparts; q++) {
         struct part *p = m->part + q;
         const struct mesh_motion *v = m->block[p->block].motion;

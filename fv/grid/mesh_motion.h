@@ -24,8 +24,6 @@ struct mesh_motion {
 
 /* Makes the motions and places the blocks at time t, s; false: faults were added. */
 bool mesh_motion_create(const struct run *r, struct faults *f, struct mesh *m, double t);
-/* Frees the motions and what mesh_motion_metrics has made. */
-void mesh_motion_free(struct mesh *m);
 /* After the metrics: keeps the area vectors and moments of the faces of blocks that move, as they
  * are made, for mesh_motion_place to turn. */
 void mesh_motion_metrics(struct mesh *m);

@@ -9,10 +9,8 @@
 struct overset; /* bins for the search, donors of all fringe cells */
 
 /* Sets what each cell of all blocks is and finds the donors; NULL: faults were added. Owned by the
- * caller (overset_free). */
+ * caller (FREE). */
 struct overset *overset_create(const struct run *r, struct faults *f, struct mesh *m);
-/* Frees the bins and donors and sets *o to NULL; *o may be NULL. */
-void overset_free(struct overset **o);
 /* For blocks that move, after they have been placed anew: sets what each cell is. */
 void overset_cut(struct mesh *m, const struct overset *o);
 /* After that: finds the donors of this rank's fringe and makes their exchange. m->trouble names a

@@ -114,7 +114,7 @@ static bool find_donor(const struct mesh *m, struct overset *o, int k, int64_t c
         (*linear)++;
     }
     if (o->n == o->room)
-        GROW(o->donor, o->n, o->room = 2 * o->room + 256);
+        GROW_IN(o, o->donor, o->n, o->room = 2 * o->room + 256);
     o->donor[o->n++] = d;
     return true;
 }
@@ -178,23 +178,8 @@ struct overset *overset_create(const struct run *r, struct faults *f, struct mes
     mesh_given_trim(m);
     overset_count(m);
     if (overlap && !find_donors(r, f, m, o))
-        overset_free(&o);
+        FREE(o);
     return o;
-}
-
-void overset_free(struct overset **op)
-{
-    struct overset *o = *op;
-    if (!o)
-        return;
-    for (int k = 0; k < MESH_BLOCKS_MAX; k++) {
-        FREE(o->bins[k].first, o->bins[k].cell);
-        for (int a = 0; a < 3; a++)
-            mem_free(o->bins[k].line[a]);
-        mem_free(o->last[k]);
-    }
-    FREE(o->old, o->donor, o);
-    *op = NULL;
 }
 
 /* This rank's fringe cells ask the ranks that have their donors' stencils. Collective. */
@@ -214,7 +199,7 @@ static void make_exchange(struct mesh *m, const struct overset *o, struct mesh_e
         *q = (struct mesh_request){.in = place, .block = d->from_block, .weight = d->weight};
         q->out = overset_place(m, d, &q->rank);
     }
-    mesh_exchange_create(m, x, 4, n, request);
+    mesh_exchange_create(m, m, x, 4, n, request);
     mem_free(request);
 }
 
@@ -222,7 +207,7 @@ static void make_exchange(struct mesh *m, const struct overset *o, struct mesh_e
 static void set_fringes(struct mesh *m, const struct overset *o)
 {
     mem_free(m->fringes);
-    m->fringes = NEW(struct mesh_fringe, o->n);
+    m->fringes = NEW_IN(m, struct mesh_fringe, o->n);
     m->nfringe = 0;
     for (int64_t k = 0; k < o->n; k++) {
         const struct donor *d = o->donor + k;
@@ -268,7 +253,7 @@ static void keep_last(struct mesh *m, struct overset *o)
     o->n = 0;
     for (int k = 0; k < m->nblocks; k++)
         if (!o->last[k])
-            o->last[k] = NEW(int, mesh_count(m->block + k));
+            o->last[k] = NEW_IN(o, int, mesh_count(m->block + k));
     for (int64_t k = 0; k < o->n_old; k++)
         o->last[o->old[k].block][mesh_cell(m->block + o->old[k].block, o->old[k].cell)] =
             (int)k + 1;
@@ -319,15 +304,23 @@ void overset_renew(struct mesh *m, struct overset *o)
     overset_exchange(m, o);
 }
 
+/* A search that shares the bins and finds donors of its own. */
+static struct overset *beside(const struct overset *o)
+{
+    struct overset *fresh = NEW(struct overset, 1);
+    *fresh = *o;
+    fresh->donor = NULL;
+    fresh->n = fresh->room = fresh->n_old = 0;
+    return fresh;
+}
+
 void overset_find_rows(struct mesh *m, const struct overset *o)
 {
-    struct overset fresh = *o;
-    fresh.donor = NULL;
-    fresh.n = fresh.room = fresh.n_old = 0;
-    fresh.rows_only = true;
-    find_again(m, &fresh, NULL);
-    set_fringes(m, &fresh);
-    mem_free(fresh.donor);
+    struct overset *fresh = beside(o);
+    fresh->rows_only = true;
+    find_again(m, fresh, NULL);
+    set_fringes(m, fresh);
+    mem_free(fresh);
 }
 
 /* A search of its own beside the fringe's; nothing is kept. */
@@ -335,14 +328,12 @@ void overset_interpolate(struct mesh *m, struct overset *o, unsigned char *const
                          double *const *f)
 {
     struct mesh_exchange x = {0};
-    struct overset fresh = *o;
-    fresh.donor = NULL;
-    fresh.n = fresh.room = fresh.n_old = 0;
-    find_again(m, &fresh, wanted);
-    make_exchange(m, &fresh, &x);
+    struct overset *fresh = beside(o);
+    find_again(m, fresh, wanted);
+    make_exchange(m, fresh, &x);
     mesh_exchange(m, &x, nf, f);
     mesh_exchange_free(&x);
-    mem_free(fresh.donor);
+    mem_free(fresh);
 }
 
 /* Every rank looks at all cells, so all agree; o's donors are left as they were. */

@@ -25,10 +25,10 @@ static void unrotate(const struct mesh_block_params *p, const double *x, double 
 }
 
 /* Vertices along each index of a rectilinear block. */
-static void make_lines(const struct mesh_block *b, int dim, struct bins *s)
+static void make_lines(void *owner, const struct mesh_block *b, int dim, struct bins *s)
 {
     for (int a = 0; a < dim; a++) {
-        s->line[a] = NEW(double, b->n[a] + 1);
+        s->line[a] = NEW_IN(owner, double, b->n[a] + 1);
         for (int i = 0; i <= b->n[a]; i++) {
             double y[3];
             unrotate(b->prm, b->x[mesh_vertex(b, a == 0 ? i : 0, a == 1 ? i : 0, a == 2 ? i : 0)],
@@ -96,7 +96,7 @@ static void enter_cells(const struct mesh_block *b, int dim, struct bins *s, int
 }
 
 /* About as many bins as cells; a counting sort in two passes. */
-static void make_bins(const struct mesh_block *b, int dim, struct bins *s)
+static void make_bins(void *owner, const struct mesh_block *b, int dim, struct bins *s)
 {
     const int64_t n = mesh_count(b);
     double lo[3], hi[3];
@@ -121,11 +121,11 @@ static void make_bins(const struct mesh_block *b, int dim, struct bins *s)
         s->size[c] = (s->hi[c] - s->lo[c]) / s->n[c];
         bins *= s->n[c];
     }
-    s->first = NEW(int64_t, bins + 2);
+    s->first = NEW_IN(owner, int64_t, bins + 2);
     enter_cells(b, dim, s, 0);
     for (int64_t k = 0; k < bins; k++)
         s->first[k + 1] += s->first[k];
-    s->cell = NEW(int, s->first[bins]);
+    s->cell = NEW_IN(owner, int, s->first[bins]);
     enter_cells(b, dim, s, 1);
     for (int64_t k = bins; k > 0; k--)
         s->first[k] = s->first[k - 1];
@@ -271,9 +271,9 @@ struct overset *overset_search(const struct run *r, const struct mesh *m)
         o->length[c] = r->scene.domain.max[c] - r->scene.domain.min[c];
     }
     for (int k = 0; k < m->nblocks; k++) {
-        make_bins(m->block[k].made, m->dim, o->bins + k);
+        make_bins(o, m->block[k].made, m->dim, o->bins + k);
         if (is_rectilinear(m->block + k))
-            make_lines(m->block[k].made, m->dim, o->bins + k);
+            make_lines(o, m->block[k].made, m->dim, o->bins + k);
     }
     return o;
 }

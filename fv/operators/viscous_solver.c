@@ -51,16 +51,16 @@ static void make_work(const struct fv *s, struct viscous_solver *v)
     const int sets = s->m ? 4 : walls ? 3 : 0;
     for (int k = 0; sets == 0 && k < 3; k++)
         for (int a = 0; a < s->dim; a++)
-            v->single[k][a] = NEW(float, s->size);
+            v->single[k][a] = NEW_IN(v, float, s->size);
     for (int k = 0; k < sets; k++)
         for (int a = 0; a < s->dim; a++)
-            v->work[k][a] = NEW(double, s->size);
+            v->work[k][a] = NEW_IN(v, double, s->size);
     if (s->m || !walls)
         return;
     v->work[3][0] = s->faces[0];
     v->work[3][1] = s->flux;
     if (s->dim == 3)
-        v->work[3][2] = NEW(double, s->size);
+        v->work[3][2] = NEW_IN(v, double, s->size);
 }
 
 struct viscous_solver *viscous_solver_create(const struct fv *s)
@@ -71,26 +71,11 @@ struct viscous_solver *viscous_solver_create(const struct fv *s)
     v->cells_a_side = cells_a_side(s);
     make_work(s, v);
     if (s->m) {
-        v->scale = diagonal_of(s);
+        v->scale = mem_own(v, diagonal_of(s));
         v->symmetric = mesh_viscous_symmetric(s);
     }
     v->stiffest = stiffest_of(s);
     return v;
-}
-
-void viscous_solver_free(struct fv *s)
-{
-    struct viscous_solver *v = s->viscous;
-    if (!v)
-        return;
-    for (int k = 0; k < 4; k++)
-        for (int a = 0; a < 3; a++)
-            if (v->work[k][a] != s->faces[0] && v->work[k][a] != s->flux)
-                mem_free(v->work[k][a]);
-    for (int k = 0; k < 3; k++)
-        FREE(v->single[k][0], v->single[k][1], v->single[k][2]);
-    FREE(v->scale, v);
-    s->viscous = NULL;
 }
 
 void viscous_solver_renew(struct fv *s)

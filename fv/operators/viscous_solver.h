@@ -18,11 +18,9 @@ struct viscous_solver {
 };
 
 /* What the solve needs for the grid, its walls and the state of its cells, which must be there
- * before; owned by the caller (viscous_solver_free). NULL: the fluid has no viscosity.
+ * before; owned by the caller (FREE). NULL: the fluid has no viscosity.
  * Collective. */
 struct viscous_solver *viscous_solver_create(const struct fv *s);
-/* Frees s->viscous and sets it to NULL, which it may be. */
-void viscous_solver_free(struct fv *s);
 /* Finds the spectrum anew after cells or walls have changed. Collective. */
 void viscous_solver_renew(struct fv *s);
 /* The member stiffest, 1/s; 0 without viscosity. */

@@ -107,7 +107,7 @@ static void draw_blocks(const struct run *r, const struct fv_params *prm, struct
                 draw_side(b, up, side, p);
         picture_text(p, b->x[mesh_vertex(b, 0, 0, 0)], b->prm->name);
     }
-    mesh_free(&m);
+    FREE(m);
 }
 
 /* Boxes of the particles of a coupled job. Rank 0 asks alone. */

@@ -102,7 +102,7 @@ void fv_tell(void *state, struct summary *report)
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
         sum[4] += part;
     }
-    overset_free(&o);
+    FREE(o);
     MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < (s->surface ? 5 : 4); k++)
         summary_real(report, names[k], sum[k]);

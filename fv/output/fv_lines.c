@@ -170,7 +170,7 @@ static void on_blocks(const struct fv *s, double found[3])
     found[0] = u[0];
     found[1] = v[1];
     found[2] = v[0];
-    overset_free(&o);
+    FREE(o);
 }
 
 void fv_summarise_extrema(const struct fv *s)

@@ -128,7 +128,7 @@ static bool restore_grids(struct fv *s, struct h5 *f)
     for (int k = 0; l && fits && k < grid_blocks(&s->grid); k++)
         fits = layout_fits(l, k, grid_cells(&s->grid, k));
     fits = fits && restore_fields(s, f, l);
-    layout_free(&l);
+    FREE(l);
     return fits;
 }
 

@@ -12,10 +12,8 @@ struct fv_output {
     double (*history)[3]; /* blocks: s, N: t, force x, force y of each row of the series */
 };
 
-/* output_state.c: what outputs of this grid need; owned by the caller (output_free). Collective. */
+/* output_state.c: what outputs of this grid need; owned by the caller (FREE). Collective. */
 struct fv_output *output_create(const struct fv *s);
-/* Frees it and sets *o to NULL; *o may be NULL. */
-void output_free(struct fv_output **o);
 
 /* The fields of a snapshot, m/s, Pa, 1/s. */
 enum output_field { OUTPUT_VELOCITY, OUTPUT_PRESSURE, OUTPUT_VORTICITY };

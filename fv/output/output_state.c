@@ -10,16 +10,6 @@ struct fv_output *output_create(const struct fv *s)
 {
     struct fv_output *o = NEW(struct fv_output, 1);
     if (s->m && s->run->scene.nprobes > 0)
-        o->search = overset_search(s->run, s->m);
+        o->search = mem_own(o, overset_search(s->run, s->m));
     return o;
-}
-
-void output_free(struct fv_output **op)
-{
-    struct fv_output *o = *op;
-    if (!o)
-        return;
-    overset_free(&o->search);
-    FREE(o->history, o);
-    *op = NULL;
 }

@@ -13,9 +13,8 @@ struct fv;
 
 /* A solver as functions; `of' is the state that create made. */
 struct backend {
-    /* NULL: it cannot take these cells. */
+    /* A block of mem.h, freed by FREE with all that it owns; NULL: it cannot take these cells. */
     void *(*create)(struct fv *s);
-    void (*free)(void **of);
     /* On fields, see poisson_solve and poisson_cycle; NULL: it works on vectors. */
     bool (*solve_field)(struct fv *s, double tau, double *div, double tol, double *psi);
     void (*cycle_field)(struct fv *s, double *div, double *psi);

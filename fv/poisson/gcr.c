@@ -9,19 +9,12 @@
 
 #include "../../common/base/base.h"
 
-void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
+void gcr_create(void *owner, struct gcr *g, MPI_Comm comm, int n, void *of,
                 void (*apply)(void *of, double *x, double *Ax),
                 void (*cycle)(void *of, double *r, double *z))
 {
     *g = (struct gcr){.comm = comm, .n = n, .of = of, .apply = apply, .cycle = cycle};
-    g->r = NEW(double, n);
-}
-
-void gcr_free(struct gcr *g)
-{
-    mem_free(g->r);
-    for (int k = 0; k < GCR_KEPT; k++)
-        FREE(g->z[k], g->Az[k]);
+    g->r = NEW_IN(owner, double, n);
 }
 
 static void add(int n, double a, const double *restrict x, double *restrict y)
@@ -77,8 +70,8 @@ int gcr_solve(struct gcr *g, const double *b, double *x, double goal, int most, 
         if (!(*left > goal) && (it > 0 || !(*left > 0.0)))
             return it;
         if (!g->z[k]) {
-            g->z[k] = NEW(double, g->n);
-            g->Az[k] = NEW(double, g->n);
+            g->z[k] = NEW_IN(g->r, double, g->n);
+            g->Az[k] = NEW_IN(g->r, double, g->n);
         }
         g->cycle(g->of, g->r, g->z[k]);
         g->apply(g->of, g->z[k], g->Az[k]);

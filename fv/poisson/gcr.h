@@ -23,12 +23,11 @@ struct gcr {
     double *r, *z[GCR_KEPT], *Az[GCR_KEPT], kept[GCR_KEPT]; /* directions, images, their squares */
 };
 
-/* Sets *g for n rows on this rank; memory for directions is allocated when they are needed. Freed
- * by gcr_free. */
-void gcr_create(struct gcr *g, MPI_Comm comm, int n, void *of,
+/* Sets *g for n rows on this rank; memory for directions is allocated when they are needed. They
+ * belong to `owner'. */
+void gcr_create(void *owner, struct gcr *g, MPI_Comm comm, int n, void *of,
                 void (*apply)(void *of, double *x, double *Ax),
                 void (*cycle)(void *of, double *r, double *z));
-void gcr_free(struct gcr *g);
 /* Solves A x = b starting from x, with at least one cycle unless `most' is 0 or the residual
  * vanishes, until |b - A x| <= goal, in at most `most' cycles. Returns their number; *left: the
  * norm of the residual in the end, which is in g->r. Collective. */

@@ -65,14 +65,14 @@ bool halving_fits(const struct block *b)
 }
 
 /* The first level takes x and b from who asks. */
-static void allocate(struct halved *l, int dim, bool first)
+static void allocate(void *owner, struct halved *l, int dim, bool first)
 {
     double **const fields[] = {&l->own, &l->diagonal, &l->per, &l->y, &l->x, &l->b};
     for (int k = 0; k < (first ? 4 : 6); k++)
-        *fields[k] = NEW(double, l->size);
+        *fields[k] = NEW_IN(owner, double, l->size);
     for (int a = 0; a < dim; a++)
-        l->through[a] = NEW(double, l->size);
-    l->run = (int(*)[2])NEW(int, 2 * lines(l));
+        l->through[a] = NEW_IN(owner, double, l->size);
+    l->run = (int(*)[2])NEW_IN(owner, int, 2 * lines(l));
 }
 
 /* The axis to halve next within a group of axes that are short beside `most'; < 0: none is. */
@@ -130,7 +130,7 @@ struct halving *halving_create(const struct block *b)
         l->h[a] = b->length[a] / b->cells[a];
     }
     for (h->n = 1;; h->n++, l++) {
-        allocate(l, h->dim, h->n == 1);
+        allocate(h, l, h->dim, h->n == 1);
         l->axis = shortest(l, h->dim, most);
         if (l->axis < 0) {
             l->relaxes = true;
@@ -142,21 +142,6 @@ struct halving *halving_create(const struct block *b)
             return h;
         make_next(l, h->dim, l + 1);
     }
-}
-
-void halving_free(struct halving **hp)
-{
-    struct halving *h = *hp;
-    if (!h)
-        return;
-    for (struct halved *l = h->level; l < h->level + h->n; l++) {
-        FREE(l->own, l->diagonal, l->per, l->x, l->y, l->b);
-        for (int a = 0; a < h->dim; a++)
-            mem_free(l->through[a]);
-        mem_free(l->run);
-    }
-    mem_free(h);
-    *hp = NULL;
 }
 
 double *halving_through(struct halving *h, int a) { return h->level->through[a]; }

@@ -10,9 +10,8 @@
 /* Whether the grid has no period, and so few ranks share it that each may have all coarser levels.
  */
 bool halving_fits(const struct block *b);
-/* The levels over the whole grid; owned by the caller (halving_free), b is borrowed. */
+/* The levels over the whole grid; owned by the caller (FREE), b is borrowed. */
 struct halving *halving_create(const struct block *b);
-void halving_free(struct halving **h);
 /* Ahead of halving_set_matrix: nothing has a row. */
 void halving_begin(struct halving *h);
 /* What is to be set then. Fields: what the lower face of a cell along axis a passes, 1/m^2, also of

@@ -36,7 +36,7 @@ struct mesh_pressure {
     double *zw, cw;             /* A_p^-1 V; residual of its row */
     double fringe;              /* diagonal of the rows of the fringe */
     /* rows of all cells as they are when computed, by first of each */
-    int *row_first;
+    int *row_first; /* owns the other two */
     HYPRE_BigInt *row_col;
     double *row_value;
 };
@@ -141,29 +141,21 @@ static void keep_rows(const struct fv *s, struct mesh_pressure *p)
     int64_t n = 0, room = 16 * (int64_t)p->n;
     struct row r;
     int i[3];
-    p->row_first = NEW(int, p->n + 1);
-    p->row_col = NEW(HYPRE_BigInt, room);
-    p->row_value = NEW(double, room);
+    p->row_first = NEW_IN(p, int, p->n + 1);
+    p->row_col = NEW_IN(p->row_first, HYPRE_BigInt, room);
+    p->row_value = NEW_IN(p->row_first, double, room);
     for (int k = 0; k < p->n; k++) {
         const struct part *part = grid_part(&s->grid, p->rows->place[k], i);
         computed_row(s->m, part, i, &r);
         if (n + r.n > room) {
-            GROW(p->row_col, room, 2 * room);
-            GROW(p->row_value, room, 2 * room);
+            GROW_IN(p, p->row_col, room, 2 * room);
+            GROW_IN(p, p->row_value, room, 2 * room);
             room *= 2;
         }
         memcpy(p->row_col + n, r.col, (size_t)r.n * sizeof *r.col);
         memcpy(p->row_value + n, r.v, (size_t)r.n * sizeof *r.v);
         p->row_first[k + 1] = (int)(n += r.n);
     }
-}
-
-static void free_rows(struct mesh_pressure *p)
-{
-    FREE(p->row_first, p->row_col, p->row_value);
-    p->row_first = NULL;
-    p->row_col = NULL;
-    p->row_value = NULL;
 }
 
 /* The row of the first computed cell of all ranks, which psi = 0 replaces; its place here, or -1.
@@ -233,7 +225,7 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
         matrix_create(&p->solved, s, ncols, col, v);
     FREE(col, v, ncols, fringe);
     if (!m->moves)
-        free_rows(p);
+        DROP(p->row_first);
 }
 
 static HYPRE_ParCSRMatrix matrix_of(const struct mesh_pressure *p)
@@ -363,6 +355,27 @@ static void solve_volumes(struct fv *s, struct mesh_pressure *p)
     mem_free(b);
 }
 
+static void free_safe(struct mesh_pressure *p)
+{
+    if (!p->safe)
+        return;
+    HYPRE_ParCSRBiCGSTABDestroy(p->safe);
+    HYPRE_BoomerAMGDestroy(p->safe_amg);
+    p->safe = NULL;
+}
+
+static void close_hypre(void *of)
+{
+    struct mesh_pressure *p = of;
+    HYPRE_BoomerAMGDestroy(p->amg);
+    free_safe(p);
+    matrix_free(&p->whole);
+    matrix_free(&p->solved);
+    HYPRE_IJVectorDestroy(p->b.ij);
+    HYPRE_IJVectorDestroy(p->x.ij);
+    HYPRE_IJVectorDestroy(p->r.ij);
+}
+
 static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -372,25 +385,17 @@ static void *create(struct fv *s)
     p->first = p->rows->first;
     p->last = p->first + p->n - 1;
     p->singular = !mesh_bc_pressure_given(s);
-    p->zw = NEW(double, p->n);
+    p->zw = NEW_IN(p, double, p->n);
     fill_matrices(s, p);
     vector_create(&p->b, s);
     vector_create(&p->x, s);
     vector_create(&p->r, s);
     make_solver(p);
-    gcr_create(&p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);
+    mem_at_free(p, close_hypre);
+    gcr_create(p, &p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);
     if (p->singular)
         solve_volumes(s, p);
     return p;
-}
-
-static void free_safe(struct mesh_pressure *p)
-{
-    if (!p->safe)
-        return;
-    HYPRE_ParCSRBiCGSTABDestroy(p->safe);
-    HYPRE_BoomerAMGDestroy(p->safe_amg);
-    p->safe = NULL;
 }
 
 /* The hierarchy of a matrix before serves a neighbour: its cycle has the new one on the finest
@@ -413,25 +418,6 @@ static void renew(struct fv *s, void *of, bool hierarchy)
     solve_volumes(s, p);
     for (int k = 0; k < p->n; k++)
         s->fringe.z[p->rows->place[k]] = p->zw[k];
-}
-
-static void free_matrices(void **of)
-{
-    struct mesh_pressure *p = *of;
-    if (!p)
-        return;
-    HYPRE_BoomerAMGDestroy(p->amg);
-    free_safe(p);
-    gcr_free(&p->gcr);
-    matrix_free(&p->whole);
-    matrix_free(&p->solved);
-    HYPRE_IJVectorDestroy(p->b.ij);
-    HYPRE_IJVectorDestroy(p->x.ij);
-    HYPRE_IJVectorDestroy(p->r.ij);
-    mem_free(p->zw);
-    free_rows(p);
-    mem_free(p);
-    *of = NULL;
 }
 
 /* One row is free for psi = 0 only as long as the matrix is singular. */
@@ -475,7 +461,6 @@ static void cycle(struct fv *s, void *of, double *b, double *x)
 const struct backend backend_boomeramg = {.stage = 0.1,
                                           .last = 0.02,
                                           .create = create,
-                                          .free = free_matrices,
                                           .solve = solve,
                                           .cycle = cycle,
                                           .shift = set_shift,

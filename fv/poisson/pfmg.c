@@ -105,32 +105,19 @@ static void make_cycle(struct pfmg *p)
     HYPRE(HYPRE_StructPFMGSetup(p->cycle, p->A, p->b, p->x));
 }
 
-static void copy_boxes(struct pfmg_grid *g)
+static void copy_boxes(void *owner, struct pfmg_grid *g)
 {
     int(*const lo)[3] = g->lo, (*const hi)[3] = g->hi;
     const size_t bytes = (size_t)g->nboxes * sizeof *lo;
-    g->lo = (int(*)[3])NEW(int, 3 * g->nboxes);
-    g->hi = (int(*)[3])NEW(int, 3 * g->nboxes);
+    g->lo = (int(*)[3])NEW_IN(owner, int, 3 * g->nboxes);
+    g->hi = (int(*)[3])NEW_IN(owner, int, 3 * g->nboxes);
     memcpy(g->lo, lo, bytes);
     memcpy(g->hi, hi, bytes);
 }
 
-struct pfmg *pfmg_create(const struct pfmg_grid *g)
+static void close_hypre(void *of)
 {
-    struct pfmg *p = NEW(struct pfmg, 1);
-    p->of = *g;
-    copy_boxes(&p->of);
-    make_grid(p);
-    make_vector(p, &p->b);
-    make_vector(p, &p->x);
-    return p;
-}
-
-void pfmg_free(struct pfmg **pp)
-{
-    struct pfmg *p = *pp;
-    if (!p)
-        return;
+    struct pfmg *p = of;
     if (p->A) {
         HYPRE_StructPFMGDestroy(p->cycle);
         HYPRE_StructMatrixDestroy(p->A);
@@ -139,8 +126,18 @@ void pfmg_free(struct pfmg **pp)
     HYPRE_StructVectorDestroy(p->x);
     HYPRE_StructStencilDestroy(p->stencil);
     HYPRE_StructGridDestroy(p->grid);
-    FREE(p->of.lo, p->of.hi, p);
-    *pp = NULL;
+}
+
+struct pfmg *pfmg_create(const struct pfmg_grid *g)
+{
+    struct pfmg *p = NEW(struct pfmg, 1);
+    p->of = *g;
+    copy_boxes(p, &p->of);
+    make_grid(p);
+    make_vector(p, &p->b);
+    make_vector(p, &p->x);
+    mem_at_free(p, close_hypre);
+    return p;
 }
 
 void pfmg_set_matrix(struct pfmg *p, double *const *rows)

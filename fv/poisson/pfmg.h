@@ -20,9 +20,8 @@ struct pfmg_grid {
     int (*hi)[3];     /* [nboxes] last cells, included, as hypre wants it */
 };
 
-/* Owned by the caller (pfmg_free). Collective over g->comm, as all here. */
+/* Owned by the caller (FREE). Collective over g->comm, as all here. */
 struct pfmg *pfmg_create(const struct pfmg_grid *g);
-void pfmg_free(struct pfmg **p);
 /* Sets the matrix: rows[box] has for each cell, x fastest, the diagonal, then the lower and the
  * upper neighbour along each axis. */
 void pfmg_set_matrix(struct pfmg *p, double *const *rows);

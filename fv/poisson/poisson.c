@@ -32,11 +32,11 @@ static void make_rows(const struct fv *s, struct poisson *p)
     mesh_rows(s->m, s->m->rank, &first, &n);
     p->first = (int)first;
     p->n = (int)n;
-    p->place = NEW(int64_t, p->n);
-    p->V = NEW(double, p->n);
-    p->b = NEW(double, p->n);
-    p->x = NEW(double, p->n);
-    p->psi = NEW(double, p->n);
+    p->place = NEW_IN(p, int64_t, p->n);
+    p->V = NEW_IN(p, double, p->n);
+    p->b = NEW_IN(p, double, p->n);
+    p->x = NEW_IN(p, double, p->n);
+    p->psi = NEW_IN(p, double, p->n);
     FLOW_ROWS (s, c, len)
         for (int64_t i = c; i < c + len; i++)
             p->place[k++] = i;
@@ -47,23 +47,13 @@ void poisson_create(struct fv *s)
 {
     static const struct backend *const all[] = {&backend_even, &backend_wet, &backend_pfmg,
                                                 &backend_boomeramg};
-    struct poisson *p = s->poisson = NEW(struct poisson, 1);
+    struct poisson *p = s->poisson = NEW_IN(s, struct poisson, 1);
     if (s->m)
         make_rows(s, p);
     for (size_t e = 0; !p->of; e++) {
         p->by = all[e];
-        p->of = p->by->create(s);
+        p->of = mem_own(p, p->by->create(s));
     }
-}
-
-void poisson_free(struct poisson **pp)
-{
-    struct poisson *p = *pp;
-    if (!p)
-        return;
-    p->by->free(&p->of);
-    FREE(p->place, p->V, p->b, p->x, p->psi, p);
-    *pp = NULL;
 }
 
 /* Sum of f q^2; sums side by side, or each addition waits for the one before. */

@@ -8,9 +8,8 @@
 #include "../fv.h"
 
 /* Picks the first backend that takes the cells and makes s->poisson; again when cells or metrics
- * have changed. poisson_free frees it. */
+ * have changed. It belongs to s. */
 void poisson_create(struct fv *s);
-void poisson_free(struct poisson **p);
 /* Solves A psi = -div/tau, on uniform cells Lap psi = div, 1/s^2, to the relative residual tol. div
  * is that of flow_ops and is overwritten; where no side gives the pressure its compatibility defect
  * is removed uniformly. psi: start and result, with its ghosts; on blocks without a surface the

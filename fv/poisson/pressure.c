@@ -191,10 +191,10 @@ static void *create(struct fv *s)
     if (s->m)
         return NULL;
     struct pressure *p = NEW(struct pressure, 1);
-    p->diagonal = block_field(b);
-    p->p = block_field(b);
-    p->Ap = block_field(b);
-    p->z = block_field(b);
+    p->diagonal = mem_own(p, block_field(b));
+    p->p = mem_own(p, block_field(b));
+    p->Ap = mem_own(p, block_field(b));
+    p->z = mem_own(p, block_field(b));
     p->free_cells = (double)b->cells[0] * b->cells[1] * b->cells[2];
     if (s->forcing)
         p->free_cells = (double)s->forcing->free_cells;
@@ -208,25 +208,13 @@ static void *create(struct fv *s)
         p->outer[1][a] = b->hi[a] - 1 + b->g[a];
     }
     if (s->surface && halving_fits(b)) {
-        p->halving = halving_create(b);
+        p->halving = mem_own(p, halving_create(b));
     } else {
-        wet_boxes_find(s, &p->boxes);
-        p->pfmg = make_pfmg(b, &p->boxes);
+        wet_boxes_find(s, p, &p->boxes);
+        p->pfmg = mem_own(p, make_pfmg(b, &p->boxes));
     }
     make_matrix(s, p);
     return p;
-}
-
-static void free_pressure(void **of)
-{
-    struct pressure *p = *of;
-    if (!p)
-        return;
-    halving_free(&p->halving);
-    pfmg_free(&p->pfmg);
-    wet_boxes_free(&p->boxes);
-    FREE(p->diagonal, p->p, p->Ap, p->z, p);
-    *of = NULL;
 }
 
 static void rebuild(struct fv *s, void *of)
@@ -234,9 +222,9 @@ static void rebuild(struct fv *s, void *of)
     struct pressure *p = of;
     p->singular = s->surface->cuts == 0 && (!s->bc || !s->bc->pressure_given);
     p->free_cells = fmax(1.0, (double)s->surface->wet);
-    if (!p->halving && wet_boxes_find(s, &p->boxes)) {
-        pfmg_free(&p->pfmg);
-        p->pfmg = make_pfmg(&s->b, &p->boxes);
+    if (!p->halving && wet_boxes_find(s, p, &p->boxes)) {
+        DROP(p->pfmg);
+        p->pfmg = mem_own(p, make_pfmg(&s->b, &p->boxes));
     }
     make_matrix(s, p);
 }
@@ -441,7 +429,6 @@ static void set_shift(struct fv *s, void *of, double given)
 }
 
 const struct backend backend_even = {.create = create,
-                                     .free = free_pressure,
                                      .solve_field = solve,
                                      .cycle_field = cycle_field,
                                      .shift = set_shift,

@@ -266,7 +266,7 @@ static void make_pfmg(struct tiles *t)
         L = fmax(L, a < m->dim ? t->cells[a] * g.h[a] : 0.0);
     }
     t->least = 1e-2 / (L * L); /* see pressure.c */
-    t->pfmg = pfmg_create(&g);
+    t->pfmg = mem_own(t, pfmg_create(&g));
     set_matrix(t);
 }
 
@@ -429,7 +429,7 @@ static double balance(const struct tiles *t, double *b)
 static bool is_fast(struct tiles *t)
 {
     const struct fv *s = t->s;
-    double *b = NEW(double, t->gcr.n), *x = NEW(double, t->gcr.n), *to = b, left;
+    double *b = NEW(double, t->gcr.n), *x = NEW_IN(t, double, t->gcr.n), *to = b, left;
     for (int q = 0; q < s->grid.nparts; q++) {
         const struct part *p = s->grid.part + q;
         int i[3];
@@ -448,40 +448,29 @@ static bool is_fast(struct tiles *t)
     return left <= goal;
 }
 
-static void free_tiles(void **of)
-{
-    struct tiles *t = *of;
-    if (!t)
-        return;
-    pfmg_free(&t->pfmg);
-    gcr_free(&t->gcr);
-    FREE(t->psi, t->flux, t->box, t);
-    *of = NULL;
-}
-
 static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
     struct tiles *t = NEW(struct tiles, 1);
-    void *of = t;
     t->s = s;
     if (m->has_fringe || !place(t, m)) {
-        free_tiles(&of);
+        mem_free(t);
         return NULL;
     }
     t->singular = !mesh_bc_pressure_given(s);
-    t->psi = mesh_field(m);
-    t->flux = mesh_field(m);
-    t->box = NEW(double, s->poisson->n);
-    gcr_create(&t->gcr, m->comm, s->poisson->n, t, apply_rows, cycle_rows);
+    t->psi = mem_own(t, mesh_field(m));
+    t->flux = mem_own(t, mesh_field(m));
+    t->box = NEW_IN(t, double, s->poisson->n);
+    gcr_create(t, &t->gcr, m->comm, s->poisson->n, t, apply_rows, cycle_rows);
     t->gcr.galerkin = true;
     for (int k = 0; k < m->nparts; k++)
         t->skewed = t->skewed || m->part[k].kind == PART_CURVED;
     MPI_Allreduce(MPI_IN_PLACE, &t->skewed, 1, MPI_C_BOOL, MPI_LOR, m->comm);
     make_pfmg(t);
-    if (!is_fast(t))
-        free_tiles(&of);
-    return of;
+    if (is_fast(t))
+        return t;
+    mem_free(t);
+    return NULL;
 }
 
 static bool solve(struct fv *s, void *of, double *b, double tol, double *x, double *psi, double *c)
@@ -514,7 +503,6 @@ static void set_shift(struct fv *s, void *of, double shift)
 const struct backend backend_pfmg = {.stage = 1.0,
                                      .last = 1.0,
                                      .create = create,
-                                     .free = free_tiles,
                                      .solve = solve,
                                      .cycle = cycle,
                                      .shift = set_shift};

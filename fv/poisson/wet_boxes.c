@@ -55,13 +55,14 @@ static void find_runs(const struct fv *s, int ny, int (*run)[2])
 }
 
 /* lo, hi: tiles. */
-static void add_box(const struct block *b, const int lo[3], const int hi[3], struct wet_boxes *w)
+static void add_box(void *owner, const struct block *b, const int lo[3], const int hi[3],
+                    struct wet_boxes *w)
 {
     int64_t cells = 1;
     if (w->n == w->room) {
         const int more = 2 * w->room + 8;
-        GROW(w->lo, w->n, more);
-        GROW(w->hi, w->n, more);
+        GROW_IN(owner, w->lo, w->n, more);
+        GROW_IN(owner, w->hi, w->n, more);
         w->room = more;
     }
     for (int a = 0; a < 3; a++) {
@@ -74,7 +75,8 @@ static void add_box(const struct block *b, const int lo[3], const int hi[3], str
     w->n++;
 }
 
-static void make_boxes(const struct block *b, int ny, int nz, int (*run)[2], struct wet_boxes *w)
+static void make_boxes(void *owner, const struct block *b, int ny, int nz, int (*run)[2],
+                       struct wet_boxes *w)
 {
     w->n = 0;
     w->cells = 0;
@@ -85,17 +87,17 @@ static void make_boxes(const struct block *b, int ny, int nz, int (*run)[2], str
                 end++;
             const int lo[3] = {of[0], j, k}, hi[3] = {of[1], end, k + 1};
             if (of[1] > of[0])
-                add_box(b, lo, hi, w);
+                add_box(owner, b, lo, hi, w);
         }
 }
 
-static void take_all(const struct block *b, struct wet_boxes *w)
+static void take_all(void *owner, const struct block *b, struct wet_boxes *w)
 {
     static const int none[3] = {0, 0, 0};
     const int all[3] = {tiles_of(b, 0), tiles_of(b, 1), tiles_of(b, 2)};
     w->n = 0;
     w->cells = 0;
-    add_box(b, none, all, w);
+    add_box(owner, b, none, all, w);
 }
 
 /* Whether some water lies in no box. */
@@ -118,7 +120,7 @@ static bool misses_some(const struct fv *s, const struct wet_boxes *w)
     return in < all;
 }
 
-bool wet_boxes_find(const struct fv *s, struct wet_boxes *w)
+bool wet_boxes_find(const struct fv *s, void *owner, struct wet_boxes *w)
 {
     const struct block *b = &s->b;
     const int ny = tiles_of(b, 1), nz = tiles_of(b, 2);
@@ -127,7 +129,7 @@ bool wet_boxes_find(const struct fv *s, struct wet_boxes *w)
     const bool periodic = b->periodic[0] || b->periodic[1] || b->periodic[2];
     if (!s->surface || s->surface->wet == 0 || periodic) {
         if (changes)
-            take_all(b, w);
+            take_all(owner, b, w);
         return changes;
     }
     int(*run)[2] = (int(*)[2])NEW(int, 2 * ny * nz);
@@ -136,20 +138,14 @@ bool wet_boxes_find(const struct fv *s, struct wet_boxes *w)
         run[t][1] = INT_MIN;
     }
     find_runs(s, ny, run);
-    make_boxes(b, ny, nz, run, &now);
+    make_boxes(owner, b, ny, nz, run, &now);
     changes = ranks_any(s->comm, misses_some(s, w) || w->cells > SPARE * now.cells);
     if (changes) {
-        wet_boxes_free(w);
+        FREE(w->lo, w->hi);
         *w = now;
     } else {
-        wet_boxes_free(&now);
+        FREE(now.lo, now.hi);
     }
     mem_free(run);
     return changes;
-}
-
-void wet_boxes_free(struct wet_boxes *w)
-{
-    FREE(w->lo, w->hi);
-    *w = (struct wet_boxes){0};
 }

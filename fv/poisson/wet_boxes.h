@@ -18,7 +18,6 @@ struct wet_boxes {
 void wet_boxes_run(const unsigned char *layer, int n, int run[2]);
 /* Finds the boxes; without a surface, without water, or with a periodic axis they are all cells of
  * the rank. Returns whether they differ from before on some rank. Collective. */
-bool wet_boxes_find(const struct fv *s, struct wet_boxes *w);
-void wet_boxes_free(struct wet_boxes *w);
+bool wet_boxes_find(const struct fv *s, void *owner, struct wet_boxes *w);
 
 #endif

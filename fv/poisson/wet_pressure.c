@@ -98,10 +98,10 @@ static void make_donors(struct fv *s, struct wet_pressure *p)
             *q = (struct mesh_request){.in = s->size + each * k + d};
             mesh_owner(m, block, at, &q->rank, &q->out);
         }
-    mesh_exchange_create(m, &p->donors, 1, each * m->nfringe, request);
+    mesh_exchange_create(p, m, &p->donors, 1, each * m->nfringe, request);
     for (int k = 0; k < 2; k++) {
         mem_free(p->beyond[k]);
-        p->beyond[k] = NEW(double, s->size + each * m->nfringe);
+        p->beyond[k] = NEW_IN(p, double, s->size + each * m->nfringe);
     }
     mem_free(request);
 }
@@ -115,6 +115,24 @@ static void renew(struct fv *s, void *of, bool hierarchy)
     make_donors(s, p);
 }
 
+static void free_solver(struct wet_pressure *p)
+{
+    if (!p->A.ij)
+        return;
+    HYPRE_ParCSRGMRESDestroy(p->gmres);
+    HYPRE_BoomerAMGDestroy(p->amg);
+    matrix_free(&p->A);
+}
+
+static void close_hypre(void *of)
+{
+    struct wet_pressure *p = of;
+    free_solver(p);
+    HYPRE_IJVectorDestroy(p->b.ij);
+    HYPRE_IJVectorDestroy(p->x.ij);
+    HYPRE_IJVectorDestroy(p->r.ij);
+}
+
 static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -125,14 +143,14 @@ static void *create(struct fv *s)
     p->rows = s->poisson;
     p->n = p->rows->n;
     p->first = p->rows->first;
-    p->row_of = NEW(HYPRE_BigInt, s->size);
+    p->row_of = NEW_IN(p, HYPRE_BigInt, s->size);
     p->value = p->rows->b;
     p->residual = p->rows->x;
-    p->dry = NEW(double, s->size);
-    p->whole = NEW(unsigned char, s->size);
-    p->count = NEW(HYPRE_Int, p->n);
+    p->dry = NEW_IN(p, double, s->size);
+    p->whole = NEW_IN(p, unsigned char, s->size);
+    p->count = NEW_IN(p, HYPRE_Int, p->n);
     for (int a = 0; a < m->dim; a++)
-        p->special[a] = NEW(int, s->size);
+        p->special[a] = NEW_IN(p, int, s->size);
     set_rows(s, p);
     if (m->has_fringe)
         make_donors(s, p);
@@ -146,34 +164,8 @@ static void *create(struct fv *s)
     vector_create(&p->b, s);
     vector_create(&p->x, s);
     vector_create(&p->r, s);
+    mem_at_free(p, close_hypre);
     return p;
-}
-
-static void free_solver(struct wet_pressure *p)
-{
-    if (!p->A.ij)
-        return;
-    HYPRE_ParCSRGMRESDestroy(p->gmres);
-    HYPRE_BoomerAMGDestroy(p->amg);
-    matrix_free(&p->A);
-}
-
-static void free_wet(void **of)
-{
-    struct wet_pressure *p = *of;
-    if (!p)
-        return;
-    free_solver(p);
-    HYPRE_IJVectorDestroy(p->b.ij);
-    HYPRE_IJVectorDestroy(p->x.ij);
-    HYPRE_IJVectorDestroy(p->r.ij);
-    mesh_exchange_free(&p->donors);
-    for (int a = 0; a < 3; a++)
-        mem_free(p->special[a]);
-    for (int k = 0; k < 2; k++)
-        mem_free(p->beyond[k]);
-    FREE(p->row_of, p->dry, p->whole, p->count, p->col, p->entry, p);
-    *of = NULL;
 }
 
 /* --- rows --- */
@@ -293,8 +285,8 @@ static void keep_row(struct wet_pressure *p, int k, const struct row *r)
 {
     if (p->nentry + r->n > p->room) {
         const int64_t more = 2 * p->room + 16 * (int64_t)p->n + ROW_MAX;
-        GROW(p->col, p->nentry, more);
-        GROW(p->entry, p->nentry, more);
+        GROW_IN(p, p->col, p->nentry, more);
+        GROW_IN(p, p->entry, p->nentry, more);
         p->room = more;
     }
     p->count[k] = r->n;
@@ -469,7 +461,6 @@ static void cycle(struct fv *s, double *div, double *psi)
 }
 
 const struct backend backend_wet = {.create = create,
-                                    .free = free_wet,
                                     .solve_field = solve,
                                     .cycle_field = cycle,
                                     .rebuild = rebuild,

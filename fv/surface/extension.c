@@ -169,13 +169,13 @@ static void make_room(struct surface *f, int64_t n, int64_t ngrad)
 {
     if (f->nstencil + n > f->stencil_room) {
         const int64_t more = 2 * f->stencil_room + 4096;
-        GROW(f->at, f->nstencil, more);
-        GROW(f->weight, f->nstencil, more);
+        GROW_IN(f, f->at, f->nstencil, more);
+        GROW_IN(f, f->weight, f->nstencil, more);
         f->stencil_room = more;
     }
     if (f->ngrad + ngrad > f->grad_room) {
         const int64_t more = 2 * f->grad_room + 8192;
-        GROW(f->grad, f->ngrad, more);
+        GROW_IN(f, f->grad, f->ngrad, more);
         f->grad_room = more;
     }
 }
@@ -233,7 +233,7 @@ static void list_carry(struct surface *f, int layer, const struct carry *x)
 {
     if (f->ncarry[layer] == f->carry_room[layer]) {
         const int64_t more = 2 * f->carry_room[layer] + 256;
-        GROW(f->carry[layer], f->ncarry[layer], more);
+        GROW_IN(f, f->carry[layer], f->ncarry[layer], more);
         f->carry_room[layer] = more;
     }
     f->carry[layer][f->ncarry[layer]++] = *x;
@@ -315,7 +315,7 @@ static void add_alike(struct fv *s, const struct part *part, int64_t c, int row,
     find_normal(s, c, row, &p);
     struct pattern_key key = f->window->pattern(s, c, layer, &p);
     key.order = is_thin(s, &p, layer) ? 0 : layer <= 2 ? 2 : 1;
-    struct pattern *x = patterns_find(&f->patterns, &key);
+    struct pattern *x = patterns_find(f, &f->patterns, &key);
     if (x->n < 0)
         learn(s, c, layer, &p, x);
     list_carry(f, layer,
@@ -395,7 +395,8 @@ static void add_patterns(struct fv *s)
     f->nstencil = f->nkept;
     if (f->nkept > KEPT_MOST) {
         f->nstencil = 0;
-        patterns_free(&f->patterns);
+        mem_free(f->patterns.of);
+        f->patterns = (struct patterns){.n = 0};
     }
     FLOW_NEAR_AT (s, part, j, at, n)
         for (int64_t c = at; c < at + n; c++)

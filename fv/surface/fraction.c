@@ -120,7 +120,7 @@ static void measure_cells(const struct fv *s, struct fraction *f)
     double *fields[6];
     int nf = 0;
     for (int a = 0; a < s->dim; a++) {
-        fields[nf++] = f->height[a] = NEW(double, s->size);
+        fields[nf++] = f->height[a] = NEW_IN(f, double, s->size);
         for (int64_t c = 0; c < s->size; c++)
             f->height[a][c] = grid_height(&s->grid, c, a);
     }
@@ -128,7 +128,7 @@ static void measure_cells(const struct fv *s, struct fraction *f)
         return;
     for (int a = 0; a < s->dim; a++)
         for (int b = a + 1; b < s->dim; b++)
-            fields[nf++] = f->cosine[a][b] = NEW(double, s->size);
+            fields[nf++] = f->cosine[a][b] = NEW_IN(f, double, s->size);
     for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
         if (p->kind == PART_CURVED)
             measure_curved(s, f, p);
@@ -141,35 +141,22 @@ static struct fraction *create(const struct fv *s)
     double **const fields[] = {&f->C,    &f->layer, &f->alpha, &f->volume,
                                &f->flux, &f->work,  &f->next};
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        *fields[k] = NEW(double, s->size);
+        *fields[k] = NEW_IN(f, double, s->size);
     for (int a = 0; a < s->dim; a++) {
-        f->n[a] = NEW(double, s->size);
-        f->flow[a] = NEW(double, s->size);
+        f->n[a] = NEW_IN(f, double, s->size);
+        f->flow[a] = NEW_IN(f, double, s->size);
     }
-    f->smooth = NEW(unsigned char, s->size);
+    f->smooth = NEW_IN(f, unsigned char, s->size);
     for (int64_t c = 0; c < s->size; c++)
         f->volume[c] = grid_volume(&s->grid, c);
     for (int a = 0; a < s->dim && !s->m; a++) {
-        f->area[a] = NEW(double, s->size);
+        f->area[a] = NEW_IN(f, double, s->size);
         for (int64_t c = 0; c < s->size; c++)
             f->area[a][c] = f->volume[c] / grid_height(&s->grid, c, a);
     }
     if (s->m)
         measure_cells(s, f);
     return f;
-}
-
-void fraction_free(struct fraction **fp)
-{
-    struct fraction *f = *fp;
-    if (!f)
-        return;
-    FREE(f->C, f->layer, f->alpha, f->volume, f->flux, f->work, f->next);
-    for (int a = 0; a < 3; a++)
-        FREE(f->n[a], f->flow[a], f->area[a], f->height[a], f->cosine[a][1], f->cosine[a][2],
-             f->passed[a]);
-    FREE(f->air, f->smooth, f);
-    *fp = NULL;
 }
 
 void fraction_take(const struct fv *s)
@@ -202,9 +189,9 @@ static bool has_boxes(const struct fv *s)
 
 void fraction_start(struct fv *s)
 {
-    s->surface->fraction = create(s);
+    s->surface->fraction = mem_own(s->surface, create(s));
     for (int a = 0; a < s->dim && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
-        s->surface->fraction->passed[a] = NEW(double, s->size);
+        s->surface->fraction->passed[a] = NEW_IN(s->surface->fraction, double, s->size);
     s->surface->fraction->boxes = has_boxes(s);
     s->surface->fraction->first = first_axis(s);
     order_axes(s->m, &s->surface->fraction->axes);

@@ -67,7 +67,6 @@ void fraction_describe(const struct run *r, const struct fv_params *prm, const s
 bool fraction_wanted(const struct fv *s);
 /* Allocates s->surface->fraction and sets the shares from the present phi. */
 void fraction_start(struct fv *s);
-void fraction_free(struct fraction **f);
 /* Sets the shares from the present phi again. */
 void fraction_take(const struct fv *s);
 /* Keeps the layers for which the projection has just been made. */

@@ -73,7 +73,7 @@ static void list_air(struct fv *s)
                 continue;
             if (f->nair == f->air_room) {
                 const int64_t more = 2 * f->air_room + 256;
-                GROW(f->air, f->nair, more);
+                GROW_IN(f, f->air, f->nair, more);
                 f->air_room = more;
             }
             f->air[f->nair++] = look(s, p, i);

@@ -54,15 +54,15 @@ static void speeds_of(const struct fv *s, const double *share, const double area
 /* Takes the water of now for that of the start. */
 static void hold(const struct fv *s, const double *share, struct outflow *o)
 {
-    o->level = NEW(double, o->n);
-    o->stood = NEW(double, o->n);
-    o->full = NEW(double, o->n);
+    o->level = NEW_IN(s->outflows, double, o->n);
+    o->stood = NEW_IN(s->outflows, double, o->n);
+    o->full = NEW_IN(s->outflows, double, o->n);
     for (int64_t i = 0; i < o->n; i++) {
         o->level[i] = s->surface->phi[o->cell[i]];
         o->full[i] = o->stood[i] = fmin(share[o->cell[i]], 1.0);
     }
     for (int q = 0; q < s->dim; q++) {
-        o->given[q] = NEW(double, o->n);
+        o->given[q] = NEW_IN(s->outflows, double, o->n);
         for (int64_t i = 0; i < o->n; i++)
             o->given[q][i] = o->w[q][o->place[i]];
     }

@@ -189,7 +189,7 @@ static double cut_slope(const struct fv *s, int a, const struct cut *x, double s
 
 static void start(const struct fv *s, struct surface *f)
 {
-    const struct surface_mesh *w = f->mesh = surface_mesh_create(s, f);
+    const struct surface_mesh *w = f->mesh = mem_own(f, surface_mesh_create(s, f));
     f->none = w->out;
     for (int64_t c = 0; c < s->size; c++)
         f->phi[c] = surface_distance(s, (double[]){w->x[0][c], w->x[1][c], w->x[2][c]});

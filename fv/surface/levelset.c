@@ -235,38 +235,17 @@ struct surface *levelset_create(const struct fv *s)
     f->reinit = s->m ? &block_reinit : &even_reinit;
     f->window = s->m ? &block_window : &even_window;
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-        *fields[k] = NEW(double, s->size);
+        *fields[k] = NEW_IN(f, double, s->size);
     for (int a = 0; a < s->dim; a++)
-        f->open[a] = NEW(double, s->size);
-    f->layer = NEW(unsigned char, s->size);
-    f->deep = NEW(int64_t, s->size);
-    f->closed = NEW(bool, s->size);
+        f->open[a] = NEW_IN(f, double, s->size);
+    f->layer = NEW_IN(f, unsigned char, s->size);
+    f->deep = NEW_IN(f, int64_t, s->size);
+    f->closed = NEW_IN(f, bool, s->size);
     f->none = (const unsigned char *)f->closed;
     if (s->prm.integrator != INTEGRATOR_RK3)
-        f->half = NEW(double, s->size);
+        f->half = NEW_IN(f, double, s->size);
     f->g = vec3_length(g);
     f->ops->start(s, f);
     f->ops->ghosts(s, f->phi);
     return f;
-}
-
-void levelset_free(struct surface **fp)
-{
-    struct surface *f = *fp;
-    if (!f)
-        return;
-    fit_free(&f->oscillation);
-    FREE(f->closed, f->phi, f->phi_new, f->rate, f->kept, f->half, f->stress, f->layer, f->deep,
-         f->at);
-    patterns_free(&f->patterns);
-    FREE(f->weight, f->grad);
-    for (int a = 0; a < 3; a++)
-        FREE(f->open[a], f->cut[a]);
-    surface_mesh_free(&f->mesh);
-    for (int k = 0; k < 26; k++)
-        mem_free(f->before[k]);
-    for (int l = 0; l <= LAYERS; l++)
-        mem_free(f->carry[l]);
-    mem_free(f);
-    *fp = NULL;
 }

@@ -104,11 +104,8 @@ struct surface {
     int64_t repeats;        /* steps that were repeated so far */
 };
 
-/* The surface of the scene's water at the start; freed by levelset_free. */
+/* The surface of the scene's water at the start; freed by FREE. */
 struct surface *levelset_create(const struct fv *s);
-/* Frees the surface but for what other headers say they free, and sets *w to NULL; *w may be
- * NULL. */
-void levelset_free(struct surface **w);
 /* Ghosts of a level set: halo, and mirrored (zero gradient) beyond closed sides. Collective. */
 void surface_ghosts(const struct fv *s, double *phi);
 /* The same for shares of water. */

@@ -68,8 +68,6 @@ bool surface_any_inclined(const struct fv *s);
 
 /* surface_mesh.c: also sets the sizes of cells in f over all blocks. Collective. */
 struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f);
-/* Frees the quantities and sets *m to NULL; *m may be NULL. */
-void surface_mesh_free(struct surface_mesh **m);
 /* Sets speed; returns the largest sum over the indices of the rates at which the velocity crosses
  * cells, 1/s, in the band where phi is less than `band' cells off 0, over all ranks. Collective. */
 double surface_mesh_speeds(const struct fv *s, double band);

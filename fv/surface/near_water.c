@@ -123,7 +123,7 @@ void near_water_find(struct fv *s)
     const size_t bytes = (size_t)rows * sizeof *p->near;
     int(*now)[2] = make_rows(p, rows), (*work)[2] = make_rows(p, rows);
     if (!p->near)
-        p->near = make_rows(p, rows);
+        p->near = mem_own(s, make_rows(p, rows));
     scan(s, now);
     widen(p, 1, now, work);
     if (s->dim == 3)
@@ -137,10 +137,4 @@ void near_water_find(struct fv *s)
             leave_row(s, j, k, p->near[part_row(p, j, k)], now[part_row(p, j, k)]);
     memcpy(p->near, now, bytes);
     FREE(now, work);
-}
-
-void near_water_free(struct fv *s)
-{
-    mem_free(s->whole.near);
-    s->whole.near = NULL;
 }

@@ -10,6 +10,5 @@
  * clears cells that are no longer near. On uniform grids and layers of unequal height with closed
  * or periodic sides and rk3; elsewhere all cells are near. */
 void near_water_find(struct fv *s);
-void near_water_free(struct fv *s);
 
 #endif

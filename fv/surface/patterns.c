@@ -34,10 +34,10 @@ static struct pattern *place_of(const struct patterns *p, const struct pattern_k
     return p->of + k;
 }
 
-static void grow(struct patterns *p)
+static void grow(void *owner, struct patterns *p)
 {
     struct patterns wider = {.n = p->n, .room = p->room > 0 ? 2 * p->room : ROOM};
-    wider.of = NEW(struct pattern, wider.room);
+    wider.of = NEW_IN(owner, struct pattern, wider.room);
     for (int k = 0; k < p->room; k++)
         if (!is_free(p->of + k))
             *place_of(&wider, &p->of[k].key) = p->of[k];
@@ -45,20 +45,14 @@ static void grow(struct patterns *p)
     *p = wider;
 }
 
-struct pattern *patterns_find(struct patterns *p, const struct pattern_key *key)
+struct pattern *patterns_find(void *owner, struct patterns *p, const struct pattern_key *key)
 {
     if (2 * p->n >= p->room)
-        grow(p);
+        grow(owner, p);
     struct pattern *x = place_of(p, key);
     if (is_free(x)) {
         *x = (struct pattern){.key = *key, .n = -1};
         p->n++;
     }
     return x;
-}
-
-void patterns_free(struct patterns *p)
-{
-    mem_free(p->of);
-    *p = (struct patterns){.n = 0};
 }

@@ -27,7 +27,6 @@ struct patterns {
 };
 
 /* The pattern of this key, new or not; borrowed until the next call. */
-struct pattern *patterns_find(struct patterns *p, const struct pattern_key *key);
-void patterns_free(struct patterns *p); /* all are forgotten */
+struct pattern *patterns_find(void *owner, struct patterns *p, const struct pattern_key *key);
 
 #endif

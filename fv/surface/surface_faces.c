@@ -83,13 +83,13 @@ static void add_face(struct fv *s, int a, const struct wet_face *x, const struct
     struct surface_mesh *w = s->surface->mesh;
     if (w->nface[a] == w->face_room[a]) {
         const int64_t more = 2 * w->face_room[a] + 256;
-        GROW(w->face[a], w->nface[a], more);
+        GROW_IN(w, w->face[a], w->nface[a], more);
         w->face_room[a] = more;
     }
     if (w->nat + q->n > w->at_room) {
         const int64_t more = 2 * w->at_room + 1024;
-        GROW(w->at, w->nat, more);
-        GROW(w->weight, w->nat, more);
+        GROW_IN(w, w->at, w->nat, more);
+        GROW_IN(w, w->weight, w->nat, more);
         w->at_room = more;
     }
     struct wet_face *to = w->face[a] + w->nface[a]++;

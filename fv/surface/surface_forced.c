@@ -40,7 +40,7 @@ static void list_places(const struct fv *s, struct surface_forced *f)
     double x[IMAGES_MOST][3];
     struct block_walls *walls = s->m ? block_walls_create(s->m) : NULL;
     int64_t room = 0;
-    f->first = NEW(int64_t, f->n + 1);
+    f->first = NEW_IN(f, int64_t, f->n + 1);
     for (int64_t i = 0; i < f->n; i++) {
         grid_place(&s->grid, f->cell[i], x[0]);
         const int n = walls ? block_walls_images(walls, f->R, x) : images(s, f->R, x);
@@ -48,13 +48,13 @@ static void list_places(const struct fv *s, struct surface_forced *f)
         if (f->first[i] + n > room) {
             const int64_t before = room;
             room = 2 * room + IMAGES_MOST;
-            GROW(f->x, 3 * before, 3 * room);
+            GROW_IN(f, f->x, 3 * before, 3 * room);
         }
         memcpy(f->x + 3 * f->first[i], x, (size_t)n * sizeof x[0]);
         f->first[i + 1] = f->first[i] + n;
     }
     f->nplaces = f->first[f->n];
-    block_walls_free(&walls);
+    FREE(walls);
 }
 
 /* m: spacing of cells along any axis, of blocks that of a partner's and those beside them. */
@@ -92,13 +92,13 @@ struct surface_forced *surface_forced_create(const struct fv *s)
     if (!g)
         return NULL;
     struct surface_forced *f = NEW(struct surface_forced, 1);
-    f->cell = NEW(int64_t, s->size);
+    f->cell = NEW_IN(f, int64_t, s->size);
     FLOW_ROWS (s, at, n)
         for (int64_t c = at; c < at + n; c++)
             if (g->forced[c] == 1 || grid_is_given(&s->grid, c))
                 f->cell[f->n++] = c;
     f->nforced = f->n;
-    f->holds = grid_all_computed(&s->grid) ? NULL : NEW(bool, s->size);
+    f->holds = grid_all_computed(&s->grid) ? NULL : NEW_IN(f, bool, s->size);
     for (int64_t i = 0; i < f->n && f->holds; i++)
         f->holds[f->cell[i]] = true;
     for (int64_t i = g->npartner; i < g->npartner + g->nrim; i++)
@@ -106,23 +106,14 @@ struct surface_forced *surface_forced_create(const struct fv *s)
     f->h = largest(s, f);
     f->R = fmax(2.0 * f->h, 4.0 * coarsest_particles(s)); /* fewer make noise */
     list_places(s, f);
-    f->profile = NEW(double, COLOUR_PARTS + 1);
+    f->profile = NEW_IN(f, double, COLOUR_PARTS + 1);
     colour_profile(s->dim, f->profile);
     for (int k = 0; k < 2; k++) {
-        f->phi[k] = NEW(double, s->size);
+        f->phi[k] = NEW_IN(f, double, s->size);
         memcpy(f->phi[k], s->surface->phi, (size_t)s->size * sizeof(double));
         f->t[k] = s->t;
     }
     return f;
-}
-
-void surface_forced_free(struct surface_forced **fp)
-{
-    struct surface_forced *f = *fp;
-    if (!f)
-        return;
-    FREE(f->cell, f->holds, f->first, f->x, f->profile, f->phi[0], f->phi[1], f);
-    *fp = NULL;
 }
 
 /* --- in time --- */

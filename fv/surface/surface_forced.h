@@ -20,9 +20,8 @@ struct surface_forced {
     double step;
 };
 
-/* For the cells of s->forcing; NULL without. Freed by surface_forced_free. */
+/* For the cells of s->forcing; NULL without. Owned by the caller. */
 struct surface_forced *surface_forced_create(const struct fv *s);
-void surface_forced_free(struct surface_forced **f);
 /* The next coupling step, t0 to t1, s, begins: phi[0] becomes phi[1], whose new values are
  * extrapolated. */
 void surface_forced_shift(struct fv *s, double t0, double t1);

@@ -231,8 +231,8 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
     w->height = mesh_field(s->m);
     for (int k = 0; k < s->m->nblocks; k++)
         f->any_inclined = f->any_inclined || is_slanting(s, s->m->block + k);
-    w->out = NEW(unsigned char, s->size);
-    w->keep = NEW(unsigned char, s->size);
+    w->out = NEW_IN(w, unsigned char, s->size);
+    w->keep = NEW_IN(w, unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
         w->x[a] = mesh_field(s->m);
         w->speed[a] = mesh_field(s->m);
@@ -251,28 +251,12 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
     }
     for (int a = 0; a < s->dim; a++)
         for (int up = 0; up < 2; up++)
-            w->slopes[a][up] = NEW(double, most);
+            w->slopes[a][up] = NEW_IN(w, double, most);
     set_out(s, w);
     set_sizes(s, w, f);
     if (s->m->moves)
         mesh_motion_place(s->m, s->t);
     return w;
-}
-
-void surface_mesh_free(struct surface_mesh **wp)
-{
-    struct surface_mesh *w = *wp;
-    if (!w)
-        return;
-    for (int a = 0; a < 3; a++) {
-        FREE(w->x[a], w->speed[a], w->face[a]);
-        for (int b = 0; b < 3; b++)
-            mem_free(w->K[a][b]);
-        for (int up = 0; up < 2; up++)
-            mem_free(w->slopes[a][up]);
-    }
-    FREE(w->count, w->height, w->shared, w->piece, w->out, w->keep, w->at, w->weight, w);
-    *wp = NULL;
 }
 
 double surface_mesh_spacing(const struct fv *s, const struct part *p)

@@ -88,5 +88,5 @@ void surface_sample(struct fv *s)
     if (s->exact.field != FIELD_STANDING_WAVE)
         return;
     const double sum = s->m ? mode_on_blocks(s) : mode_on_even_cells(s);
-    fit_add(&s->surface->oscillation, s->t, ranks_sum(s->comm, sum));
+    fit_add(s->surface, &s->surface->oscillation, s->t, ranks_sum(s->comm, sum));
 }

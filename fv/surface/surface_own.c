@@ -122,7 +122,7 @@ static void add_piece(struct surface_mesh *w, const struct polygon *p)
 {
     if (w->npieces == w->piece_room) {
         const int64_t more = 2 * w->piece_room + 256;
-        GROW(w->piece, w->npieces, more);
+        GROW_IN(w, w->piece, w->npieces, more);
         w->piece_room = more;
     }
     w->piece[w->npieces++] = *p;
@@ -222,7 +222,7 @@ static void count_shared(struct fv *s, const struct overset *o, const struct par
         return;
     if (w->nshared == w->shared_room) {
         const int64_t more = 2 * w->shared_room + 64;
-        GROW(w->shared, w->nshared, more);
+        GROW_IN(w, w->shared, w->nshared, more);
         w->shared_room = more;
     }
     w->shared[w->nshared++] = x;
@@ -273,7 +273,7 @@ void surface_mesh_count(struct fv *s)
     }
     mem_free(met.cell);
     if (o != m->search)
-        overset_free(&o);
+        FREE(o);
 }
 
 /* --- water --- */

@@ -46,7 +46,7 @@ void level_add_cut(struct fv *s, int a, struct cut cut, const double *x, const d
     cut.height = -fv_still_pressure(s, x) / s->run->scene.fluid.rho;
     if (f->ncut[a] == f->room[a]) {
         const int64_t more = 2 * f->room[a] + 256;
-        GROW(f->cut[a], f->ncut[a], more);
+        GROW_IN(f, f->cut[a], f->ncut[a], more);
         f->room[a] = more;
     }
     f->cut[a][f->ncut[a]++] = cut;

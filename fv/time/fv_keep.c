@@ -192,19 +192,8 @@ struct kept *kept_create(const struct fv *s)
     const char *names[FV_RESTART_FIELDS];
     const int n = fv_restart_fields(s, fields, names);
     for (int i = 0; i < n; i++)
-        k->fields[i] = NEW(double, s->size);
+        k->fields[i] = NEW_IN(k, double, s->size);
     return k;
-}
-
-void kept_free(struct kept **kp)
-{
-    struct kept *k = *kp;
-    if (!k)
-        return;
-    for (int i = 0; i < FV_RESTART_FIELDS; i++)
-        mem_free(k->fields[i]);
-    mem_free(k);
-    *kp = NULL;
 }
 
 static void copy(void *kept, void *now, size_t bytes, bool back)

@@ -49,41 +49,26 @@ struct moving *moving_create(struct fv *s)
         return NULL;
     struct moving *v = NEW(struct moving, 1);
     for (int a = 0; a < 4; a++) {
-        v->now[a] = mesh_field(m);
+        v->now[a] = mem_own(v, mesh_field(m));
         if (a < m->dim) {
-            v->push[a] = mesh_field(m);
-            v->first[a] = mesh_field(m);
+            v->push[a] = mem_own(v, mesh_field(m));
+            v->first[a] = mem_own(v, mesh_field(m));
         }
     }
-    v->local = NEW(unsigned char, m->size_local);
+    /* statuses change places with those of the blocks, and belong to the mesh as they do */
+    v->local = NEW_IN(v, unsigned char, m->size_local);
     for (int k = 0; k < m->nblocks; k++) {
-        v->status[k] = NEW(unsigned char, mesh_count(m->block + k));
-        v->born[k] = NEW(unsigned char, mesh_count(m->block + k));
+        v->status[k] = NEW_IN(m, unsigned char, mesh_count(m->block + k));
+        v->born[k] = NEW_IN(m, unsigned char, mesh_count(m->block + k));
     }
     v->t_cut = v->t_rows = s->t;
     v->least = mesh_least_height(m, CELL_FRINGE); /* it hardly changes */
-    s->fringe.psi = mesh_field(m);
+    s->fringe.psi = mem_own(s, mesh_field(m));
     for (int a = 0; a < m->dim; a++)
-        s->fringe.delta[a] = mesh_field(m);
+        s->fringe.delta[a] = mem_own(s, mesh_field(m));
     if (!mesh_bc_pressure_given(s))
-        s->fringe.z = mesh_field(m);
+        s->fringe.z = mem_own(s, mesh_field(m));
     return v;
-}
-
-void moving_free(struct fv *s)
-{
-    struct moving *v = s->moving;
-    if (!v)
-        return;
-    for (int k = 0; k < MESH_BLOCKS_MAX; k++)
-        FREE(v->status[k], v->born[k]);
-    for (int a = 0; a < 4; a++)
-        FREE(v->now[a], a < 3 ? v->push[a] : NULL, a < 3 ? v->first[a] : NULL,
-             a < 3 ? s->fringe.delta[a] : NULL);
-    FREE(s->fringe.psi, s->fringe.z);
-    s->fringe = (struct fringe_jumps){.psi = NULL};
-    FREE(v->local, v);
-    s->moving = NULL;
 }
 
 /* --- what cells are --- */

@@ -10,12 +10,10 @@
 
 struct h5;
 
-/* s->moving and the arrays of s->fringe; freed by moving_free. NULL: no block moves, and then no
- * other function here may be called but moving_free, moving_save and moving_restore. All are
+/* s->moving and the arrays of s->fringe; freed by FREE. NULL: no block moves, and then no
+ * other function here may be called but moving_save and moving_restore. All are
  * collective over s->comm. */
 struct moving *moving_create(struct fv *s);
-/* Frees them and sets s->moving to NULL, which it may be. */
-void moving_free(struct fv *s);
 /* Sets s->m->status and s->free of this rank's cells from the status of the blocks' cells. */
 void moving_set_free(struct fv *s);
 /* Begins a step of s->step.dt_now: cuts the blocks where they overlap in the middle of the step,

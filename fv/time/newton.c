@@ -83,6 +83,18 @@ static int longest_row(const struct fv *s)
     return most;
 }
 
+static void close_libraries(void *p)
+{
+    struct newton *w = p;
+    N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual, w->pseudo};
+    KINFree(&w->kin);
+    if (w->krylov)
+        SUNLinSolFree(w->krylov);
+    for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
+        N_VDestroy(vectors[k]); /* NULL is let be */
+    SUNContext_Free(&w->ctx);
+}
+
 struct newton *newton_create(struct fv *s)
 {
     struct newton *w = NEW(struct newton, 1);
@@ -96,6 +108,7 @@ struct newton *newton_create(struct fv *s)
     MPI_Allreduce(&w->cells, &all, 1, MPI_INT64_T, MPI_SUM, comm);
     s->prm.tol_newton = tolerance(s, (double)all);
     SUN(SUNContext_Create(&comm, &w->ctx));
+    mem_at_free(w, close_libraries);
     w->q = N_VNew_Parallel(comm, (s->dim + 1) * w->cells, (s->dim + 1) * all, w->ctx);
     newton_vector_sums(w->q);
     N_Vector *const same[] = {&w->q1, &w->q2, &w->uscale, &w->fscale, &w->residual};
@@ -103,41 +116,20 @@ struct newton *newton_create(struct fv *s)
         N_VConst(0.0, *same[k] = N_VClone(w->q)); /* 0 times an older level must be 0 */
     double **const plain[] = {&w->v.p, &w->face, &w->dface, &w->phi, &w->div, &w->d};
     for (size_t k = 0; k < sizeof plain / sizeof plain[0]; k++)
-        *plain[k] = NEW(double, s->size);
+        *plain[k] = NEW_IN(w, double, s->size);
     for (int a = 0; a < s->dim; a++) {
         double **const fields[] = {&w->v.u[a], &w->v.U[a], &w->v.G[a],
                                    &w->G[a],   &w->x[a],   &w->r[a]};
         for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-            *fields[k] = NEW(double, s->size);
+            *fields[k] = NEW_IN(w, double, s->size);
     }
     for (int e = 0; e <= 2 * s->dim; e++)
-        w->A[e] = NEW(double, s->size);
+        w->A[e] = NEW_IN(w, double, s->size);
     if (s->prm.dual_time)
         newton_dual_create(s, w);
     else
         make_kinsol(s, w);
     return w;
-}
-
-void newton_free(struct newton **wp)
-{
-    struct newton *w = *wp;
-    if (!w)
-        return;
-    KINFree(&w->kin);
-    if (w->krylov)
-        SUNLinSolFree(w->krylov);
-    N_Vector const vectors[] = {w->q, w->q1, w->q2, w->uscale, w->fscale, w->residual, w->pseudo};
-    for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
-        N_VDestroy(vectors[k]); /* NULL is let be */
-    FREE(w->v.p, w->face, w->dface, w->phi, w->div, w->d);
-    for (int a = 0; a < 3; a++)
-        FREE(w->v.u[a], w->v.U[a], w->v.G[a], w->G[a], w->x[a], w->r[a]);
-    for (int e = 0; e < 7; e++)
-        mem_free(w->A[e]);
-    SUNContext_Free(&w->ctx);
-    mem_free(w);
-    *wp = NULL;
 }
 
 /* Root mean square of the scaled residual. */

@@ -80,8 +80,6 @@ struct newton {
 /* Makes KINSOL's objects and the scratch for the cells that s has; owned by the caller.
  * Collective. */
 struct newton *newton_create(struct fv *s);
-/* Frees them and sets *n to NULL; *n may be NULL. */
-void newton_free(struct newton **n);
 /* One step of dt s from s->t; false: not converged, and the state is not one. */
 bool newton_try(struct fv *s, double dt);
 /* Counts a pseudo step that leaves w->norm, and says whether the least norm is `most' of them old:
@@ -117,7 +115,8 @@ int newton_jacobian_times(N_Vector v, N_Vector out, N_Vector q, booleantype *is_
  * "upwind", else 1/96. */
 double newton_dissipation(const struct fv *s);
 
-/* newton_dual.c: makes w->kin and w->pseudo of dual time; newton_free frees them. Collective. */
+/* newton_dual.c: makes w->kin and w->pseudo of dual time; newton_create's closing function frees
+ * them. Collective. */
 void newton_dual_create(struct fv *s, struct newton *w);
 /* Solves R(q) = 0 for w->q, from what it holds, to fv.tol_newton; the largest scaled residual is
  * left in w->norm. Returns KIN_SUCCESS or KIN_MAXITER_REACHED, on all ranks alike. */

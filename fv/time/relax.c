@@ -37,7 +37,7 @@ bool relax_zones(struct fv *s, double dt)
     if (!s->wave_zones)
         return false;
     if (s->surface && !w->zone_power && wave_zones_drive(s->wave_zones))
-        w->zone_power = NEW(double, s->size);
+        w->zone_power = NEW_IN(w, double, s->size);
     wave_zones_at(s->wave_zones, s->t);
     FLOW_NEAR (s, at, n)
         for (int64_t i = at; i < at + n; i++) {

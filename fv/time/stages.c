@@ -18,23 +18,15 @@ void stage_fields_create(struct fv *s)
     struct stage_fields *f = &s->stages;
     const bool rk3 = s->prm.integrator == INTEGRATOR_RK3;
     for (int a = 0; a < s->dim; a++) {
-        f->N[a] = NEW(double, s->size);
-        f->N_old[a] = NEW(double, s->size);
-        f->step_p[a] = NEW(double, s->size);
-        f->u_old[a] = rk3 ? NULL : NEW(double, s->size);
+        f->N[a] = NEW_IN(s, double, s->size);
+        f->N_old[a] = NEW_IN(s, double, s->size);
+        f->step_p[a] = NEW_IN(s, double, s->size);
+        f->u_old[a] = rk3 ? NULL : NEW_IN(s, double, s->size);
     }
     for (int k = 0; k < 3; k++) {
-        f->psi[k] = s->m || k == 0 || rk3 ? NEW(double, s->size) : NULL;
-        f->start[k] = s->m ? NEW(double, s->size) : NULL;
+        f->psi[k] = s->m || k == 0 || rk3 ? NEW_IN(s, double, s->size) : NULL;
+        f->start[k] = s->m ? NEW_IN(s, double, s->size) : NULL;
     }
-}
-
-void stage_fields_free(struct fv *s)
-{
-    struct stage_fields *f = &s->stages;
-    for (int a = 0; a < 3; a++)
-        FREE(f->psi[a], f->start[a], f->N[a], f->N_old[a], f->u_old[a], f->step_p[a]);
-    *f = (struct stage_fields){.psi = {NULL}};
 }
 
 void stage_pressure_gradient(struct fv *s)

@@ -11,8 +11,6 @@
 
 /* Allocates the fields of s->stages that the integrator needs, all 0. */
 void stage_fields_create(struct fv *s);
-/* Frees them. */
-void stage_fields_free(struct fv *s);
 
 /* Once a step: sets stages.step_p to grad p, m/s^2, of the step's start, from p without its
  * odd-even mode. Blocks that move are cut for the step here. */

@@ -41,11 +41,9 @@ double kept_number_get(const struct kept_number *x);
 void kept_number_set(const struct kept_number *x, double value);
 
 /* fv_keep.c: room for a copy of the state in memory, to take steps back; owned by the caller
- * (kept_free). */
+ * (FREE). */
 struct kept;
 struct kept *kept_create(const struct fv *s);
-/* Frees the copy and sets *k to NULL, which it may be. */
-void kept_free(struct kept **k);
 /* Copies the state: fields, numbers, the clock, maxima and totals. */
 void kept_take(struct kept *k, struct fv *s);
 /* Puts the copy back into the state. */

@@ -429,7 +429,7 @@ void surface_keep_state(struct fv *s)
     const int n = state(s, f);
     for (int k = 0; k < n; k++) {
         if (!s->surface->before[k])
-            s->surface->before[k] = NEW(double, s->size);
+            s->surface->before[k] = NEW_IN(s->surface, double, s->size);
         memcpy(s->surface->before[k], f[k], (size_t)s->size * sizeof(double));
     }
     s->surface->travelled_before = s->surface->travelled;

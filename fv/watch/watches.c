@@ -125,14 +125,6 @@ struct watches *watches_create(const struct run *r, const struct fv_params *p, b
     return w;
 }
 
-void watches_free(struct watches **w)
-{
-    if (*w)
-        mem_free((*w)->zone_power);
-    mem_free(*w);
-    *w = NULL;
-}
-
 bool watches_want_energy(const struct watches *w, int64_t step)
 {
     return w->has_energy && step % w->energy_every == 0;

@@ -48,15 +48,13 @@ struct watches {
 };
 
 /* The figures that apply to a flow on these parameters, as the run uses them; periodic: nothing
- * but periodic axes bounds it; surface: it has a free surface. Owned by the caller (watches_free).
+ * but periodic axes bounds it; surface: it has a free surface. Owned by the caller (FREE).
  */
 struct watches *watches_create(const struct run *r, const struct fv_params *p, bool periodic,
                                bool surface);
 /* Says that the flow has inlets or outlets, whose work is known less exactly: a gain of energy then
  * warns and ends no run. */
 void watches_open(struct watches *w);
-/* Frees them and sets *w to NULL; *w may be NULL. */
-void watches_free(struct watches **w);
 /* Whether the energy is to be measured after this step. */
 bool watches_want_energy(const struct watches *w, int64_t step);
 /* Whether waves of two cells are to be measured after this step. */

@@ -21,17 +21,12 @@ void body_courses_create(struct sph *s)
         if (s->coarser) {
             b->course = s->coarser->walls->bodies[k].course;
         } else {
-            b->course = mem_new(1, sizeof *b->course + (size_t)n * sizeof b->course->c[0]);
+            b->course =
+                mem_new_in(s->walls, 1, sizeof *b->course + (size_t)n * sizeof b->course->c[0]);
             b->course->n = n;
         }
         b->drive.course = b->bend ? NULL : b->course;
     }
-}
-
-void body_courses_free(struct sph *s)
-{
-    for (int k = 0; s->walls && !s->coarser && k < s->walls->nbodies; k++)
-        mem_free(s->walls->bodies[k].course);
 }
 
 void body_course_set(struct body_course *c, double t0, double t1, const double *to)

@@ -11,9 +11,8 @@
 struct h5;
 
 /* Makes those of the bodies of s->walls, at rest where the case has them; a finer level shares
- * those of the coarser one. body_courses_free frees them. */
+ * those of the coarser one. They belong to the walls. */
 void body_courses_create(struct sph *s);
-void body_courses_free(struct sph *s);
 /* Lets the degrees of freedom go from where they are at t0 to to[0..n-1], m and rad, with the
  * velocities to[n..2n-1], at t1, s: a cubic in each, so that nothing jumps. */
 void body_course_set(struct body_course *c, double t0, double t1, const double *to);

@@ -318,7 +318,7 @@ static const struct seal_rest *rest_of(const struct sph *s, int body)
         return w->rest[body];
     mem_free(w->rest[body]);
     const int n = seal_points_add(s, body, &of, 0);
-    struct seal_rest *to = mem_new(1, sizeof *to + (size_t)n * sizeof *of);
+    struct seal_rest *to = mem_new_in(w, 1, sizeof *to + (size_t)n * sizeof *of);
     find_places(w, to->at);
     to->n = n;
     if (n > 0)

@@ -50,6 +50,7 @@ void body_wedges_find(struct sph *s)
     for (int k = 0; k < w->nbodies && !s->coarser; k++)
         if (stays(w, k) && seal_body(s, k))
             w->nwedges = seal_points_add(s, k, &w->wedge, w->nwedges);
+    mem_own(w, w->wedge);
 }
 
 void body_wedges_add(struct sph *s)

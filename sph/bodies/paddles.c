@@ -76,7 +76,7 @@ void paddles_check(const struct run *r, const struct sph_params *prm, struct fau
                          "direction of the waves (waves.direction), and no water stands there, at "
                          "(%g, %g, %g) m: turn the direction round, or move the paddle",
                          a->distance, a->at[0], a->at[1], a->at[2]);
-        wave_absorber_free(&a);
+        FREE(a);
     }
 }
 
@@ -93,7 +93,7 @@ void paddles_describe(const struct run *r, const struct sph_params *prm)
                 100.0 * wave_absorber_returns(a, a->omega),
                 100.0 * wave_absorber_returns(a, 1.4 * a->omega),
                 100.0 * wave_absorber_returns(a, 2.0 * a->omega));
-        wave_absorber_free(&a);
+        FREE(a);
     }
 }
 
@@ -106,21 +106,11 @@ void paddles_create(struct sph *s)
         if (s->coarser) {
             b->paddle = s->coarser->walls->bodies[k].paddle;
         } else {
-            b->paddle = NEW(struct paddle, 1);
-            b->paddle->absorber = absorber_of(&s->run->scene, k, s->dx);
+            b->paddle = NEW_IN(s->walls, struct paddle, 1);
+            b->paddle->absorber = mem_own(b->paddle, absorber_of(&s->run->scene, k, s->dx));
             b->paddle->steer.axis = b->paddle->absorber->axis;
         }
         b->drive.steer = &b->paddle->steer;
-    }
-}
-
-void paddles_free(struct sph *s)
-{
-    for (int k = 0; s->walls && !s->coarser && k < s->walls->nbodies; k++) {
-        struct paddle *p = s->walls->bodies[k].paddle;
-        if (p)
-            wave_absorber_free(&p->absorber);
-        mem_free(p);
     }
 }
 

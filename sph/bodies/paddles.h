@@ -15,9 +15,8 @@ void paddles_check(const struct run *r, const struct sph_params *prm, struct fau
 /* Logs how much each of them reflects. */
 void paddles_describe(const struct run *r, const struct sph_params *prm);
 /* Makes those of the bodies of s->walls; a finer level shares those of the coarser one.
- * paddles_free frees them. */
+ * They belong to the walls. */
 void paddles_create(struct sph *s);
-void paddles_free(struct sph *s);
 /* Reads the gauges at s->t and sets the motion from then on; dt, s: the step that begins. Needs
  * prim. Collective. */
 void paddles_steer(struct sph *s, double dt);

@@ -29,7 +29,7 @@ struct shut_water *shut_water_add(struct sph *s, int64_t n, unsigned beside)
     struct walls *w = s->walls;
     if (w->nshut == SHUT_WATERS_MAX)
         return NULL;
-    struct shut_water *to = mem_new(1, sizeof *to + (size_t)n * sizeof *to->id);
+    struct shut_water *to = mem_new_in(w, 1, sizeof *to + (size_t)n * sizeof *to->id);
     *to = (struct shut_water){.beside = beside, .n = n};
     return w->shut[w->nshut++] = to;
 }

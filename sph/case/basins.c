@@ -44,7 +44,7 @@ static void find_runs(struct basins *b)
 {
     const struct lattice *l = b->l;
     b->columns = l->n[b->across[0]] * l->n[b->across[1]];
-    b->start = NEW(int, b->columns + 1);
+    b->start = NEW_IN(b, int, b->columns + 1);
     int room = 0;
     for (int c = 0; c < b->columns; c++) {
         bool in = false, parted = false;
@@ -56,7 +56,7 @@ static void find_runs(struct basins *b)
             const bool has = lattice_has(l, cell);
             if (has && (!in || parted)) {
                 if (b->nruns == room) {
-                    GROW(b->runs, room, 2 * room + 64);
+                    GROW_IN(b, b->runs, room, 2 * room + 64);
                     room = 2 * room + 64;
                 }
                 b->runs[b->nruns] = (struct basin_run){.first = k, .part = b->nruns};
@@ -126,7 +126,7 @@ static void link_runs(struct basins *b, int r, int q, int column, int beside)
     if (width == 0)
         return;
     if (b->nlinks % 256 == 0)
-        GROW(b->links, b->nlinks, b->nlinks + 256);
+        GROW_IN(b, b->links, b->nlinks, b->nlinks + 256);
     b->links[b->nlinks++] = (struct basin_link){{r, q}, width};
 }
 
@@ -311,8 +311,8 @@ static void find_levels(struct basins *b)
 {
     each_meeting(b, link_runs);
     int *group = find_groups(b);
-    bool *open = NEW(bool, b->nruns), *is_free = NEW(bool, b->nruns);
-    double *x = NEW(double, b->nruns), *mean = NEW(double, 2 * (size_t)b->nruns);
+    bool *open = NEW(bool, b->nruns), *is_free = NEW_IN(b, bool, b->nruns);
+    double *x = NEW(double, b->nruns), *mean = NEW_IN(b, double, 2 * (size_t)b->nruns);
     for (int r = 0; r < b->nruns; r++)
         if (!b->runs[r].covered) {
             open[group[r]] = true;
@@ -546,12 +546,6 @@ struct basins *basins_create(const struct sph *s, const struct lattice *l)
     }
     basins_find_shut(b);
     return b;
-}
-
-void basins_free(struct basins **b)
-{
-    FREE((*b)->start, (*b)->runs, (*b)->links, *b);
-    *b = NULL;
 }
 
 void basins_clear(const struct basins *b, struct lattice *l)

@@ -8,9 +8,8 @@
 
 struct basins;
 /* From the filled cells; the same on all ranks. l is borrowed. Needs s->walls. Owned by the caller
- * (basins_free). */
+ * (FREE). */
 struct basins *basins_create(const struct sph *s, const struct lattice *l);
-void basins_free(struct basins **b);
 /* Removes from the lattice enclosed pockets too small to flow, which walls cut off. */
 void basins_clear(const struct basins *b, struct lattice *l);
 /* Counts the rooms that meshes separate, pockets left out: *wet with fluid, *dry without. */

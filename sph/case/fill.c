@@ -342,16 +342,6 @@ struct fill {
     struct basins *basins;
 };
 
-void fill_free(struct fill **f)
-{
-    if (!*f)
-        return;
-    basins_free(&(*f)->basins);
-    lattice_free(&(*f)->lattice);
-    mem_free(*f);
-    *f = NULL;
-}
-
 struct fill *fill_lattice(struct sph *s)
 {
     struct look look = {.exact = exact_create(&s->run->scene),
@@ -361,6 +351,7 @@ struct fill *fill_lattice(struct sph *s)
     struct fill *f = NEW(struct fill, 1);
     struct lattice *l = &f->lattice;
     *l = first_lattice_create(s);
+    mem_own(f, l->bits);
     const int64_t all = lattice_cells(l), ranks = s->run->size;
     first_lattice_each_own(s, l, mark, &look);
     lattice_share(l, l->bits, s->run->comm);
@@ -369,7 +360,7 @@ struct fill *fill_lattice(struct sph *s)
         cut_links(s, l);
     else
         warn_of_taken(s, &look);
-    struct basins *b = f->basins = basins_create(s, l);
+    struct basins *b = f->basins = mem_own(f, basins_create(s, l));
     if (parted)
         say_rooms(b);
     say_pockets(b);

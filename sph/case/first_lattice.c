@@ -133,7 +133,7 @@ void first_lattice_each_near(const struct sph *s, const struct domain *part,
                 lattice_centre(&l, ic, s->dim, x);
                 at(x, l.dx, ctx);
             }
-    lattice_free(&l);
+    mem_free(l.bits);
 }
 
 int first_add(struct sph *s, const struct exact *e, int64_t id, const double *x, double volume)

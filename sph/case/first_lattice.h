@@ -14,7 +14,7 @@ struct exact;
  * the domain. The last cell may reach out of a domain that dx does not divide. */
 double first_lattice_cells(double lo, double hi, double dx);
 double first_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
-/* The lattice of level s, with no cell filled; freed by lattice_free. */
+/* The lattice of level s, with no cell filled; freed by FREE. */
 struct lattice first_lattice_create(const struct sph *s);
 /* Range first <= i < last of cells whose centre may be in a rank's part, from lo to hi, m. */
 void first_lattice_own(const struct sph *s, const struct lattice *l, const double *lo,

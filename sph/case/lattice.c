@@ -54,14 +54,6 @@ bool lattice_next(const struct lattice *l, const int *ic, int axis, const bool *
     return periodic[axis] && l->n[axis] > 1;
 }
 
-void lattice_free(struct lattice *l)
-{
-    mem_free(l->bits);
-    for (int a = 0; a < 3; a++)
-        mem_free(l->cut[a]);
-    *l = (struct lattice){.bits = NULL};
-}
-
 void lattice_share(const struct lattice *l, unsigned char *bits, MPI_Comm comm)
 {
     const int64_t bytes = lattice_cells(l) / 8 + 1, chunk = (int64_t)1 << 30;

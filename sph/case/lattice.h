@@ -29,7 +29,6 @@ int64_t lattice_find(const struct lattice *l, int dim, const double *x);
 /* Indices jc of the cell next to ic along an axis, wrapped where it is periodic; false: the lattice
  * ends here. */
 bool lattice_next(const struct lattice *l, const int *ic, int axis, const bool *periodic, int *jc);
-void lattice_free(struct lattice *l);
 /* Combines the bits of all ranks (or). Collective over comm. */
 void lattice_share(const struct lattice *l, unsigned char *bits, MPI_Comm comm);
 

@@ -85,7 +85,7 @@ void rooms_cut_links(const struct sph *s, struct lattice *l, const int *first, c
 {
     for (int a = 0; a < 3; a++)
         if (!l->cut[a])
-            l->cut[a] = NEW(unsigned char, lattice_cells(l) / 8 + 1);
+            l->cut[a] = NEW_IN(l->bits, unsigned char, lattice_cells(l) / 8 + 1);
     for (int k = first[2]; k < last[2]; k++)
         for (int j = first[1]; j < last[1]; j++)
             for (int i = first[0]; i < last[0]; i++) {

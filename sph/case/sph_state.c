@@ -44,7 +44,7 @@ static void set_constants(struct sph *s)
     s->c0 = s->prm.c0;
     s->gamma = s->prm.gamma;
     s->central = c->fluid.central;
-    s->wave_zones = wave_zones_create(c, wave_stream_wanted(s->run, &s->prm));
+    s->wave_zones = mem_own(s, wave_zones_create(c, wave_stream_wanted(s->run, &s->prm)));
     memcpy(s->gravity, c->fluid.gravity, sizeof s->gravity);
     if (s->prm.surface != SURFACE_YES)
         s->reference = scene_reference(c);
@@ -73,36 +73,46 @@ static void create_walls(struct sph *s)
     memcpy(now[0], s->lo, sizeof now[0]);
     memcpy(now[1], s->hi, sizeof now[1]);
     box_motion_range(s, s->lo, s->hi);
-    s->walls = walls_create(s);
+    s->walls = mem_own(s, walls_create(s));
     memcpy(s->lo, now[0], sizeof now[0]);
     memcpy(s->hi, now[1], sizeof now[1]);
+}
+
+/* What is part of the state itself. */
+static void free_values(void *state)
+{
+    struct sph *s = state;
+    particles_free(&s->p);
+    if (s->refinement)
+        regions_free(&s->refinement->regions);
 }
 
 /* Without particles; coarser: the level above, NULL: the first. */
 static struct sph *create_level(struct run *r, const struct sph_params *prm, struct sph *coarser)
 {
     struct sph *s = NEW(struct sph, 1);
+    mem_at_free(s, free_values);
     s->run = r;
     s->prm = *prm;
     s->t = r->t;
     s->coarser = coarser;
     if (coarser) {
-        coarser->finer = s;
+        coarser->finer = mem_own(coarser, s);
         s->level = coarser->level + 1;
         s->prm.dx = 0.5 * coarser->dx;
     }
     set_constants(s);
     particles_create(&s->p, s->dim, 0);
     s->p.next_id = ((int64_t)s->level << 56) + r->rank;
-    s->list = neighbours_create();
+    s->list = mem_own(s, neighbours_create());
     s->list->touching = collisions_distance(s);
-    s->zones = coarser ? NULL : zones_create(s); /* open sides are of the first level */
+    s->zones = coarser ? NULL : mem_own(s, zones_create(s)); /* open sides are of the first level */
     domain_create(s);
     create_walls(s);
     if (s->zones)
         openings_find_room(s, s->zones->openings);
     bodies_create(s);
-    s->surface = sph_surface_create(s);
+    s->surface = mem_own(s, sph_surface_create(s));
     s->passes = scheme_pick(s);
     s->scheme = &s->passes;
     s->stages = stages_of(prm->integrator, prm->scheme);
@@ -117,19 +127,19 @@ static void create_finer(struct sph *s)
     if (!g)
         return;
     const bool local = apr_params_of(s->run)->local_steps;
-    s->refinement = NEW(struct refinement, 1);
+    s->refinement = NEW_IN(s, struct refinement, 1);
     s->refinement->regions = g;
     if (apr_params_of(s->run)->method != APR_GUARDS)
         return;
     s->refinement->local_steps = s->local_steps = local;
-    s->guards = guards_create(s->run);
+    s->guards = mem_own(s, guards_create(s->run));
     s->places = &refinement_places;
     for (struct sph *q = s; q->level < regions_levels(g);) {
         struct sph_params prm = s->prm;
         if (apr_params_of(s->run)->unshifted_finest && q->level + 1 == regions_levels(g))
             prm.transport = TRANSPORT_NONE;
         q = create_level(s->run, &prm, q);
-        q->guards = guards_create(s->run);
+        q->guards = mem_own(q, guards_create(s->run));
         q->local_steps = local;
         q->places = &refinement_places;
     }
@@ -158,7 +168,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     create_finer(s);
     if (f) {
         if (!sph_restore(s, f))
-            sph_free(&s);
+            FREE(s);
         return s;
     }
     struct fill *fill = NULL;
@@ -170,8 +180,8 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
         log_say("%s: walls and bodies leave no place for a particle: no water, nothing to compute; "
                 "nothing was started",
                 r->case_name);
-        fill_free(&fill);
-        sph_free(&s);
+        FREE(fill);
+        FREE(s);
         return NULL;
     }
     if (s->finer && criteria_due(s->refinement->regions, s->t)) { /* of the coarsest level alone */
@@ -183,30 +193,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     integrate_start(s);
     fill_volumes(s);
     fill_check(s, fill);
-    fill_free(&fill);
+    FREE(fill);
     remember_start(s);
     return s;
-}
-
-void sph_free(struct sph **s)
-{
-    if (!*s)
-        return;
-    sph_free(&(*s)->finer);
-    refinement_free(*s);
-    guards_free(&(*s)->guards);
-    mixed_free(*s);
-    domain_free(&(*s)->domain);
-    zones_free(&(*s)->zones);
-    wave_zones_free(&(*s)->wave_zones);
-    paddles_free(*s);
-    body_courses_free(*s);
-    walls_free(&(*s)->walls);
-    sph_surface_free(&(*s)->surface);
-    fit_free(&(*s)->total.signal_fit);
-    sph_watch_free(*s);
-    neighbours_free(&(*s)->list);
-    particles_free(&(*s)->p);
-    mem_free(*s);
-    *s = NULL;
 }

@@ -7,8 +7,7 @@
 
 /* The state at t = 0, or from the restart file f, when r->t and r->step are set. prm: the result of
  * sph_params_of, copied. NULL: f does not fit, which has been logged. Owned by the caller
- * (sph_free). Collective over r->comm. */
+ * (FREE). Collective over r->comm. */
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
-void sph_free(struct sph **s);
 
 #endif

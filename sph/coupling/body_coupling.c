@@ -90,7 +90,7 @@ static void create_bend(struct sph *s, struct body_coupling *k, int b)
     partner_check(k->c, cpl_field(k->c, set, field_of(s->run, "", b, "outline"), "m", BENT, CPL_GET,
                                   CPL_NEAREST, k->moved + b));
     partner_check(k->c, cpl_move(k->c, set, mine, *x, id, one));
-    k->before_load[b] = mem_new((size_t)p->n, sizeof *k->before_load[b]);
+    k->before_load[b] = mem_new_in(k, (size_t)p->n, sizeof *k->before_load[b]);
     FREE(x, id, one);
 }
 
@@ -103,7 +103,7 @@ void body_coupling_create(struct sph *s)
     char set[CPL_NAME];
     if (n == 0)
         return;
-    struct body_coupling *k = s->body_coupling = NEW(struct body_coupling, 1);
+    struct body_coupling *k = s->body_coupling = NEW_IN(s, struct body_coupling, 1);
     k->c = r->partner_ctx;
     snprintf(set, sizeof set, "%.50s.bodies", r->name);
     partner_check(k->c, cpl_points(k->c, set, s->dim, 1.0, &k->set));
@@ -120,13 +120,6 @@ void body_coupling_create(struct sph *s)
                                           CPL_GET, CPL_NEAREST, k->moved + b));
     }
     partner_check(k->c, cpl_move(k->c, k->set, mine, origin, &id, &one));
-}
-
-void body_coupling_free(struct sph *s)
-{
-    for (int b = 0; s->body_coupling && b < BODIES_MAX; b++)
-        mem_free(s->body_coupling->before_load[b]);
-    mem_free(s->body_coupling);
 }
 
 /* Nominal steps, so that one of them fits although flow and bodies shorten it a little. */

@@ -14,7 +14,6 @@ struct h5;
 bool body_coupling_possible(const struct run *r);
 /* Declares sets and fields. Collective. */
 void body_coupling_create(struct sph *s);
-void body_coupling_free(struct sph *s);
 /* s: the longest coupling step where no flow is shared: one step of sph, for a partner that answers
  * to a force later than that needs a body heavier than the water that sound reaches meanwhile. */
 double body_coupling_window(const struct sph *s);

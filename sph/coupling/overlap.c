@@ -81,12 +81,6 @@ struct overlap *overlap_create(struct sph *s)
     return o;
 }
 
-void overlap_free(struct overlap **o)
-{
-    mem_free(*o);
-    *o = NULL;
-}
-
 /* Whether a particle is in the border of the free zone where the partner is free, too; all ranks of
  * SPH have the partner's patch there. */
 static bool in_rim(const struct sph *s, const double *y)

@@ -26,10 +26,8 @@ struct overlap {
     double where[3];         /* m: one of them */
 };
 
-/* The watches of a coupled run with their scales; owned by the caller (overlap_free). */
+/* The watches of a coupled run with their scales; owned by the caller (FREE). */
 struct overlap *overlap_create(struct sph *s);
-/* Frees them and sets *o to NULL; *o may be NULL. */
-void overlap_free(struct overlap **o);
 /* Compares SPH with the partner's patch at s->t. Collective. */
 void overlap_look(struct sph *s);
 /* Fills d where the run cannot be trusted. */

@@ -116,7 +116,7 @@ static void choose_halves(struct sph *s)
  * particles' pressure. */
 void sph_coupling_create(struct sph *s)
 {
-    struct sph_link *k = NEW(struct sph_link, 1);
+    struct sph_link *k = NEW_IN(s->zones, struct sph_link, 1);
     k->reference = s->reference;
     const int how = s->run->scene.coupling.interpolation ? CPL_CUBIC : CPL_LINEAR;
     k->c = s->run->partner_ctx;
@@ -148,14 +148,7 @@ void sph_coupling_create(struct sph *s)
     choose_halves(s);
     s->zones->eval = eval_patch;
     s->zones->ctx = k;
-    s->zones->watched = overlap_create(s);
-}
-
-void sph_coupling_free(struct sph *s)
-{
-    struct sph_link *k = s->zones->ctx;
-    overlap_free(&s->zones->watched);
-    FREE(k->x, k->u, k->p, k->w, k->ones, k->id, k);
+    s->zones->watched = mem_own(s->zones, overlap_create(s));
 }
 
 /* m: how far around its part a rank may look in a window of T s: a support, and where the box goes.
@@ -216,14 +209,14 @@ static void room(struct sph_link *k, int n)
         return;
     const int old = k->capacity;
     k->capacity = n + n / 4;
-    GROW(k->x, 3 * old, 3 * k->capacity);
-    GROW(k->u, k->dim * old, k->dim * k->capacity);
-    GROW(k->p, old, k->capacity);
-    GROW(k->w, old, k->capacity);
-    GROW(k->ones, old, k->capacity);
+    GROW_IN(k, k->x, 3 * old, 3 * k->capacity);
+    GROW_IN(k, k->u, k->dim * old, k->dim * k->capacity);
+    GROW_IN(k, k->p, old, k->capacity);
+    GROW_IN(k, k->w, old, k->capacity);
+    GROW_IN(k, k->ones, old, k->capacity);
     for (int i = old; i < k->capacity; i++)
         k->ones[i] = 1.0;
-    GROW(k->id, old, k->capacity);
+    GROW_IN(k, k->id, old, k->capacity);
 }
 
 /* Places as the domain has them, whose periodic sides the box may have passed. */

@@ -18,7 +18,6 @@ void coupling_warn(const struct run *r, const struct sph_params *prm);
 void coupling_offer(struct run *r, const struct sph_params *prm);
 /* Declares sets and fields, and makes s->zones->eval read the patch. Collective. */
 void sph_coupling_create(struct sph *s);
-void sph_coupling_free(struct sph *s);
 /* Before the first and after the last step of the coupling step [t0, t1], s: takes patches, puts
  * particles. Collective. */
 void sph_coupling_window_begin(void *s, double t0, double t1);

@@ -41,7 +41,7 @@ struct level_gap *level_gap_create(const struct sph *s, bool kept)
 {
     struct level_gap *g = NEW(struct level_gap, 1);
     g->kept = kept;
-    g->profile = NEW(double, COLOUR_PARTS + 1);
+    g->profile = NEW_IN(g, double, COLOUR_PARTS + 1);
     colour_profile(s->dim, g->profile);
     g->watched = (struct watch){
         .key = "level_gap",
@@ -52,14 +52,6 @@ struct level_gap *level_gap_create(const struct sph *s, bool kept)
         .warn = 0.5,
         .stop = 3.0};
     return g;
-}
-
-void level_gap_free(struct level_gap **g)
-{
-    if (!*g)
-        return;
-    FREE((*g)->profile, *g);
-    *g = NULL;
 }
 
 /* n[0] columns across the transition, at least one; in 3D n[1] along the side. */

@@ -25,9 +25,8 @@ struct level_gap {
     int probes; /* places that were compared, last time */
 };
 
-/* kept: the level outside holds, not that of the start. Owned by the caller (level_gap_free). */
+/* kept: the level outside holds, not that of the start. Owned by the caller (FREE). */
 struct level_gap *level_gap_create(const struct sph *s, bool kept);
-void level_gap_free(struct level_gap **g);
 /* Compares the levels at s->t, dt, s, after the last time, and sets the zones' outflow.
  * Collective. */
 void level_gap_look(struct sph *s, double dt);

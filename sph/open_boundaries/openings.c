@@ -43,26 +43,17 @@ struct openings *openings_create(struct sph *s)
         o->first[side + 1] = o->first[side] + faces;
     }
     const int n = openings_faces(o);
-    o->mass = NEW(double, n);
-    o->change = NEW(double, n);
-    o->flux = NEW(double, n);
-    o->shift = NEW(double, n);
-    o->share = NEW(double, n);
-    o->room = NEW(double, n);
+    o->mass = NEW_IN(o, double, n);
+    o->change = NEW_IN(o, double, n);
+    o->flux = NEW_IN(o, double, n);
+    o->shift = NEW_IN(o, double, n);
+    o->share = NEW_IN(o, double, n);
+    o->room = NEW_IN(o, double, n);
     for (int f = 0; f < n; f++)
         o->room[f] = o->share[f] = 1.0;
     o->first_id = (int64_t)1 << 40; /* above those of the first filling */
     o->tick = sph_params_dt(&s->prm, s->nu, s->c0, NULL) / 64.0;
     return o;
-}
-
-void openings_free(struct openings **o)
-{
-    if (!*o)
-        return;
-    FREE((*o)->mass, (*o)->change, (*o)->flux, (*o)->shift, (*o)->share, (*o)->room, (*o)->ghost_x,
-         *o);
-    *o = NULL;
 }
 
 /* Walls other than sides. */

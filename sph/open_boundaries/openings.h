@@ -57,9 +57,8 @@ struct openings {
     double ghost_t;
 };
 
-/* The faces of s->zones; owned by the caller (openings_free). */
+/* The faces of s->zones; owned by the caller (FREE). */
 struct openings *openings_create(struct sph *s);
-void openings_free(struct openings **o);
 /* Sets room of the faces for the walls as they are now. */
 void openings_find_room(const struct sph *s, struct openings *o);
 /* From the accumulators (after a restart, too) computes what is to be drained, and the position of

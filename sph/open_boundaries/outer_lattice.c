@@ -25,7 +25,7 @@ static void add_ghost(struct sph *s, const double *y, const double *lo, const do
             return;
     if (o->nghost == o->ghost_capacity) {
         const int more = 2 * o->ghost_capacity + 256;
-        GROW(o->ghost_x, 3 * o->ghost_capacity, 3 * more);
+        GROW_IN(o, o->ghost_x, 3 * o->ghost_capacity, 3 * more);
         o->ghost_capacity = more;
     }
     memcpy(o->ghost_x + 3 * (size_t)o->nghost++, y, 3 * sizeof *y);

@@ -76,21 +76,13 @@ struct side_levels *side_levels_create(const struct sph *s)
             continue;
         of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
         of->given = of->is->has_level ? wall_level(of->is, s->t) : NAN;
-        of->room = NEW(double, l->rows);
+        of->room = NEW_IN(l, double, l->rows);
         of->width = 1.0;
         for (int a = 0; a < s->dim; a++)
             if (a != side / 2 && a != up)
                 of->width *= s->hi[a] - s->lo[a];
     }
     return l;
-}
-
-void side_levels_free(struct side_levels **l)
-{
-    for (int side = 0; *l && side < 6; side++)
-        mem_free((*l)->of[side].room);
-    mem_free(*l);
-    *l = NULL;
 }
 
 /* Of a level that follows a file, by the depth at its beginning. */

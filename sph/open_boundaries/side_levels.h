@@ -12,9 +12,8 @@
 
 struct side_levels;
 
-/* NULL: there is no free surface. Owned by the caller (side_levels_free). */
+/* NULL: there is no free surface. Owned by the caller (FREE). */
 struct side_levels *side_levels_create(const struct sph *s);
-void side_levels_free(struct side_levels **l);
 /* Computes the levels from the flow inside at s->t. Collective. */
 void side_levels_update(const struct sph *s, struct side_levels *l);
 /* Height over the water outside the nearest side, m, and its gradient, as zones_surface. */

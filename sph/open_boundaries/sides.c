@@ -253,7 +253,7 @@ static void find_cuts(const struct sph *s, int side, struct opening_side *of)
     const int a = side / 2, t = of->tangent[0], n = s->walls ? s->walls->nsegments : 0;
     const double at = side % 2 ? s->hi[a] : s->lo[a], length = s->hi[t] - s->lo[t];
     const double near = 1e-6 * s->dx;
-    of->cut = NEW(double, 2 * (size_t)n + 4);
+    of->cut = NEW_IN(s->zones->ctx, double, 2 * (size_t)n + 4);
     for (int k = 0; k < n; k++) {
         const struct segment *w = s->walls->segments + k;
         const double da = w->a[a] - at, db = w->b[a] - at;
@@ -435,22 +435,12 @@ static void water_outside(void *ctx, double t, int n, const double *x, double *p
     side_levels_surface(d->s, d->levels, n, x, phi, gphi);
 }
 
-static void free_sides(struct zones *z)
-{
-    struct sides *d = z->ctx;
-    for (int side = 0; side < 6; side++)
-        mem_free(d->of[side].cut);
-    FREE(d->table, d->planes);
-    side_levels_free(&d->levels);
-    mem_free(d);
-}
-
 void sides_create(struct sph *s, struct zones *z)
 {
-    struct sides *d = NEW(struct sides, 1);
+    struct sides *d = NEW_IN(z, struct sides, 1);
     d->s = s;
     d->fall_t = s->t;
-    d->levels = side_levels_create(s);
+    d->levels = mem_own(d, side_levels_create(s));
     for (int side = 0; side < 2 * s->dim; side++) {
         struct opening_side *of = d->of + side;
         int k = 0;
@@ -471,10 +461,9 @@ void sides_create(struct sph *s, struct zones *z)
         of->first = d->bins;
         d->bins += of->bins[0] * of->bins[1];
     }
-    d->table = NEW(double, (size_t)BIN * d->bins);
-    d->planes = NEW(struct side_plane, d->bins);
+    d->table = NEW_IN(d, double, (size_t)BIN * d->bins);
+    d->planes = NEW_IN(d, struct side_plane, d->bins);
     z->ctx = d;
-    z->free_ctx = free_sides;
     z->eval = eval_sides;
     z->surface = d->levels ? water_outside : NULL;
     z->update = look_inside;

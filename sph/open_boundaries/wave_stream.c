@@ -116,25 +116,18 @@ static void stream_surface(void *ctx, double t, int n, const double *x, double *
     }
 }
 
-static void free_stream(struct zones *z)
-{
-    struct wave_stream *w = z->ctx;
-    waves_free(&w->waves);
-    mem_free(w);
-}
-
 void wave_stream_create(struct sph *s, struct zones *z)
 {
     const struct scene *c = &s->run->scene;
     const struct wave_spec of = scene_waves_spec(c);
-    struct wave_stream *w = NEW(struct wave_stream, 1);
+    struct wave_stream *w = NEW_IN(z, struct wave_stream, 1);
     w->s = s;
     w->up = scene_still_axis(c);
     w->sign = s->gravity[w->up] < 0.0 ? 1.0 : -1.0;
     w->g = fabs(s->gravity[w->up]);
     w->level = scene_waves_level(c);
     scene_waves_direction(c, w->along, w->across);
-    w->waves = waves_create(&of);
+    w->waves = mem_own(w, waves_create(&of));
     waves_need_pressure(w->waves);
     w->mean = scene_currents_mean(c, w->waves);
     for (int side = 0; side < 2 * s->dim; side++) {
@@ -142,10 +135,9 @@ void wave_stream_create(struct sph *s, struct zones *z)
         w->calm[side] = is && is->zone == ZONE_BEACH;
     }
     z->ctx = w;
-    z->free_ctx = free_stream;
     z->eval = wave_stream_eval;
     z->surface = stream_surface;
-    z->gap = level_gap_create(s, true);
+    z->gap = mem_own(z, level_gap_create(s, true));
 }
 
 double wave_stream_level(const struct sph *s, int side)

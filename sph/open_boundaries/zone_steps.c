@@ -53,20 +53,17 @@ static void eval_exact(void *ctx, double t, int n, const double *x, double *u, d
     }
 }
 
-static void free_exact(struct zones *z) { mem_free(z->ctx); }
-
 static void use_exact(struct sph *s, struct zones *z)
 {
-    struct exact *e = NEW(struct exact, 1);
+    struct exact *e = NEW_IN(z, struct exact, 1);
     *e = exact_create(&s->run->scene);
     z->ctx = e;
-    z->free_ctx = free_exact;
     z->eval = eval_exact;
     if (!wave_outside_wanted(s->run, &s->prm))
         return;
     z->eval = wave_outside_eval;
     z->surface = wave_outside_surface;
-    z->gap = level_gap_create(s, false);
+    z->gap = mem_own(z, level_gap_create(s, false));
 }
 
 /* Whether the flow outside has the pressure that particles have at rest near the surface. Without,
@@ -100,9 +97,9 @@ struct zones *zones_create(struct sph *s)
         z->along[a] = box_motion_along(s->run, &s->prm, a);
     zones_overlap(s->run, &s->prm, overlap);
     z->overlap = fmin(overlap[0], fmin(overlap[1], s->dim == 3 ? overlap[2] : INFINITY));
-    z->openings = openings_create(s);
+    z->openings = mem_own(z, openings_create(s));
     z->eos = (struct sph_eos){s->rho0, s->c0, s->gamma};
-    z->gap = s->run->crossed ? level_gap_create(s, false) : NULL;
+    z->gap = s->run->crossed ? mem_own(z, level_gap_create(s, false)) : NULL;
     zones_counted_box(s->run, &s->prm, z->way, z->counted[0], z->counted[1]);
     if (s->prm.outer == OUTER_EXACT)
         use_exact(s, z);
@@ -111,19 +108,6 @@ struct zones *zones_create(struct sph *s)
     z->R = s->R;
     z->weight = has_excess(s, z) ? s->rho0 * vec3_length(s->gravity) * s->R : 0.0;
     return z;
-}
-
-void zones_free(struct zones **z)
-{
-    if (!*z)
-        return;
-    openings_free(&(*z)->openings);
-    if ((*z)->free_ctx)
-        (*z)->free_ctx(*z);
-    FREE((*z)->who, (*z)->x, (*z)->u, (*z)->p, (*z)->gu, (*z)->gp, (*z)->phi, (*z)->gphi);
-    level_gap_free(&(*z)->gap);
-    mem_free(*z);
-    *z = NULL;
 }
 
 /* Lists the local particles of a zone with their places. */

@@ -6,9 +6,8 @@
 #include "zones.h"
 
 /* The zones of level s if its region has open sides, else NULL. Owned by the caller
- * (zones_free). */
+ * (FREE). */
 struct zones *zones_create(struct sph *s);
-void zones_free(struct zones **z);
 /* Start of a stage: buffer particles take u and p of the outer solution at s->t; m = rho w.
  * Collective. */
 void zones_stage(struct sph *s);

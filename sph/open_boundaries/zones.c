@@ -143,14 +143,14 @@ void zones_room(struct zones *z, int n)
     if (n <= z->capacity)
         return;
     n += n / 4 + 64;
-    GROW(z->who, z->capacity, n);
-    GROW(z->x, 3 * z->capacity, 3 * n);
-    GROW(z->u, 3 * z->capacity, 3 * n);
-    GROW(z->p, z->capacity, n);
-    GROW(z->gu, 9 * z->capacity, 9 * n);
-    GROW(z->gp, 3 * z->capacity, 3 * n);
-    GROW(z->phi, z->capacity, n);
-    GROW(z->gphi, 3 * z->capacity, 3 * n);
+    GROW_IN(z, z->who, z->capacity, n);
+    GROW_IN(z, z->x, 3 * z->capacity, 3 * n);
+    GROW_IN(z, z->u, 3 * z->capacity, 3 * n);
+    GROW_IN(z, z->p, z->capacity, n);
+    GROW_IN(z, z->gu, 9 * z->capacity, 9 * n);
+    GROW_IN(z, z->gp, 3 * z->capacity, 3 * n);
+    GROW_IN(z, z->phi, z->capacity, n);
+    GROW_IN(z, z->gphi, 3 * z->capacity, 3 * n);
     z->capacity = n;
 }
 

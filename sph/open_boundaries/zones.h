@@ -43,7 +43,6 @@ struct zones {
     struct level_gap *gap;         /* level_gap.h; NULL without that surface */
     void (*update)(struct sph *s); /* start of a stage: looks at the flow inside; NULL: no need */
     void *ctx;                     /* of eval and surface */
-    void (*free_ctx)(struct zones *z); /* NULL: it is somebody else's */
     struct openings *openings;
     bool own_u[6], own_p[6]; /* by side: this half of the flow outside is taken from inside, so that
                                 blending leaves it alone */

@@ -222,7 +222,7 @@ static void sample_signal(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     if (has_signal(s->run))
-        fit_add(&s->total.signal_fit, s->t, signal_now(s, &e, false));
+        fit_add(s, &s->total.signal_fit, s->t, signal_now(s, &e, false));
 }
 
 /* Period, damping and enstrophy against the exact ones; of a coupled job by the coupler. */

@@ -277,7 +277,7 @@ static void read_signal(struct sph *s, struct h5 *f)
     int64_t n;
     double *rows = h5_read_all_real(f, "signal", 2, &n);
     for (int64_t k = 0; rows && k < n; k++)
-        fit_add(&s->total.signal_fit, rows[2 * k], rows[2 * k + 1]);
+        fit_add(s, &s->total.signal_fit, rows[2 * k], rows[2 * k + 1]);
     mem_free(rows);
 }
 

@@ -112,7 +112,7 @@ static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, con
     if (x && !w->view) {
         char path[1200];
         snprintf(path, sizeof path, "%s/%s_walls.xdmf", s->run->dir, s->run->name);
-        w->view = xdmf_create(path, s->run->restart, s->t);
+        w->view = mem_own(s->walls, xdmf_create(path, s->run->restart, s->t));
     }
     if (x)
         xdmf_outlines(w->view, s->t, file, w->nbodies, names, n);
@@ -148,7 +148,7 @@ void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, cons
     if (!w->view) {
         char path[1200];
         snprintf(path, sizeof path, "%s/%s_walls.xdmf", s->run->dir, s->run->name);
-        w->view = xdmf_create(path, s->run->restart && moving, s->t);
+        w->view = mem_own(s->walls, xdmf_create(path, s->run->restart && moving, s->t));
     }
     show(s, file);
 }

@@ -35,30 +35,17 @@ struct list_grid {
 struct neighbours *neighbours_create(void)
 {
     struct neighbours *l = NEW(struct neighbours, 1);
-    l->grid = NEW(struct list_grid, 1);
+    l->grid = NEW_IN(l, struct list_grid, 1);
     return l;
 }
 
-void neighbours_free(struct neighbours **l)
-{
-    if (!*l)
-        return;
-    struct list_grid *g = (*l)->grid;
-    FREE(g->first, g->ghost, g->order, g->cell);
-    for (int a = 0; a < 3; a++)
-        mem_free(g->x[a]);
-    FREE(g->id, g, (*l)->start, (*l)->count, (*l)->tail, (*l)->busy, (*l)->order, (*l)->whole,
-         (*l)->close, (*l)->taken, (*l)->j, *l);
-    *l = NULL;
-}
-
 /* Grows an array whose contents do not matter. */
-#define ROOM(p, capacity, wanted)                                                                  \
+#define ROOM(owner, p, capacity, wanted)                                                           \
     do {                                                                                           \
         if ((wanted) > (capacity)) {                                                               \
             mem_free(p);                                                                           \
             (capacity) = (wanted) + (wanted) / 4 + 64;                                             \
-            (p) = mem_new((size_t)(capacity), sizeof *(p));                                        \
+            (p) = mem_new_in((owner), (size_t)(capacity), sizeof *(p));                            \
         }                                                                                          \
     } while (0)
 
@@ -123,7 +110,7 @@ static int cell_of(const struct list_grid *g, const double *x, int margin)
 static void sort_rows(struct list_grid *g, const double *rows, int width, int n, int margin,
                       int *first, int *order)
 {
-    ROOM(g->cell, g->cell_capacity, n);
+    ROOM(g, g->cell, g->cell_capacity, n);
     memset(first, 0, ((size_t)g->total + 1) * sizeof *first);
     for (int i = 0; i < n; i++) {
         g->cell[i] = cell_of(g, rows + (size_t)i * width, margin);
@@ -143,9 +130,9 @@ void neighbours_sort(struct sph *s)
     struct list_grid *g = s->list->grid;
     lay_grid(g, s);
     int ghost_capacity = g->first_capacity;
-    ROOM(g->ghost, ghost_capacity, g->total + 1);
-    ROOM(g->first, g->first_capacity, g->total + 1);
-    ROOM(g->order, g->order_capacity, s->p.n);
+    ROOM(g, g->ghost, ghost_capacity, g->total + 1);
+    ROOM(g, g->first, g->first_capacity, g->total + 1);
+    ROOM(g, g->order, g->order_capacity, s->p.n);
     sort_rows(g, s->p.y, s->p.nstate, s->p.n, 1, g->first, g->order);
     particles_permute(&s->p, s->p.n, g->order, s->guards != NULL);
 }
@@ -157,8 +144,8 @@ static void near_room(struct list_grid *g, int n)
         return;
     const int old = g->near_capacity, more = n + n / 4 + 64;
     for (int a = 0; a < 3; a++)
-        GROW(g->x[a], old, more);
-    GROW(g->id, old, more);
+        GROW_IN(g, g->x[a], old, more);
+    GROW_IN(g, g->id, old, more);
     g->near_capacity = more;
 }
 
@@ -284,7 +271,7 @@ static void add_close(const struct sph *s, int i, double close2)
             continue;
         if (l->nclose == l->close_capacity) {
             const int more = 2 * l->close_capacity + 64;
-            GROW(l->close, l->close_capacity, more);
+            GROW_IN(l, l->close, l->close_capacity, more);
             l->close_capacity = more;
         }
         l->close[l->nclose][0] = i;
@@ -317,7 +304,7 @@ INLINE void list_cell(struct sph *s, int cell, const int dim)
         const int64_t at = l->start[i], most = at + g->near + 2 * LANES;
         if (most > l->capacity) {
             const int64_t more = most + growth(l, i, at);
-            GROW(l->j, l->capacity, more);
+            GROW_IN(l, l->j, l->capacity, more);
             l->capacity = more;
         }
         const double *x = prim_line(&s->p, i);
@@ -385,7 +372,7 @@ static void order_rows(const struct sph *s, struct neighbours *l)
         return;
     }
     int at[3] = {0, n[0], n[0] + n[1]};
-    ROOM(l->order, l->order_capacity, l->n);
+    ROOM(l, l->order, l->order_capacity, l->n);
     for (int i = 0; i < l->n; i++)
         l->order[at[kind_of(s, i)]++] = i;
 }
@@ -408,20 +395,20 @@ void neighbours_build(struct sph *s)
     require(n == g->n); /* neighbours_sort has been here */
     if (n + 1 > l->rows_capacity) {
         int capacity = l->rows_capacity;
-        ROOM(l->start, capacity, n + 1);
+        ROOM(l, l->start, capacity, n + 1);
         capacity = l->rows_capacity;
-        ROOM(l->count, capacity, n + 1);
+        ROOM(l, l->count, capacity, n + 1);
         capacity = l->rows_capacity;
-        ROOM(l->whole, capacity, n + 1);
+        ROOM(l, l->whole, capacity, n + 1);
         capacity = l->rows_capacity;
-        ROOM(l->busy, capacity, n + 1);
-        ROOM(l->tail, l->rows_capacity, n + 1);
+        ROOM(l, l->busy, capacity, n + 1);
+        ROOM(l, l->tail, l->rows_capacity, n + 1);
     }
     l->n = n;
     l->start[0] = 0;
     l->nclose = 0;
     l->spared = false;
-    ROOM(g->order, g->order_capacity, s->p.nghost);
+    ROOM(g, g->order, g->order_capacity, s->p.nghost);
     sort_rows(g, prim_line(&s->p, n), PRIM, s->p.nghost, 0, g->ghost, g->order);
     if (s->dim == 2)
         build_2d(s);

@@ -46,9 +46,8 @@ struct neighbours {
     struct list_grid *grid;
 };
 
-/* An empty list; neighbours_free frees it and sets *l to NULL. */
+/* An empty list, owned by the caller. */
 struct neighbours *neighbours_create(void);
-void neighbours_free(struct neighbours **l);
 /* Sorts the locals by cell (stable): state, id, zone, role and size. To be called before ghosts are
  * made. */
 void neighbours_sort(struct sph *s);

@@ -164,27 +164,17 @@ static bool ranks_touch(const struct domain *d, int from, int to, double reach)
     return false;
 }
 
-/* Frees the list of peers with their buffers. */
-static void free_peers(struct domain *d)
-{
-    for (int k = 0; k < d->npeers; k++)
-        FREE(d->peers[k].who, d->peers[k].image, d->peers[k].lines);
-    FREE(d->peers, d->requests);
-    d->peers = NULL;
-    d->requests = NULL;
-    d->npeers = 0;
-}
-
 /* Both ranks of a pair must see each other as peers, so each looks with the eyes of both. Otherwise
  * rounding of lo + shift could make one wait for a message that the other does not send. */
 static void find_peers(struct domain *d, double reach)
 {
-    free_peers(d);
-    d->peers = NEW(struct peer, d->size);
+    mem_free(d->peers); /* with their buffers */
+    d->npeers = 0;
+    d->peers = NEW_IN(d, struct peer, d->size);
     for (int r = 0; r < d->size; r++)
         if (ranks_touch(d, d->rank, r, reach) || ranks_touch(d, r, d->rank, reach))
             d->peers[d->npeers++].rank = r;
-    d->requests = NEW(MPI_Request, 2 * d->npeers);
+    d->requests = NEW_IN(d->peers, MPI_Request, 2 * d->npeers);
 }
 
 /* Passes the cuts of s on to the finer levels, and makes boxes and peers of all anew. Lists of
@@ -289,7 +279,7 @@ static struct domain_node root(const struct domain *d)
 
 struct domain *domain_create(struct sph *s)
 {
-    struct domain *d = NEW(struct domain, 1);
+    struct domain *d = NEW_IN(s, struct domain, 1);
     d->comm = s->run->comm;
     d->rank = s->run->rank;
     d->size = s->run->size;
@@ -299,8 +289,8 @@ struct domain *domain_create(struct sph *s)
         d->lo[a] = s->lo[a];
         d->hi[a] = s->hi[a];
     }
-    d->cuts = NEW(struct domain_cut, d->size);
-    d->box = mem_new((size_t)d->size, sizeof *d->box);
+    d->cuts = NEW_IN(d, struct domain_cut, d->size);
+    d->box = mem_new_in(d, (size_t)d->size, sizeof *d->box);
     s->domain = d;
     const struct domain_node t = root(d);
     if (s->coarser)
@@ -309,15 +299,6 @@ struct domain *domain_create(struct sph *s)
         cut(s, &t, true);
     cuts_changed(s);
     return d;
-}
-
-void domain_free(struct domain **d)
-{
-    if (!*d)
-        return;
-    free_peers(*d);
-    FREE((*d)->cuts, (*d)->box, *d);
-    *d = NULL;
 }
 
 /* Work of a particle in a step, in pairs, or with levels in eighths of a pair; a level with steps
@@ -537,13 +518,13 @@ static int near_sides(const struct sph *s, double reach, int *who)
 
 /* Appends particle i, seen as `image', to what peer q is sent. lines has room for the wider of the
  * two records. */
-static void add_line(struct peer *q, int i, int image, int width)
+static void add_line(const struct domain *d, struct peer *q, int i, int image, int width)
 {
     if (q->nsend == q->capacity) {
         const int more = 2 * q->capacity + 256;
-        GROW(q->who, q->capacity, more);
-        GROW(q->image, q->capacity, more);
-        GROW(q->lines, (size_t)q->capacity * width, (size_t)more * width);
+        GROW_IN(d->peers, q->who, q->capacity, more);
+        GROW_IN(d->peers, q->image, q->capacity, more);
+        GROW_IN(d->peers, q->lines, (size_t)q->capacity * width, (size_t)more * width);
         q->capacity = more;
     }
     q->who[q->nsend] = i;
@@ -569,7 +550,7 @@ static void list_image(const struct sph *s, struct peer *q, int image, const dou
             r2 += out * out;
         }
         if (r2 <= reach * reach)
-            add_line(q, near[k], image, s->p.nslope);
+            add_line(d, q, near[k], image, s->p.nslope);
     }
 }
 

@@ -10,10 +10,9 @@
 
 struct domain;
 
-/* The partition of level s, for a uniform filling; owned by the caller (domain_free). Sets
+/* The partition of level s, for a uniform filling; owned by the caller (FREE). Sets
  * s->domain. */
 struct domain *domain_create(struct sph *s);
-void domain_free(struct domain **d);
 /* Cuts the region anew so that all ranks have the same work, if the imbalance max/mean - 1 is above
  * `tolerance'; returns whether it did, and then domain_migrate is due. Work is pairs in the list
  * plus a constant per particle, or the number of particles where the list is not of the present

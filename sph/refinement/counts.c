@@ -191,7 +191,7 @@ static void create_child(struct sph *at, const double *x, const struct sph *from
     const double *q = prim_line(&from->p, i);
     if (g->ncreated == g->created_capacity) {
         const int more = 2 * g->created_capacity + 16;
-        GROW(g->created, g->created_capacity, more);
+        GROW_IN(g, g->created, g->created_capacity, more);
         g->created_capacity = more;
     }
     struct created *to = g->created + g->ncreated++;

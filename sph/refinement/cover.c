@@ -85,7 +85,7 @@ void refinement_watch_bodies(struct sph *s)
     if (!s->walls || s->walls->nbodies == 0 || (!first && s->run->step % LOOK_EVERY > 0))
         return;
     if (first)
-        r->held = mem_new(BODIES_MAX, sizeof *r->held);
+        r->held = mem_new_in(r, BODIES_MAX, sizeof *r->held);
     for (int k = 0; k < s->walls->nbodies; k++)
         for (int n = 1; n <= regions_levels(r->regions); n++) {
             int *before = &r->held[k][n];

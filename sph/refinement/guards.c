@@ -41,16 +41,8 @@ struct guards *guards_create(const struct run *r)
     const struct apr_params *apr = apr_params_of(r);
     g->mean = apr->guards == GUARDS_MEAN;
     g->own_rates = apr->local_steps;
+    g->j = NEW_IN(g, int, g->j_capacity = 1); /* neighbours_pick makes more room */
     return g;
-}
-
-void guards_free(struct guards **g)
-{
-    if (!*g)
-        return;
-    FREE((*g)->who, (*g)->source, (*g)->near, (*g)->first, (*g)->count, (*g)->j, (*g)->ghost,
-         (*g)->prior, (*g)->created, *g);
-    *g = NULL;
 }
 
 /* Roles of the ghosts are those that their owners gave, of mirror images those of what they show.
@@ -63,7 +55,7 @@ static void share_roles(struct sph *s)
         own[i] = s->p.role[i];
     domain_share(s, own, 1, ghosts);
     if (s->p.nghost > g->ghost_capacity) {
-        GROW(g->ghost, g->ghost_capacity, s->p.nghost);
+        GROW_IN(g, g->ghost, g->ghost_capacity, s->p.nghost);
         g->ghost_capacity = s->p.nghost;
     }
     for (int k = 0; k < s->p.nghost; k++)
@@ -82,11 +74,11 @@ static void make_room(struct guards *g, int n)
     if (n <= g->capacity)
         return;
     const int old = g->capacity, more = n + n / 8 + 64;
-    GROW(g->who, old, more);
-    GROW(g->source, old, more);
-    GROW(g->near, old, more);
-    GROW(g->first, old, more);
-    GROW(g->count, old, more);
+    GROW_IN(g, g->who, old, more);
+    GROW_IN(g, g->source, old, more);
+    GROW_IN(g, g->near, old, more);
+    GROW_IN(g, g->first, old, more);
+    GROW_IN(g, g->count, old, more);
     g->capacity = more;
 }
 
@@ -180,7 +172,7 @@ static void count_taken(struct sph *s)
     if (l->taken_capacity < s->p.n) {
         mem_free(l->taken);
         l->taken_capacity = s->p.capacity;
-        l->taken = NEW(int, l->taken_capacity);
+        l->taken = NEW_IN(l, int, l->taken_capacity);
     }
     if (s->p.n > 0)
         memset(l->taken, 0, (size_t)s->p.n * sizeof *l->taken);
@@ -526,7 +518,7 @@ void guards_remember(struct sph *s)
         if (s->guards->nprior > 0) /* of an output of this place before */
             continue;
         mem_free(s->guards->prior);
-        s->guards->prior = NEW(double, size);
+        s->guards->prior = NEW_IN(s->guards, double, size);
         s->guards->nprior = s->p.n;
         if (size > 0)
             memcpy(s->guards->prior, s->p.slope, size * sizeof(double));

@@ -53,9 +53,8 @@ static inline bool guards_is_outside(const struct sph *s, int i)
     return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
 }
 
-/* The empty list of one level; freed by guards_free. */
+/* The empty list of one level; freed by FREE. */
 struct guards *guards_create(const struct run *r);
-void guards_free(struct guards **g);
 /* Lists the guards of all levels with their sources, once a step after the lists of pairs. s: the
  * coarsest. */
 void guards_list(struct sph *s);

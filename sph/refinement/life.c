@@ -432,15 +432,6 @@ void refinement_keep_mass(struct sph *s)
         take_back(s, sum_of(s, at_mass(s->dim), true), true);
 }
 
-void refinement_free(struct sph *s)
-{
-    if (!s->refinement)
-        return;
-    regions_free(&s->refinement->regions);
-    FREE(s->refinement->held, s->refinement);
-    s->refinement = NULL;
-}
-
 /* A closed room restores 3 % of its surplus of mass in each step, at most 2e-4 of the mass, by one
  * factor on momentum, volume and mass of all that flows. Energy goes along and is entered in the
  * watch's account. */

@@ -54,7 +54,7 @@ static void find_least(struct sph *s)
 /* From here on the passes are those of mixed_pairs.c. */
 static void begin(struct sph *s)
 {
-    s->mixed = NEW(struct mixed, 1);
+    s->mixed = NEW_IN(s, struct mixed, 1);
     s->passes.gradients = mixed_gradients;
     s->passes.rates = mixed_rates;
     s->passes.slopes = true;
@@ -76,17 +76,6 @@ bool mixed_restart(struct sph *s, struct h5 *f)
     const bool fits = h5_read_real(f, "sizes", s->p.n, 2, s->p.size[0]);
     find_least(s);
     return fits;
-}
-
-void mixed_free(struct sph *s)
-{
-    if (!s->mixed)
-        return;
-    for (int k = 0; k < CLASSES; k++)
-        FREE(s->mixed->of[k].who, s->mixed->of[k].x, s->mixed->of[k].y, s->mixed->of[k].half,
-             s->mixed->of[k].first);
-    FREE(s->mixed->spare, s->mixed->pair, s->mixed);
-    s->mixed = NULL;
 }
 
 double mixed_least(const struct sph *s) { return s->mixed->least; }
@@ -175,14 +164,14 @@ void mixed_images(struct sph *s)
 /* --- list of pairs --- */
 
 /* Appends particle or ghost i to a class and widens the class's R. */
-static void put_into_class(struct size_class *c, int i, double R)
+static void put_into_class(void *owner, struct size_class *c, int i, double R)
 {
     if (c->n == c->capacity) {
         const int more = 2 * c->capacity + 256;
-        GROW(c->who, c->capacity, more);
-        GROW(c->x, c->capacity, more);
-        GROW(c->y, c->capacity, more);
-        GROW(c->half, c->capacity, more);
+        GROW_IN(owner, c->who, c->capacity, more);
+        GROW_IN(owner, c->x, c->capacity, more);
+        GROW_IN(owner, c->y, c->capacity, more);
+        GROW_IN(owner, c->half, c->capacity, more);
         c->capacity = more;
     }
     c->who[c->n++] = i;
@@ -229,11 +218,11 @@ static void sort_class(struct mixed *m, struct size_class *c, const struct sph *
     lay_cells(c, s);
     const int total = c->cells[0] * c->cells[1];
     if (total + 2 > c->cells_capacity) {
-        GROW(c->first, c->cells_capacity, 2 * total + 64);
+        GROW_IN(m, c->first, c->cells_capacity, 2 * total + 64);
         c->cells_capacity = 2 * total + 64;
     }
     if (c->n > m->spare_capacity) {
-        GROW(m->spare, m->spare_capacity, 2 * c->n);
+        GROW_IN(m, m->spare, m->spare_capacity, 2 * c->n);
         m->spare_capacity = 2 * c->n;
     }
     memset(c->first, 0, ((size_t)total + 2) * sizeof *c->first);
@@ -256,7 +245,7 @@ static void add_pair(struct mixed *m, int i, int j)
 {
     if (m->npairs == m->pairs_capacity) {
         const int more = 2 * m->pairs_capacity + 4096;
-        GROW(m->pair, m->pairs_capacity, more);
+        GROW_IN(m, m->pair, m->pairs_capacity, more);
         m->pairs_capacity = more;
     }
     m->pair[m->npairs][0] = i < j ? i : j;
@@ -302,7 +291,7 @@ static void find_pairs(struct sph *s)
         m->of[k].n = 0, m->of[k].R = 0.0;
     for (int i = 0; i < all; i++) {
         const double R = *mixed_R(s, i), k = 2.0 * log2(R / m->least) + 0.01;
-        put_into_class(m->of + (int)fmax(0.0, fmin(k, CLASSES - 1)), i, R);
+        put_into_class(s->mixed, m->of + (int)fmax(0.0, fmin(k, CLASSES - 1)), i, R);
     }
     for (int k = 0; k < CLASSES; k++)
         if (m->of[k].n > 0)
@@ -319,14 +308,14 @@ static void make_room(struct neighbours *l, int n, int64_t entries)
 {
     if (n + 1 > l->rows_capacity) {
         const int old = l->rows_capacity, more = n + n / 4 + 64;
-        GROW(l->start, old, more);
-        GROW(l->count, old, more);
-        GROW(l->whole, old, more);
-        GROW(l->tail, old, more);
+        GROW_IN(l, l->start, old, more);
+        GROW_IN(l, l->count, old, more);
+        GROW_IN(l, l->whole, old, more);
+        GROW_IN(l, l->tail, old, more);
         l->rows_capacity = more;
     }
     if (entries > l->capacity) {
-        GROW(l->j, l->capacity, entries + entries / 4);
+        GROW_IN(l, l->j, l->capacity, entries + entries / 4);
         l->capacity = entries + entries / 4;
     }
 }

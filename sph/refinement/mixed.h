@@ -27,8 +27,6 @@ void mixed_check(const struct run *r, const struct sph_params *used, const struc
 void mixed_start(struct sph *s);
 /* Reads the sizes from a restart file, after the particles; false: it has none. */
 bool mixed_restart(struct sph *s, struct h5 *f);
-/* Frees what these methods keep, s->mixed, if they are used. */
-void mixed_free(struct sph *s);
 /* The smallest R, m, on which the step depends. */
 double mixed_least(const struct sph *s);
 

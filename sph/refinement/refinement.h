@@ -70,9 +70,6 @@ void refinement_keep_mass(struct sph *s);
  * Collective. */
 void refinement_spread_mass(struct sph *s, double gained);
 
-/* Frees s->refinement and sets it to NULL, which it may be. */
-void refinement_free(struct sph *s);
-
 /* life.c: ", level n" if the scene is refined, "" otherwise; valid until the next call. */
 const char *sph_level_name(const struct sph *s);
 

@@ -117,9 +117,8 @@ double body_energy(const struct body *b, const double g[3], double *kinetic);
  * centre: 1/(n.M^-1 n), kg; INFINITY: it is not free. */
 double body_effective_mass(const struct body *b, const double *r, const double *n);
 
-/* At rest, as the case has it, with n points. body_bend_free frees it. */
+/* At rest, as the case has it, with n points. Owned by the caller. */
 struct body_bend *body_bend_create(const struct scene_body *is);
-void body_bend_free(struct body_bend **bend);
 /* Sets its points to time t, s. */
 void body_bend_move(struct body *b, double t);
 /* Velocity and acceleration (NULL: not wanted), m/s and m/s^2, on the piece from point k to the

@@ -14,23 +14,13 @@ struct body_bend *body_bend_create(const struct scene_body *is)
     const int n = b->n = is->points.n;
     double(**const all[])[2] = {&b->x, &b->u, &b->du};
     for (int k = 0; k < 3; k++)
-        *all[k] = mem_new((size_t)n, sizeof **all[k]);
+        *all[k] = mem_new_in(b, (size_t)n, sizeof **all[k]);
     for (int k = 0; k < BEND_LOADS; k++)
-        b->load[k] = mem_new((size_t)n, sizeof *b->load[k]);
+        b->load[k] = mem_new_in(b, (size_t)n, sizeof *b->load[k]);
     for (int i = 0; i < n; i++)
         for (int a = 0; a < 2; a++)
             b->x[i][a] = is->points.x[i][a];
     return b;
-}
-
-void body_bend_free(struct body_bend **bend)
-{
-    struct body_bend *b = *bend;
-    for (int k = 0; b && k < BEND_LOADS; k++)
-        mem_free(b->load[k]);
-    if (b)
-        FREE(b->x, b->u, b->du, b);
-    *bend = NULL;
 }
 
 void body_bend_clear(const struct body_bend *bend, enum bend_load which)

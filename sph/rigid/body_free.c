@@ -165,7 +165,7 @@ void body_create(struct body *b, const struct scene_body *is, const struct trime
 void body_destroy(struct body *b)
 {
     mem_free(b->free);
-    body_bend_free(&b->bend);
+    DROP(b->bend);
 }
 
 /* --- where it is --- */

@@ -29,24 +29,16 @@ struct free_surface *sph_surface_create(struct sph *s)
     return f;
 }
 
-void sph_surface_free(struct free_surface **f)
-{
-    if (!*f)
-        return;
-    FREE((*f)->is, (*f)->normal, (*f)->M, (*f)->g, (*f)->lambda, (*f)->less, *f);
-    *f = NULL;
-}
-
 void surface_room(struct free_surface *f, int n, int dim)
 {
     if (n <= f->capacity)
         return;
     const int old = f->capacity, more = n + n / 8 + 64;
-    GROW(f->is, old, more);
-    GROW(f->normal, old * dim, more * dim);
-    GROW(f->M, old * dim * dim, more * dim * dim);
-    GROW(f->g, old * dim, more * dim);
-    GROW(f->lambda, old, more);
+    GROW_IN(f, f->is, old, more);
+    GROW_IN(f, f->normal, old * dim, more * dim);
+    GROW_IN(f, f->M, old * dim * dim, more * dim * dim);
+    GROW_IN(f, f->g, old * dim, more * dim);
+    GROW_IN(f, f->lambda, old, more);
     f->capacity = more;
 }
 

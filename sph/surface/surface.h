@@ -37,9 +37,8 @@ static inline double surface_beta(double v)
     return b * b * b * b;
 }
 
-/* NULL: the scene has no free surface. Owned by the caller (sph_surface_free). */
+/* NULL: the scene has no free surface. Owned by the caller (FREE). */
 struct free_surface *sph_surface_create(struct sph *s);
-void sph_surface_free(struct free_surface **f);
 /* Makes room for n locals; contents are kept. */
 void surface_room(struct free_surface *f, int n, int dim);
 /* Classifies the locals, after the first pass. SURFACE_NEAR and its normals are found for the

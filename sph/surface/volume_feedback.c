@@ -41,7 +41,7 @@ void volume_feedback_prepare(struct sph *s)
     if (f->follows && s->p.n > f->less_capacity) {
         mem_free(f->less);
         f->less_capacity = s->p.n + s->p.n / 8 + 64;
-        f->less = NEW(double, f->less_capacity);
+        f->less = NEW_IN(f, double, f->less_capacity);
     }
 }
 

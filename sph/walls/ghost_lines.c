@@ -10,6 +10,7 @@
 #include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
+#include "walls.h"
 
 double ghost_density(const struct sph *s, double rho, double K, double d)
 {
@@ -44,7 +45,7 @@ int ghost_append(struct sph *s, struct ghost_block *g, int n)
     particles_reserve(&s->p, first + n);
     if (g->n + n > g->capacity) {
         const int more = 2 * g->capacity + n + 64;
-        GROW(g->rub, g->capacity * s->dim, more * s->dim);
+        GROW_IN(s->walls->state, g->rub, g->capacity * s->dim, more * s->dim);
         g->capacity = more;
     }
     s->p.nghost += n;

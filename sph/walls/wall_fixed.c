@@ -51,18 +51,13 @@ static void *fixed_create(struct sph *s)
 {
     struct fixed *m = NEW(struct fixed, 1);
     fixed_layers_lay(s, &m->layers);
+    mem_own(m, m->layers.of);
     for (int k = 0; k < s->walls->nsegments; k++)
         m->ghosts.has_friction = m->ghosts.has_friction || s->walls->segments[k].no_slip;
-    m->room = NEW(double, m->layers.n + 1);
-    m->first = NEW(int, m->layers.n + 1);
-    m->gradient = mem_new((size_t)m->layers.n + 1, sizeof *m->gradient);
+    m->room = NEW_IN(m, double, m->layers.n + 1);
+    m->first = NEW_IN(m, int, m->layers.n + 1);
+    m->gradient = mem_new_in(m, (size_t)m->layers.n + 1, sizeof *m->gradient);
     return m;
-}
-
-static void fixed_destroy(void *state)
-{
-    struct fixed *m = state;
-    FREE(m->ghosts.rub, m->layers.of, m->room, m->gradient, m->first, m->near, m->close, m);
 }
 
 /* The fluid at an image. */
@@ -176,7 +171,7 @@ static void find_close(struct sph *s, struct fixed *m)
         if (fabs(walls_distance(s->walls, prim_line(&s->p, i), reach)) >= reach)
             continue;
         if (m->nclose == m->close_capacity) {
-            GROW(m->close, m->close_capacity, 2 * m->close_capacity + 256);
+            GROW_IN(m, m->close, m->close_capacity, 2 * m->close_capacity + 256);
             m->close_capacity = 2 * m->close_capacity + 256;
         }
         m->close[m->nclose++] = i;
@@ -191,7 +186,7 @@ static int list_near(struct sph *s, struct fixed *m, const double *x, int have)
         if (fabs(d[0]) >= reach || d[0] * d[0] + d[1] * d[1] >= reach * reach)
             continue;
         if (have == m->near_capacity) {
-            GROW(m->near, m->near_capacity, 2 * m->near_capacity + 1024);
+            GROW_IN(m, m->near, m->near_capacity, 2 * m->near_capacity + 1024);
             m->near_capacity = 2 * m->near_capacity + 1024;
         }
         m->near[have++] = m->close[k];
@@ -252,7 +247,6 @@ static int behind(const struct sph *s, int *who)
 
 const struct wall_model wall_fixed = {.name = "fixed_ghosts",
                                       .create = fixed_create,
-                                      .destroy = fixed_destroy,
                                       .ghosts = ghosts,
                                       .lines = lines,
                                       .ghost_slopes = ghost_slopes,

@@ -26,18 +26,12 @@ static void *mirror_create(struct sph *s)
     return m;
 }
 
-static void mirror_destroy(void *state)
-{
-    struct mirror *m = state;
-    FREE(m->ghosts.rub, m->source, m->plane, m);
-}
-
 static void add(struct sph *s, struct mirror *m, int source, int plane)
 {
     if (m->ghosts.n == m->capacity) {
         const int more = 2 * m->capacity + 256;
-        GROW(m->source, m->capacity, more);
-        GROW(m->plane, m->capacity, more);
+        GROW_IN(m, m->source, m->capacity, more);
+        GROW_IN(m, m->plane, m->capacity, more);
         m->capacity = more;
     }
     m->source[m->ghosts.n] = source;
@@ -184,7 +178,6 @@ static void rates(struct sph *s)
 
 const struct wall_model wall_ghost = {.name = "mirrored_ghosts",
                                       .create = mirror_create,
-                                      .destroy = mirror_destroy,
                                       .ghosts = ghosts,
                                       .lines = lines,
                                       .ghost_slopes = ghost_slopes,

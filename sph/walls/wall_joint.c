@@ -252,12 +252,6 @@ void wall_joints_find(const struct sph *s, struct wall_joints *to)
         }
 }
 
-void wall_joints_free(struct wall_joints *to)
-{
-    mem_free(to->of);
-    *to = (struct wall_joints){0};
-}
-
 int wall_joint_fluid(const struct wall_joint *j, const double *x)
 {
     int nearest = 0;

@@ -37,7 +37,6 @@ struct wall_joints {
 /* Finds the joints of the walls as they are now. Walls touch where they are nearer to each other
  * than dx/10; faces are followed to 2 R from the joint. */
 void wall_joints_find(const struct sph *s, struct wall_joints *to);
-void wall_joints_free(struct wall_joints *to);
 /* Which of its fluids holds x: of those whose faces x is before, the one with the nearest. */
 int wall_joint_fluid(const struct wall_joint *j, const double *x);
 /* Whether x and y lie in different fluids with walls of the joint between them. */

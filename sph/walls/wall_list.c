@@ -11,26 +11,18 @@
 
 enum { WALL_GROUP = 8 };
 
-void wall_list_free(struct wall_list *l)
-{
-    FREE(l->who, l->first, l->touch, l->gamma, l->boxes);
-    wall_joints_free(&l->joints);
-    FREE(l->parted, l->cut, l->share, l->asked);
-    wall_list3_free(l);
-}
-
 void wall_list_room(struct wall_list *l, int touches)
 {
     if (l->n + 2 > l->capacity) {
         const int more = 2 * l->capacity + 256;
-        GROW(l->who, l->capacity, more);
-        GROW(l->first, l->capacity, more);
-        GROW(l->gamma, l->capacity, more);
+        GROW_IN(l->owner, l->who, l->capacity, more);
+        GROW_IN(l->owner, l->first, l->capacity, more);
+        GROW_IN(l->owner, l->gamma, l->capacity, more);
         l->capacity = more;
     }
     if (touches > l->touches_capacity) {
         const int more = 2 * touches + 256;
-        GROW(l->touch, l->touches_capacity, more);
+        GROW_IN(l->owner, l->touch, l->touches_capacity, more);
         l->touches_capacity = more;
     }
 }
@@ -40,7 +32,7 @@ static int lay_boxes(const struct walls *w, struct wall_list *l, double reach)
 {
     const int n = (w->nsegments + WALL_GROUP - 1) / WALL_GROUP;
     if (n > l->boxes_capacity) {
-        GROW(l->boxes, l->boxes_capacity, n);
+        GROW_IN(l->owner, l->boxes, l->boxes_capacity, n);
         l->boxes_capacity = n;
     }
     for (int k = 0; k < n; k++) {
@@ -92,7 +84,7 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
 static void cut_touch(struct wall_list *l, struct wall_touch *t, double from, double to)
 {
     if (l->ncuts == l->cuts_capacity) {
-        GROW(l->cut, l->cuts_capacity, 2 * l->cuts_capacity + 64);
+        GROW_IN(l->owner, l->cut, l->cuts_capacity, 2 * l->cuts_capacity + 64);
         l->cuts_capacity = 2 * l->cuts_capacity + 64;
     }
     l->cut[l->ncuts][0] = t->of < 0 ? from : fmax(from, l->cut[t->of][0]);
@@ -140,7 +132,7 @@ static void make_room_for_parted(struct wall_list *l)
 {
     if (l->n < l->parted_capacity)
         return;
-    GROW(l->parted, l->parted_capacity, l->capacity);
+    GROW_IN(l->owner, l->parted, l->parted_capacity, l->capacity);
     l->parted_capacity = l->capacity;
 }
 
@@ -198,6 +190,7 @@ static void build(const struct sph *s, struct wall_list *l)
     l->n = 0;
     l->ncuts = 0;
     wall_joints_find(s, &l->joints);
+    mem_own(l->owner, l->joints.of);
     s->walls->joints = &l->joints;
     wall_list_room(l, 0);
     for (int i = 0; i < s->p.n; i++) {
@@ -319,7 +312,7 @@ static void close_open_ends(const struct sph *s, struct wall_list *l)
     if (s->dim == 3 || !s->walls->any_open)
         return;
     if (l->n > l->rims_capacity) {
-        GROW(l->rim, l->rims_capacity, l->n + l->n / 2);
+        GROW_IN(l->owner, l->rim, l->rims_capacity, l->n + l->n / 2);
         l->rims_capacity = l->n + l->n / 2;
     }
     for (int k = 0; k < l->n; k++) {
@@ -458,8 +451,8 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
     if (!any)
         return NULL;
     if (n > l->shares_capacity) {
-        GROW(l->share, l->shares_capacity, 2 * n);
-        GROW(l->asked, l->shares_capacity, 2 * n);
+        GROW_IN(l->owner, l->share, l->shares_capacity, 2 * n);
+        GROW_IN(l->owner, l->asked, l->shares_capacity, 2 * n);
         l->shares_capacity = 2 * n;
     }
     if (s->dim == 3)

@@ -35,8 +35,9 @@ struct wall_near {
 
 struct thin_piece; /* wall_thin3.c */
 
-/* The list. All arrays are owned; zeroed memory is empty. */
+/* The list. Zeroed memory with an owner is empty. */
 struct wall_list {
+    void *owner; /* a block, of all arrays here */
     int n, capacity;
     int *who, *first; /* [n] locals near walls; [n+1] the first touch of each */
     int touches_capacity;
@@ -68,7 +69,6 @@ struct wall_list {
     struct wall_integrals *asked;
 };
 
-void wall_list_free(struct wall_list *l);
 /* Lists the particles that can come within R of a wall in the step, with the pieces near each. */
 void wall_list_build(const struct sph *s, struct wall_list *l);
 /* Computes touch and gamma at the present positions of particles and walls, once a stage. */
@@ -123,7 +123,6 @@ bool wall_list3_reaches(const struct sph *s, const struct wall_list *l, const st
 void wall_list3_shares(const struct sph *s, struct wall_list *l, int k, int face, const double *x);
 double wall_list3_nearest(const struct sph *s, const struct wall_list *l,
                           const struct wall_touch *t, const double *x, double *foot);
-void wall_list3_free(struct wall_list *l);
 /* The triangle of a touch in the frame of its mesh; its number there; a point in that frame. */
 const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t);
 int wall_list3_triangle(const struct wall_list *l, const struct wall_touch *t);

@@ -21,21 +21,14 @@ struct wall_frames {
 static void create_frames(const struct sph *s, struct wall_list *l)
 {
     const struct walls *w = s->walls;
-    l->of3 = NEW(struct wall_frames, w->nmeshes);
+    l->of3 = NEW_IN(l->owner, struct wall_frames, w->nmeshes);
     l->nframes = w->nmeshes;
     for (int k = 0; k < w->nmeshes; k++) {
         const struct wall_mesh *m = w->meshes + k;
         struct wall_frames *f = l->of3 + k;
-        f->slot = NEW(int, m->mesh.ntriangles);
+        f->slot = NEW_IN(l->of3, int, m->mesh.ntriangles);
         memset(f->slot, -1, (size_t)m->mesh.ntriangles * sizeof *f->slot);
     }
-}
-
-void wall_list3_free(struct wall_list *l)
-{
-    for (int k = 0; k < l->nframes; k++)
-        FREE(l->of3[k].facet, l->of3[k].triangle, l->of3[k].behind, l->of3[k].slot);
-    FREE(l->of3, l->found, l->near, l->rim, l->seen_from, l->piece, l->shown);
 }
 
 const struct facet *wall_list3_facet(const struct wall_list *l, const struct wall_touch *t)
@@ -60,9 +53,9 @@ static int frame_of(struct wall_frames *f, const struct wall_mesh *m, int triang
         return f->slot[triangle];
     if (f->n == f->capacity) {
         const int more = 2 * f->capacity + 64;
-        GROW(f->facet, f->capacity, more);
-        GROW(f->triangle, f->capacity, more);
-        GROW(f->behind, f->capacity, more);
+        GROW_IN(f->slot, f->facet, f->capacity, more);
+        GROW_IN(f->slot, f->triangle, f->capacity, more);
+        GROW_IN(f->slot, f->behind, f->capacity, more);
         f->capacity = more;
     }
     const int *v = m->mesh.vertex[triangle];
@@ -114,12 +107,12 @@ static int ask_tree(const struct sph *s, struct wall_list *l, const struct group
     }
     int found = tree_box(m->tree, lo, hi, l->found_capacity, l->found);
     if (found > l->found_capacity) {
-        GROW(l->found, l->found_capacity, 2 * found);
+        GROW_IN(l->owner, l->found, l->found_capacity, 2 * found);
         l->found_capacity = 2 * found;
         found = tree_box(m->tree, lo, hi, l->found_capacity, l->found);
     }
     if (n + found > l->near_capacity) {
-        GROW(l->near, l->near_capacity, 2 * (n + found));
+        GROW_IN(l->owner, l->near, l->near_capacity, 2 * (n + found));
         l->near_capacity = 2 * (n + found);
     }
     for (int k = 0; k < found; k++)

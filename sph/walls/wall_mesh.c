@@ -166,7 +166,7 @@ static void free_own(struct wall_mesh *m)
 {
     if (m->lent)
         return;
-    tree_free(&m->tree);
+    DROP(m->tree);
     trimesh_free(&m->mesh);
 }
 
@@ -217,7 +217,7 @@ static struct trimesh triangles_of(const struct sph *s, int side, const struct w
 
 static struct wall_mesh *add_mesh(struct walls *w)
 {
-    GROW(w->meshes, w->nmeshes, w->nmeshes + 1);
+    GROW_IN(w, w->meshes, w->nmeshes, w->nmeshes + 1);
     struct wall_mesh *m = w->meshes + w->nmeshes++;
     *m = (struct wall_mesh){.body = -1};
     for (int a = 0; a < 3; a++)
@@ -378,6 +378,4 @@ void wall_meshes_free(struct walls *w)
         mem_free(w->meshes[k].plane);
         free_own(w->meshes + k);
     }
-    mem_free(w->meshes);
-    xdmf_free(&w->view);
 }

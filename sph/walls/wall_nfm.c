@@ -43,15 +43,9 @@ struct nfm {
 static void *nfm_create(struct sph *s)
 {
     struct nfm *m = NEW(struct nfm, 1);
+    m->list.owner = m;
     wall_layers_tabulate(s, RATIOS, m->crowding);
     return m;
-}
-
-static void nfm_destroy(void *state)
-{
-    struct nfm *m = state;
-    wall_list_free(&m->list);
-    FREE(m->pushes, m->room, m->q, m);
 }
 
 static void list(struct sph *s)
@@ -70,7 +64,7 @@ static void judge(const struct sph *s, struct nfm *m)
     if (l->first[l->n] > m->pushes_capacity) {
         mem_free(m->pushes);
         m->pushes_capacity = l->touches_capacity;
-        m->pushes = NEW(bool, m->pushes_capacity);
+        m->pushes = NEW_IN(m, bool, m->pushes_capacity);
     }
     for (int k = 0; k < l->n; k++)
         for (int j = l->first[k]; j < l->first[k + 1]; j++) {
@@ -134,7 +128,7 @@ static void mark_beside_walls(struct sph *s, const struct wall_list *l)
     if (s->p.n > w->beside_capacity) {
         mem_free(w->beside);
         w->beside_capacity = s->p.n + s->p.n / 8;
-        w->beside = NEW(bool, w->beside_capacity);
+        w->beside = NEW_IN(w, bool, w->beside_capacity);
     }
     for (int i = 0; i < s->p.n; i++)
         w->beside[i] = false;
@@ -478,7 +472,7 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     if (n > m->q_capacity) {
         mem_free(m->q);
         m->q_capacity = 2 * n + 16;
-        m->q = mem_new((size_t)m->q_capacity, sizeof *m->q);
+        m->q = mem_new_in(m, (size_t)m->q_capacity, sizeof *m->q);
     }
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + l->first[k] + j;
@@ -732,7 +726,7 @@ static void rooms(struct sph *s, double *room)
     struct nfm *m = s->walls->state;
     const struct wall_list *l = &m->list;
     if (!m->room) {
-        m->room = NEW(double, RATIOS + 1);
+        m->room = NEW_IN(m, double, RATIOS + 1);
         wall_layers_rooms(s, RATIOS, m->room);
     }
     for (int k = 0; k < l->n; k++) {
@@ -764,7 +758,6 @@ static int behind(const struct sph *s, int *who)
 
 const struct wall_model wall_nfm = {.name = "normal_flux_walls",
                                     .create = nfm_create,
-                                    .destroy = nfm_destroy,
                                     .list = list,
                                     .slopes = slopes,
                                     .bound_shifts = bound_shifts,

@@ -81,8 +81,8 @@ void wall_list3_cut(const struct sph *s, struct wall_list *l)
         if (has_thin(s, l, k))
             wall_list_cut_row(s, l, k, sees);
     if (l->n > l->rims_capacity) {
-        GROW(l->rim, l->rims_capacity, l->n + l->n / 2);
-        GROW(l->seen_from, l->rims_capacity, l->n + l->n / 2);
+        GROW_IN(l->owner, l->rim, l->rims_capacity, l->n + l->n / 2);
+        GROW_IN(l->owner, l->seen_from, l->rims_capacity, l->n + l->n / 2);
         l->rims_capacity = l->n + l->n / 2;
     }
     for (int k = 0; k < l->n; k++)
@@ -137,7 +137,7 @@ static int gather(const struct sph *s, struct wall_list *l, int k)
     const int n = l->first[k + 1] - l->first[k];
     int pieces = 0;
     if (n > l->pieces_capacity) {
-        GROW(l->piece, l->pieces_capacity, 2 * n);
+        GROW_IN(l->owner, l->piece, l->pieces_capacity, 2 * n);
         l->pieces_capacity = 2 * n;
     }
     for (int j = 0; j < n; j++, t++) {
@@ -258,7 +258,7 @@ static void shade(const struct sph *s, struct wall_list *l, int k)
 {
     const int n = l->first[k + 1] - l->first[k], pieces = gather(s, l, k);
     if (n > l->shown_capacity) {
-        GROW(l->shown, l->shown_capacity, 2 * n);
+        GROW_IN(l->owner, l->shown, l->shown_capacity, 2 * n);
         l->shown_capacity = 2 * n;
     }
     find_shares(s, l, k, pieces);

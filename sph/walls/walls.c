@@ -42,7 +42,7 @@ static void add_segment(struct walls *w, const double *a, const double *b,
                         const struct segment *like)
 {
     if (w->nsegments % 64 == 0)
-        GROW(w->segments, w->nsegments, w->nsegments + 64);
+        GROW_IN(w, w->segments, w->nsegments, w->nsegments + 64);
     struct segment g = *like;
     memcpy(g.a, a, sizeof g.a);
     memcpy(g.b, b, sizeof g.b);
@@ -570,6 +570,18 @@ void walls_expect_speed(struct sph *s)
         w->speed = fmax(w->speed, 1.1 * body_speed(w->bodies + k));
 }
 
+/* Bodies and meshes that are not lent. */
+static void free_bodies(void *walls)
+{
+    struct walls *w = walls;
+    for (int k = 0; k < w->nbodies; k++) {
+        if (w->lent)
+            w->bodies[k].free = NULL;
+        body_destroy(w->bodies + k);
+    }
+    wall_meshes_free(w);
+}
+
 struct walls *walls_create(struct sph *s)
 {
     static const struct wall_model *const models[] = {&wall_nfm, &wall_ghost,
@@ -583,6 +595,7 @@ struct walls *walls_create(struct sph *s)
     struct walls *w = NEW(struct walls, 1);
     w->t = NAN;
     w->lent = s->coarser != NULL;
+    mem_at_free(w, free_bodies);
     s->walls = w;
     for (int k = 0; k < c->nwalls; k++) {
         const struct scene_wall *is = c->walls + k;
@@ -607,30 +620,11 @@ struct walls *walls_create(struct sph *s)
         add_images(s, w, first);
     }
     wall_meshes_create(s, w);
-    w->start = NEW(struct segment, w->nsegments);
+    w->start = NEW_IN(w, struct segment, w->nsegments);
     if (w->nsegments > 0)
         memcpy(w->start, w->segments, (size_t)w->nsegments * sizeof *w->start);
     w->model = models[s->prm.walls];
-    w->state = w->model->create(s); /* of the walls as they are at t = 0 */
+    w->state = mem_own(w, w->model->create(s)); /* of the walls as they are at t = 0 */
     walls_expect_speed(s);
     return w;
-}
-
-void walls_free(struct walls **w)
-{
-    if (!*w)
-        return;
-    (*w)->model->destroy((*w)->state);
-    for (int k = 0; k < (*w)->nbodies; k++) {
-        if ((*w)->lent)
-            (*w)->bodies[k].free = NULL;
-        body_destroy((*w)->bodies + k);
-    }
-    wall_meshes_free(*w);
-    for (int k = 0; k < BODIES_MAX; k++)
-        mem_free((*w)->rest[k]);
-    for (int k = 0; k < (*w)->nshut; k++)
-        mem_free((*w)->shut[k]);
-    FREE((*w)->beside, (*w)->wedge, (*w)->segments, (*w)->start, *w);
-    *w = NULL;
 }

@@ -69,7 +69,6 @@ struct walls;
 struct wall_model {
     const char *name;               /* as in the case: "nfm" */
     void *(*create)(struct sph *s); /* the model's state; walls and particles are there */
-    void (*destroy)(void *m);       /* frees it */
     void (*ghosts)(struct sph *s);  /* once a step, after the halo: adds ghosts */
     void (*list)(struct sph *s);    /* once a step, after the list of pairs */
     void (*lines)(struct sph *s);   /* each stage: lines of the ghosts, before the first pass */
@@ -171,10 +170,8 @@ struct walls {
 bool walls_want_image(const struct sph *s, bool moves, double lo, double hi, int axis, int way);
 
 /* The walls of level s at s->t; NULL: the scene has none. Needs s->domain. Owned by the caller
- * (walls_free). */
+ * (FREE). */
 struct walls *walls_create(struct sph *s);
-/* Frees them with the model's state and sets *w to NULL; *w may be NULL. */
-void walls_free(struct walls **w);
 /* Moves segments, meshes and bodies to time t, s. */
 void walls_move(struct sph *s, double t);
 /* Moves bodies to s->t, releases those whose time has come, and sets walls->speed. */

@@ -143,8 +143,6 @@ void sph_watch_create(struct sph *s)
         .unsound = INFINITY};
 }
 
-void sph_watch_free(struct sph *s) { mem_free(s->watch.rate); }
-
 /* Nothing is computed in steps that take no sample. */
 void sph_watch_begin(struct sph *s)
 {

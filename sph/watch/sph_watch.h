@@ -82,7 +82,6 @@ struct sph_watch {
 
 /* Sets levels, texts and references of all watches from the parameters and the scene. */
 void sph_watch_create(struct sph *s);
-void sph_watch_free(struct sph *s);
 /* At the start of a step: sets whether it takes a sample. */
 void sph_watch_begin(struct sph *s);
 /* Whether walls or bodies of the scene move (wall_work.c). */

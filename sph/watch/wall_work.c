@@ -35,7 +35,7 @@ void sph_watch_before_walls(struct sph *s)
     if (!w->budget_closed || !s->walls || !any_slides(&s->run->scene))
         return;
     mem_free(w->rate);
-    w->rate = NEW(double, (size_t)s->p.n * s->dim);
+    w->rate = NEW_IN(s, double, (size_t)s->p.n * s->dim);
     for (int i = 0; i < s->p.n; i++)
         memcpy(w->rate + (size_t)i * s->dim, state_row(&s->p, s->p.rate, i) + s->dim,
                (size_t)s->dim * sizeof(double));

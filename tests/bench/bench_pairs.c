@@ -137,7 +137,7 @@ static void bench(int dim, double R_dx, int cells, int kind)
     share_of_peak(k->flops[dim - 2][0], pairs, t1);
     share_of_peak(k->flops[dim - 2][1], 0.5 * pairs, t2);
     printf("\n");
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A step of everything, s a particle. */
@@ -152,7 +152,7 @@ static double step_of(int dim, double R_dx, int cells, int kind, int repeats)
         best = fmin(best, cpu_time() - t);
     }
     best /= s->p.n;
-    sph_free(&c.s);
+    DROP(c.s);
     return best;
 }
 
@@ -175,7 +175,7 @@ static void memory(int dim, double R_dx, int cells)
            "of list, of which %.0f used\n",
            dim, R_dx, n, (double)(mallinfo2().uordblks - before) / n - list, list,
            4.0 * entries(s) / n);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A column that collapses between three walls, rows of a series every second step: what is left of
@@ -200,7 +200,7 @@ static void whole_run(int cells, int steps)
     }
     printf("whole run of a falling column, %d particles, %d steps: %.1f M pairs/s\n", s->p.n, steps,
            1e-6 * (double)s->total.pairs / (cpu_time() - t));
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 int main(int argc, char **argv)

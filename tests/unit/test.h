@@ -17,6 +17,8 @@
 
 #include <cmocka.h>
 
+#include "../../common/base/mem.h"
+
 /* Under the sanitizers, ten times slower, a test takes the same code through fewer scenes, steps or
  * cells, and leaves to the plain run what holds after the whole of them alone. */
 #ifdef __SANITIZE_ADDRESS__

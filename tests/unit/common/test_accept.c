@@ -71,7 +71,7 @@ TEST(a_table_has_names_without_units)
     assert_int_equal(table_column(t, "p"), -1);
     assert_close(t->v[3 + 1], 2500.0, 0.0);
     assert_true(isnan(t->v[3 + 2]) && isnan(t->v[6 + 1]));
-    table_free(&t);
+    FREE(t);
     unlink(path);
     assert_null(table_read(path));
 }
@@ -93,6 +93,6 @@ TEST(a_row_may_be_long)
     assert_int_equal(t->nrows, 1);
     assert_int_equal(t->ncolumns, COLUMNS);
     assert_close(t->v[COLUMNS - 1], COLUMNS - 0.5, 0.0);
-    table_free(&t);
+    FREE(t);
     unlink(path);
 }

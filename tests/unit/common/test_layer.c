@@ -42,7 +42,7 @@ TEST(transforms_are_sums)
                 }
                 worst = fmax(worst, fabs(sum - is[i]));
             }
-            fft_free(&f);
+            FREE(f);
             mem_free(z);
             mem_free(is);
             mem_free(work);
@@ -129,8 +129,8 @@ static void check_steep(const struct steep *of)
     below(rate / (w.c * top[0]), of->bound, "phi_t");
     mem_free(eta);
     mem_free(phi);
-    layer_free(&l);
-    wave_grid_free(&g);
+    FREE(l);
+    FREE(g);
 }
 
 TEST(steep_waves_have_their_velocities)
@@ -178,9 +178,9 @@ TEST(planes_turn_lines)
     below(worst / top[0], 1e-6, "plane");
     mem_free(eta);
     mem_free(phi);
-    layer_free(&l);
-    wave_grid_free(&g);
-    wave_grid_free(&one);
+    FREE(l);
+    FREE(g);
+    FREE(one);
 }
 
 struct kept {
@@ -229,7 +229,7 @@ static void check_kept(const struct kept *of)
     below(fabs(e->energy / energy - 1.0), of->energy, "energy");
     mem_free(eta);
     mem_free(phi);
-    evolution_free(&e);
+    FREE(e);
 }
 
 TEST(steady_waves_stay_what_they_are)

@@ -134,7 +134,7 @@ static double of_sea(double R)
     write_sea(path, x, R, 40.0);
     wave_gauges_judge(s, path, folder, to);
     summary_find(to, "reflection.tank.R", &is);
-    summary_free(&to);
+    FREE(to);
     remove(path);
     remove(spectrum);
     mem_free(s);

@@ -278,12 +278,12 @@ TEST(crossings_are_seen)
     assert_int_equal(trimesh_crossings(&above, tree, &m, MPI_COMM_WORLD, &first), 0);
     assert_int_equal(first, -1);
     assert_true(trimesh_crossings(&more, tree, &m, MPI_COMM_WORLD, &first) > 2);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_append(&m, &more);
     trimesh_connect(&m);
     tree = tree_create(&m);
     assert_true(trimesh_crossings(&m, tree, &m, MPI_COMM_WORLD, &first) > 4);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_free(&m);
     trimesh_free(&more);
     trimesh_free(&above);

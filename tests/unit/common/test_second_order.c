@@ -213,7 +213,7 @@ TEST(interpolated_pairs_are_pairs)
         }
         for (int a = 0; a < 3; a++)
             near(off[a] / most[a], 0.0, 0.01);
-        second_order_free(&s);
+        FREE(s);
         mem_free(c);
     }
 }
@@ -241,7 +241,7 @@ static double leaves_its_surface(double height, int order)
                     fabs((later - earlier) / (2.0 * e) - u[1] +
                          u[0] * (waves_eta(w, x + e, 0.0) - waves_eta(w, x - e, 0.0)) / (2.0 * e)));
     }
-    waves_free(&w);
+    FREE(w);
     return most;
 }
 
@@ -273,7 +273,7 @@ TEST(seas_transport_nothing)
     assert_true(w->current < 0.0);
     if (!SANITIZED)
         near(flux, 0.0, 0.05 * fabs(w->current) * 0.5);
-    waves_free(&w);
+    FREE(w);
 }
 
 /* A group of second order stands higher than its linear crest; far from it water is at rest. */
@@ -296,5 +296,5 @@ TEST(groups_stand_in_still_water)
     near(waves_eta(w, 1.5, 0.0), 0.0, 0.02 * 0.06);
     waves_velocity(w, 1.5, 0.0, -0.5, u);
     near(u[0], 0.0, 0.02 * w->speed);
-    waves_free(&w);
+    FREE(w);
 }

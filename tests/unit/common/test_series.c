@@ -26,7 +26,7 @@ static void write_rows(bool keep, double t_restart, int first, int n, double dt)
     struct series *s = series_create(path, 3, columns, keep, t_restart);
     for (int k = first; k <= n; k++)
         series_row(s, (double[]){k * dt, dt, 0.1 * k});
-    series_free(&s);
+    FREE(s);
     assert_null(s);
 }
 
@@ -43,7 +43,7 @@ TEST(a_row_is_on_disk_at_once)
     struct series *s = series_create(path, 3, columns, false, 0);
     series_row(s, (double[]){1, 2, 3});
     assert_string_equal(text(), "t [s],dt [s],Ma\n1,2,3\n");
-    series_free(&s);
+    FREE(s);
 }
 
 /* Whatever was written after the restart file, the series goes on as if there had been no stop; dt
@@ -71,7 +71,7 @@ TEST(other_ranks_write_nothing)
 {
     struct series *s = series_create(NULL, 3, columns, false, 0);
     series_row(s, (double[]){1, 2, 3});
-    series_free(&s);
+    FREE(s);
     assert_null(s);
 }
 
@@ -88,7 +88,7 @@ TEST(keys_with_dots_are_nested)
     summary_texts(s, "none", 0, NULL);
     summary_real(s, "error.p", -1e-30); /* replaces, in its place */
     summary_write(s, path);
-    summary_free(&s);
+    FREE(s);
     assert_null(s);
     assert_string_equal(text(), "{\n"
                                 "  \"status\": \"a \\\"b\\\" \\\\ c \",\n"
@@ -134,7 +134,7 @@ TEST(numbers_are_found_and_listed_in_order)
     assert_false(summary_find(s, "b.x", &v));
     assert_string_equal(
         text(), "{\n  \"b\": {\n    \"x\": \"gone\"\n  },\n  \"name\": \"3\",\n  \"a\": 0.5\n}\n");
-    summary_free(&s);
+    FREE(s);
 }
 
 /* Eight bodies and 24 gauges of long names make a header of more than any buffer. */
@@ -152,7 +152,7 @@ TEST(a_long_header_survives_a_restart)
     for (int again = 0; again < 2; again++) {
         struct series *s = series_create(path, MANY, list, again, 0.0);
         series_row(s, row);
-        series_free(&s);
+        FREE(s);
     }
     FILE *f = fopen(path, "r");
     int lines = 0, commas = 0;

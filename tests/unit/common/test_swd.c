@@ -116,7 +116,7 @@ TEST(files_give_their_waves)
         assert_close(is[0], u[0], 6e-3 * speed);
         assert_close(is[1], u[1], 6e-3 * speed);
     }
-    waves_free(&w);
+    FREE(w);
     remove(path);
 }
 

@@ -73,7 +73,7 @@ TEST(boxes_find_what_all_triangles_find)
         wrong += count != n || tree_box(tree, lo, hi, 2, who) != n;
     }
     assert_int_equal(wrong, 0);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_free(&m);
 }
 
@@ -124,7 +124,7 @@ TEST(nearest_is_the_nearest)
     }
     assert_int_equal(missed, 0);
     assert_close(worst, 0.0, 1e-12);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_free(&m);
 }
 
@@ -161,7 +161,7 @@ TEST(pseudonormal_knows_the_side_of_a_spike)
     }
     assert_int_equal(wrong, 0);
     assert_true(wrong_face > 100);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_free(&m);
 }
 
@@ -209,7 +209,7 @@ TEST(open_tank_has_one_half_on_its_lid)
     assert_false(f.rim);
     assert_close(f.distance, -0.3, 1e-12);
     assert_close(f.n[0], -1.0, 1e-12);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_free(&m);
 }
 
@@ -243,7 +243,7 @@ TEST(segments_do_not_slip_through)
         wrong += !tree_crosses(tree, c, b, NULL);
     }
     assert_int_equal(wrong, 0);
-    tree_free(&tree);
+    FREE(tree);
     trimesh_free(&m);
 }
 

@@ -62,6 +62,6 @@ TEST(a_run_that_ends_beyond_the_warning_is_not_sound)
             watch_summary(&w, s);
             assert_int_equal(summary_find_text(s, "not_accepted") != NULL,
                              !(last[k] <= (q ? 0.03 : 0.01)));
-            summary_free(&s);
+            FREE(s);
         }
 }

@@ -53,7 +53,7 @@ TEST(nothing_of_its_own_waves_comes_back)
             assert_close(1.0 + wave_absorber_returns(a, a->omega), 1.0, 1e-5);
             assert_true(wave_absorber_returns(a, 0.7 * a->omega) < 0.25);
             assert_true(wave_absorber_returns(a, 1.4 * a->omega) < 0.25);
-            wave_absorber_free(&a);
+            FREE(a);
         }
 }
 
@@ -66,8 +66,8 @@ TEST(a_slow_piston_has_no_modes_beside_it)
     assert_true(fabs(slow->beside) < 1e-2 * slow->made);
     assert_close(slow->made, slow->k * 0.5, 1e-2);
     assert_true(fast->beside > 0.2 && fast->beside < 1.0);
-    wave_absorber_free(&slow);
-    wave_absorber_free(&fast);
+    FREE(slow);
+    FREE(fast);
 }
 
 /* Steps of the equations of the header under a level e^(i(wt + kx)) that comes in: with what runs
@@ -92,5 +92,5 @@ TEST(steps_go_where_the_theory_has_it)
     }
     assert_close(creal(sum) + 10.0, creal(wanted) + 10.0, 2e-3);
     assert_close(cimag(sum), cimag(wanted), 1e-2);
-    wave_absorber_free(&a);
+    FREE(a);
 }

@@ -54,8 +54,8 @@ static void compare(double height, double depth, int evolve, double *first, doub
         *first = fmax(*first, fabs(waves_eta(w, x, 0.0) - linear));
         *second = fmax(*second, fabs(waves_eta(w, x, 0.0) - linear - more));
     }
-    second_order_free(&bound);
-    waves_free(&w);
+    FREE(bound);
+    FREE(w);
 }
 
 /* What the sum of second order leaves falls as the cube of the height, what the first leaves as its
@@ -113,7 +113,7 @@ static void check_water(const struct wave_spec *of, double t0, int places, const
     below(worst[0] / w->speed, 0.01, "surface");
     below(worst[1] / (w->speed * 2.0 * M_PI / w->length), 0.02, "divergence");
     below(worst[2] / (w->speed * 2.0 * M_PI / w->length), 0.02, "rotation");
-    waves_free(&w);
+    FREE(w);
 }
 
 TEST(water_stays_water)
@@ -166,8 +166,8 @@ TEST(bits_do_not_depend_on_who_asks)
     waves_velocity(last, 0.7, 0.0, -0.1, v);
     assert_memory_equal(u, v, sizeof u);
     assert_true(SANITIZED || last->field->of->products < one->field->of->products / 10);
-    waves_free(&last);
-    waves_free(&third);
-    waves_free(&one);
-    waves_free(&other);
+    FREE(last);
+    FREE(third);
+    FREE(one);
+    FREE(other);
 }

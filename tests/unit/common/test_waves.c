@@ -58,7 +58,7 @@ TEST(tables_give_the_wave)
             waves_velocity(w, x, 0.0, eta, u);
             assert_memory_equal(u, v, 2 * sizeof *u);
         }
-        waves_free(&w);
+        FREE(w);
     }
 }
 
@@ -109,8 +109,8 @@ TEST(currents_carry_the_wave)
             near(u[0], v[0] + U, 1e-8);
             near(u[1], v[1], 1e-8);
         }
-        waves_free(&s);
-        waves_free(&w);
+        FREE(s);
+        FREE(w);
     }
 }
 
@@ -144,7 +144,7 @@ TEST(groups_focus_on_currents)
             const double rest = (q->w + q->k * of.current) * of.repeat / (2.0 * M_PI);
             near(rest, round(rest), 1e-6);
         }
-        waves_free(&w);
+        FREE(w);
     }
 }
 
@@ -190,7 +190,7 @@ TEST(closed_tanks_transport_nothing)
     }
     assert_true(fabs(flux) < 1e-5 * size);
     assert_true(w->current < 0.0);
-    waves_free(&w);
+    FREE(w);
 }
 
 TEST(periods_are_met)
@@ -204,7 +204,7 @@ TEST(periods_are_met)
     const double eta = waves_eta(w, 0.4, 0.0);
     waves_at(w, 1.3);
     near(waves_eta(w, 0.4, 0.0), eta, 1e-9);
-    waves_free(&w);
+    FREE(w);
 }
 
 /* Too high, both or neither of length and period. */
@@ -261,7 +261,7 @@ TEST(seas_have_their_height)
     waves_velocity(w, x, 0.0, -0.19, c);
     waves_velocity(w, x, 0.0, -0.21, d);
     near(a[0] - b[0], -(c[1] - d[1]), 2e-5);
-    waves_free(&w);
+    FREE(w);
 }
 
 /* cos^2s(b/2) has the mean cosine s/(s+1); as many to the left as to the right. */
@@ -318,7 +318,7 @@ TEST(short_crests_are_their_sum)
         }
         near(div, 0.0, 0.02 * w->speed * 2.0 * M_PI / w->length);
     }
-    waves_free(&w);
+    FREE(w);
 }
 
 TEST(groups_focus)
@@ -335,7 +335,7 @@ TEST(groups_focus)
     waves_at(w, 12.0);
     near(waves_eta(w, 1.5, 0.0), 0.06, 1e-4);
     near(most, 0.06, 1e-4);
-    waves_free(&w);
+    FREE(w);
 }
 
 TEST(bits_do_not_depend_on_who_asks)
@@ -351,8 +351,8 @@ TEST(bits_do_not_depend_on_who_asks)
     waves_velocity(one, 0.7, 0.0, -0.1, u);
     waves_velocity(other, 0.7, 0.0, -0.1, v);
     assert_memory_equal(u, v, 2 * sizeof *u);
-    waves_free(&one);
-    waves_free(&other);
+    FREE(one);
+    FREE(other);
 }
 
 /* Without a zone all comes back, and long ones send on what u_w says. Of one length R is that of
@@ -389,7 +389,7 @@ TEST(zones_ask_for_no_more_than_the_waves)
         for (int way = -1; way < 2; way += 2) {
             assert_true(cabs(sea_gains_at(is, (0.5 + 0.05 * k) * peak, way)) < 1.15);
         }
-    sea_gains_free(&is);
+    FREE(is);
 }
 
 /* Biesel's transfer functions of pistons and of flaps hinged on the floor, kh 0.3, 1, 3. */

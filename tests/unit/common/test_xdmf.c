@@ -108,7 +108,7 @@ TEST(the_file_is_whole_after_each_snapshot)
                 assert_int_equal(count(name), j <= k);
             }
         }
-        xdmf_free(&x);
+        FREE(x);
         assert_null(x);
     }
 }
@@ -141,7 +141,7 @@ TEST(entries_say_what_readers_need)
     assert_int_equal(count("Dimensions=\"3\">-1 -0.5 0<"), 1);
     assert_int_equal(count("Dimensions=\"5\">0 1 3 6 10<"), 1);
     assert_int_equal(count("Dimensions=\"2\">0 2<"), 1);
-    xdmf_free(&x);
+    FREE(x);
 }
 
 /* Restarted at entry `at', the file is at the end as if there had been no stop. */
@@ -152,7 +152,7 @@ TEST(a_restart_leaves_no_trace)
     struct xdmf *x = xdmf_create(path, false, 0);
     for (int k = 0; k < 6; k++)
         add(x, k, k * dt, 2);
-    xdmf_free(&x);
+    FREE(x);
     snprintf(whole, sizeof whole, "%s", text());
     for (int at = 1; at < 5; at++) {
         x = xdmf_create(path, true, at * dt);
@@ -161,19 +161,19 @@ TEST(a_restart_leaves_no_trace)
         assert_true(well_formed(text()));
         for (int k = at + 1; k < 6; k++)
             add(x, k, k * dt, 2);
-        xdmf_free(&x);
+        FREE(x);
         assert_string_equal(text(), whole);
     }
     x = xdmf_create(path, false, 5.0); /* a new run forgets */
     add(x, 0, 0.0, 2);
     assert_int_equal(count("<Time "), 1);
-    xdmf_free(&x);
+    FREE(x);
     unlink(path);
     x = xdmf_create(path, true, 5.0); /* nothing to keep */
     add(x, 0, 0.0, 2);
     assert_true(well_formed(text()));
     assert_int_equal(count("<Time "), 1);
-    xdmf_free(&x);
+    FREE(x);
 }
 
 void unit_begin(void) { path = unit_file("list.xdmf"); }

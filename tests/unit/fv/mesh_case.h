@@ -111,7 +111,7 @@ static inline void mesh_case_end(struct mesh_case *c, struct fv **s)
 {
     fv_free(s);
     params_free(&c->params);
-    motion_files_free(c->run.motions);
+    FREE(c->run.motions);
 }
 
 static inline bool mesh_case_run(struct fv *s, int steps, double t_stop)
@@ -141,7 +141,7 @@ static inline void mesh_case_errors(const char *blocks, const char *const *overr
     for (int k = 0; k < 3; k++)
         if (!good || !summary_find(c.run.summary, keys[k], error + k))
             error[k] = NAN;
-    summary_free(&c.run.summary);
+    DROP(c.run.summary);
     mesh_case_end(&c, &s);
 }
 

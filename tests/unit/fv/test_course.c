@@ -76,7 +76,7 @@ TEST(velocity_follows_cubics_and_pressure_lines)
         set_level(c, c->q[m], 1, t[m]);
     set_level(c, c->tried, 1, 0.9);
     assert_true(worst(c, course_pressure(c), 1, 1, c->dim) < 1e-12);
-    course_free(&c);
+    FREE(c);
     fv_free(&k.s);
 }
 
@@ -109,7 +109,7 @@ TEST(lines_have_the_slope_of_parabolas)
                 assert_close(c->term[1][i * ncomp + a], rise, 1e-11);
             }
     }
-    course_free(&c);
+    FREE(c);
     s->run->scene.coupling.in_time = 0;
     fv_free(&k.s);
 }
@@ -159,7 +159,7 @@ static void run(struct fv_case *k, const char *integrator, bool tries)
         assert_true(fv_case_run(k, 100, (window + 1) * T));
         course_take(s, c);
     }
-    course_free(&c);
+    FREE(c);
 }
 
 TEST(a_trial_leaves_no_trace)

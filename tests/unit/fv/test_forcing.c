@@ -92,7 +92,7 @@ TEST(an_outlet_feels_no_source)
     wall_add(&c, SIDE_Y_MIN, WALL_SLIP, 0.0);
     wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
     struct fv *s = fv_case_start(&c, NULL);
-    forcing_free(&s->forcing);
+    DROP(s->forcing);
     struct forcing *f = s->forcing = forcing_create(s, 1, &box, true);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];

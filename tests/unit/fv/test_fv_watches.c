@@ -221,7 +221,7 @@ TEST(lost_water_is_not_accepted)
     fv_watches_end(s);
     assert_true(summary_find(c.run.summary, "watch.volume_returned", &volume) && volume > 0.05);
     assert_non_null(summary_find_text(c.run.summary, "not_accepted"));
-    summary_free(&c.run.summary);
+    DROP(c.run.summary);
     fv_free(&c.s);
 }
 

@@ -97,7 +97,7 @@ TEST(an_outline_may_end_at_sides)
         "\"periodic\"; i_max = \"periodic\"; j_min = \"exact\"; j_max = \"exact\"; }",
         (const char *const[]){"domain.periodic=(true,false)", "initial.field=\"uniform\"",
                               "initial.velocity=(0.5,0)", "fv.hole=((0,0.5),(1,1))", NULL});
-    forcing_free(&s->forcing);
+    DROP(s->forcing);
     struct forcing *f = s->forcing = forcing_create(s, 0, NULL, true);
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];

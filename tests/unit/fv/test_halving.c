@@ -81,7 +81,7 @@ static void make(struct water *w, MPI_Comm comm, int dim, int n, double flat)
 
 static void end(struct water *w)
 {
-    halving_free(&w->h);
+    DROP(w->h);
     block_free(&w->b);
 }
 

@@ -49,11 +49,11 @@ TEST(even_rows_go_on_below)
     assert_int_equal(all, 16 * 32);
     mem_free(f);
     mem_free(to);
-    patch_free(&p);
+    FREE(p.blend);
     const double high[2][3] = {{0.25, 0.6, 0.0}, {box[1][0], box[1][1], box[1][2]}};
     patch_create(s, 1, &high, &box, &p, x);
     assert_null(p.blend); /* even rows alone are looked at */
-    patch_free(&p);
+    FREE(p.blend);
     fv_free(&c.s);
 }
 
@@ -64,7 +64,7 @@ TEST(tall_cells_are_asked_at_several_places)
     struct fv *s = start(&c);
     const struct forcing *f = s->forcing;
     const double k = s->b.h[1];
-    struct forced_points p = forced_points_create(s, k);
+    struct forced_points p = forced_points_create(s, NULL, k);
     double *v = NEW(double, p.n), *to = NEW(double, p.ncells), h[3], x[3];
     unsigned char *mask = NEW(unsigned char, p.n), *has = NEW(unsigned char, p.ncells);
     int64_t divided = 0;
@@ -94,6 +94,6 @@ TEST(tall_cells_are_asked_at_several_places)
     mem_free(to);
     mem_free(mask);
     mem_free(has);
-    forced_points_free(&p);
+    FREE(p.first, p.x, p.id);
     fv_free(&c.s);
 }

@@ -253,7 +253,7 @@ static double cavity_error(const char *cells, const char *more, struct newton *a
     print_message("%lld iterations, %lld vectors, residual %.3g, error %.4g\n",
                   (long long)after->newtons, (long long)after->krylovs, after->norm, error);
     assert_true(after->steady);
-    summary_free(&c.run.summary);
+    DROP(c.run.summary);
     fv_free(&c.s);
     return error;
 }

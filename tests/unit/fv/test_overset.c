@@ -59,7 +59,7 @@ TEST(search_finds_places)
                      fabs(xi[1] - in[1]) > 1e-9;
         }
         assert_int_equal(wrong, 0);
-        overset_free(&o);
+        FREE(o);
         mesh_case_end(&c, &s);
     }
 }

@@ -237,7 +237,7 @@ static double extrema_error(int cells, int even)
     c.run.summary = summary_create();
     fv_summarise_extrema(s);
     assert_true(summary_find(c.run.summary, "error.extrema", &error));
-    summary_free(&c.run.summary);
+    DROP(c.run.summary);
     fv_free(&c.s);
     return error;
 }

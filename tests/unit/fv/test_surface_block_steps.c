@@ -91,7 +91,7 @@ static void swings(const char *blocks, const char *step, const char *cfl, const 
                   step, 0.765 * s->step.dt / h, s->nu * s->step.dt / (h * h), (int)c.run.step,
                   *period, *damping);
     assert_close(surface_volume(s) / volume, 1.0, 1e-8);
-    summary_free(&c.run.summary);
+    DROP(c.run.summary);
     mesh_case_end(&c, &s);
 }
 

@@ -148,7 +148,7 @@ static void swings(const char *blocks, double *period, double *damping)
                   s->surface->returned / volume);
     assert_close(s->surface->returned / volume, 0.0, 5e-4);
     assert_close(surface_volume(s) / volume, 1.0, 1e-9);
-    summary_free(&c.run.summary);
+    DROP(c.run.summary);
     mesh_case_end(&c, &s);
 }
 

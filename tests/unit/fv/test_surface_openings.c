@@ -352,7 +352,7 @@ TEST(steps_taken_back_leave_no_trace)
         for (int f = 0; f < 3; f++)
             assert_memory_equal(once + f * s->size, now[f], (size_t)s->size * sizeof *once);
         mem_free(once);
-        kept_free(&kept);
+        FREE(kept);
         mesh_case_end(&c, &s);
     }
 }

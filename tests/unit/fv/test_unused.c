@@ -275,7 +275,7 @@ static void outcome(const char *text, const char *key, struct seen *seen)
         run.summary = summary_create();
         run_steps(&run, seen);
         summary_each(run.summary, see, seen);
-        summary_free(&run.summary);
+        DROP(run.summary);
     }
     snprintf(told, sizeof told, " %s: is not used", key ? key : "");
     seen->unused = f.text && key && strstr(f.text, told);

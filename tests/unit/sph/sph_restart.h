@@ -17,7 +17,7 @@ static inline void sph_case_restart(struct sph_case *c)
     struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
     sph_checkpoint(c->s, f);
     h5_close(&f);
-    sph_free(&c->s);
+    DROP(c->s);
     f = h5_open(MPI_COMM_WORLD, path);
     assert_non_null(f);
     sph_case_start(c, f);
@@ -31,7 +31,7 @@ static inline double *sph_case_end_state(struct sph_case *c, int *n)
     *n = c->s->p.n * c->s->p.nstate;
     double *y = NEW(double, *n);
     memcpy(y, c->s->p.y, (size_t)*n * sizeof(double));
-    sph_free(&c->s);
+    DROP(c->s);
     return y;
 }
 

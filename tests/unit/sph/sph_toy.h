@@ -113,7 +113,7 @@ static inline void toy_split(struct toy *t, const struct toy *all, double cut)
 
 static inline void toy_free(struct toy *t)
 {
-    neighbours_free(&t->s.list);
+    DROP(t->s.list);
     particles_free(&t->s.p);
 }
 

@@ -74,7 +74,7 @@ TEST(a_dam_and_its_wet_bed_have_their_own_heads)
         sph_case_start(&c, NULL);
         assert_int_equal(count(c.s), 20 * 24 + 60 * 4);
         assert_close(worst(c.s, wet_bed, L), 0.0, 1e-4 * L);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -95,7 +95,7 @@ TEST(basins_do_not_know_of_each_other)
     sph_case_start(&c, NULL);
     assert_int_equal(count(c.s), 20 * 24 + 24 * 8 + 28 * 32);
     assert_close(worst(c.s, three, 1.0), 0.0, 1e-4);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Legs of 0.8 and 0.4 joined under a body from 0.5 to 1.5 by a duct 0.1 high: a straight line of
@@ -117,7 +117,7 @@ TEST(a_duct_leads_from_one_level_to_the_other)
     sph_case_start(&c, NULL);
     assert_int_equal(count(c.s), 20 * 32 + 40 * 4 + 20 * 16);
     assert_close(worst(c.s, u_tube, 1.0), 0.0, 0.4 / 40); /* a cell at the ends */
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static double level_half(const double *x, double L) { return 0.5 * L - x[1]; }
@@ -133,7 +133,7 @@ TEST(water_under_a_body_stands_under_the_same_level)
     add_body(s, 1.0, 0.2, 1.5, 0.8);
     sph_case_start(&c, NULL);
     assert_close(worst(c.s, level_half, 1.0), 0.0, 1e-4);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static double closed(const double *x, double L) { return L - x[1]; }
@@ -148,7 +148,7 @@ TEST(a_full_closed_tank_stands_under_its_lid)
     add_body(s, 0.4, 0.4, 0.8, 0.6);
     sph_case_start(&c, NULL);
     assert_close(worst(c.s, closed, 1.0), 0.0, 1e-4);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static double falls(const double *x, double L) { return x[1] > 0.5 * L ? 0.0 : 0.2 * L - x[1]; }
@@ -161,7 +161,7 @@ TEST(what_falls_has_no_weight)
     add_box(s, 0.8, 0.6, 1.2, 0.9);
     sph_case_start(&c, NULL);
     assert_close(worst(c.s, falls, 1.0), 0.0, 1e-4);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* The level is where the shapes end, not the steps of the lattice. */
@@ -186,7 +186,7 @@ TEST(a_tilted_tank_has_one_level)
             most = fmax(most, fabs(p - (0.1 - scene_height(s, x))));
         }
         assert_close(max_anywhere(most), 0.0, 1e-4);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -229,7 +229,7 @@ TEST(heads_know_no_axes)
         }
         assert_int_equal(count(c.s), (dim == 2 ? 1 : 20) * 10 * (12 + 4));
         assert_close(max_anywhere(most), 0.0, 1e-4);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -252,7 +252,7 @@ TEST(gravity_along_a_period_lets_no_pressure_rise)
     c.prm.surface = SURFACE_NO;
     sph_case_start(&c, NULL);
     assert_close(worst(c.s, nothing, 1.0), 0.0, 1e-9);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A block on the floor holds no particle, whatever its place against the lattice; and a disc on the
@@ -285,7 +285,7 @@ TEST(seams_stay_dry)
             bad += y[1] < 0.2 && under < 0.8 * dx; /* packing moves by less */
         }
         assert_true(none_anywhere(bad));
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -308,5 +308,5 @@ TEST(pockets_are_dropped)
     }
     assert_true(none_anywhere(bad));
     assert_int_equal(count(c.s), 80 * 20 - 10 * 12);
-    sph_free(&c.s);
+    DROP(c.s);
 }

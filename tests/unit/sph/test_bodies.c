@@ -403,7 +403,7 @@ TEST(motion_files_are_read_once)
     assert_int_equal(first.term[0].n, 2);
     assert_ptr_equal(first.term[0].rows, second.term[0].rows);
     assert_close(second.term[0].rows[5], 2.0, 0.0);
-    motion_files_free(files);
+    FREE(files);
 }
 
 /* The course of point 1 of a square, up by 0.1 m at 2 m/s at t = 0.5: the velocity of the pieces
@@ -434,6 +434,6 @@ TEST(bent_square)
     assert_close(sum[1], f[1], 1e-14);
     /* the nearest piece is the left side, from -0.5 to 0.6 now, 0.6 m of 1.1 m up */
     assert_close(body_bend_power(b.bend), f[1] * 2.0 * 0.6 / 1.1, 1e-13);
-    body_bend_free(&b.bend);
+    DROP(b.bend);
     mem_free(c);
 }

@@ -73,6 +73,6 @@ TEST(overlap_is_counted_and_placed)
     assert_int_equal(sscanf(text, "%lf at (%lf, %lf) m, level %d", &most, &x, &y, &level), 4);
     assert_close(most, 2.0, 0.05);
     assert_true(hypot(x - 0.5, y - 0.5) < 0.2 && level == 1);
-    sph_free(&c.s);
+    DROP(c.s);
     apr_given = (struct apr_params){0};
 }

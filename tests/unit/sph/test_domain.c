@@ -68,7 +68,7 @@ TEST(particles_reach_their_owners)
         assert_int_equal(sum[0], all);
         assert_int_equal(sum[1], all * (all - 1) / 2);
         assert_true(none_anywhere(misplaced(c.s)));
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -163,7 +163,7 @@ TEST(ghosts_are_all_images_within_reach)
         assert_true(none_anywhere(bad));
         mem_free(want);
         mem_free(have);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -193,7 +193,7 @@ TEST(halo_brings_the_owners_values)
                 bad += p->slope[p->nslope * i + k] != label + 0.5 * k;
         }
         assert_true(none_anywhere(bad));
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -210,7 +210,7 @@ TEST(balance_evens_out_a_crowd)
     assert_true(none_anywhere(misplaced(c.s)));
     assert_true(max_anywhere(c.s->p.n) <= 1.1 * 1600 / c.run.size);
     assert_false(domain_balance(c.s, 0.1));
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Three times as dense at one end as at the other: the list, not the number, tells the work. */
@@ -232,7 +232,7 @@ TEST(balance_evens_out_the_pairs)
     const double most = max_anywhere(listed);
     MPI_Allreduce(MPI_IN_PLACE, &listed, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     assert_true(most <= 1.06 * listed / c.run.size);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A position that is no number along a period must not become a sound one. */
@@ -254,6 +254,6 @@ TEST(what_is_not_finite_keeps_its_mark)
         }
         MPI_Allreduce(MPI_IN_PLACE, &marked, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
         assert_int_equal(marked, 1);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }

@@ -94,7 +94,7 @@ TEST(momentum_is_balanced)
         assert_true(sph_case_run(&c, 1, 100.0));
         assert_true(max_anywhere((double)s->walls->returned) > 0.0);
         assert_close((left_over(s, &scale) - before) / scale, 0.0, 1e-10);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -109,7 +109,7 @@ static void forces_after(MPI_Comm comm, struct force force[2])
     assert_true(sph_case_run(&c, STEPS, 100.0));
     for (int k = 0; k < 2; k++)
         assert_true(forces_of(s, k, force + k));
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(ranks_agree)
@@ -145,7 +145,7 @@ TEST(with_the_stream)
         assert_close(force.F[a] / 0.15, 0.0, 1e-9);
         assert_close(force.M[a] / 0.15, 0.0, 1e-9);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A disc of water's density shot through water at rest, and a light square between walls: what the
@@ -188,7 +188,7 @@ TEST(free_bodies_conserve)
         MPI_Allreduce(f->y, most, BODY_STATE, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
         MPI_Allreduce(f->y, least, BODY_STATE, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
         assert_true(memcmp(most, least, sizeof most) == 0);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -261,7 +261,7 @@ TEST(added_mass)
     print_message("added mass %.3f of the exact, %.1f degrees\n", size, lag);
     assert_close(size, 1.0, 0.1); /* a/dx 6.4; wanted 5 % and 4 degrees at 8 */
     assert_close(lag, 0.0, 8.0);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A full tank with oblique walls stays at rest. */
@@ -306,6 +306,6 @@ TEST(tilted_tank)
         print_message("tank at %.2f rad: |u| %.1e c0\n", angle[k], late / s->c0);
         assert_true(SANITIZED || late < 1e-3 * s->c0);
         assert_close((double)s->walls->returned, 0.0, 0.0);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }

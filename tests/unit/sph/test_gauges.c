@@ -49,7 +49,7 @@ TEST(levels_are_read_along_gravity)
         probes_row(c.s, row);
         for (int q = 0; q < GAUGES; q++)
             assert_close(row[q], gravity < 0.0 ? depth : depth - 1.0, 1e-9);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -117,7 +117,7 @@ TEST(waves_start_at_their_height)
         for (int i = 0; i < n; i++)
             area += exact_surface(&e, 2.0 * (i + 0.5) / n) * 2.0 / n;
         assert_close(volume / area, 1.0, 1e-4);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -146,5 +146,5 @@ TEST(waves_keep_their_energy)
         print_message("t = %d: kinetic energy %.3f of the start's\n", k, kinetic_energy(s) / start);
         assert_close(kinetic_energy(s) / start, 1.0, 0.15);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }

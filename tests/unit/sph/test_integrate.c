@@ -57,7 +57,7 @@ static double toy_error(int integrator, int steps)
     }
     mem_free(before);
     mem_free(after);
-    sph_free(&c.s);
+    DROP(c.s);
     return error;
 }
 
@@ -106,7 +106,7 @@ TEST(resting_lattice_stays_at_rest)
         assert_true(sph_case_run(&c, 10, 100.0));
         assert_true(c.s->step.max_speed < 1e-11 * c.s->c0);
         assert_true(fabs(c.s->step.rho_max - 1.0) < 1e-12 && fabs(c.s->step.rho_min - 1.0) < 1e-12);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -124,7 +124,7 @@ TEST(mass_and_momentum_are_kept)
         assert_true(fabs(after[SUM_MASS] / before[SUM_MASS] - 1.0) < 1e-12);
         for (int a = 0; a < dim; a++)
             assert_true(fabs(after[SUM_MOMENTUM + a] - before[SUM_MOMENTUM + a]) < 1e-12);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -158,7 +158,7 @@ TEST(particles_collide)
     assert_true(least > 0.05);
     for (int a = 0; a < 2; a++)
         assert_close(after[SUM_MOMENTUM + a], before[SUM_MOMENTUM + a], 1e-13 * s->c0);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(steps_are_shared_out_evenly)
@@ -171,7 +171,7 @@ TEST(steps_are_shared_out_evenly)
     assert_true(fabs(c.s->dt - t_stop / 3.0) < 1e-3 * most);
     assert_true(sph_case_run(&c, 2, t_stop));
     assert_true(c.s->t == t_stop);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(a_broken_state_is_found_and_placed)
@@ -192,7 +192,7 @@ TEST(a_broken_state_is_found_and_placed)
         assert_true(d.bad);
         assert_non_null(strstr(d.reason, reason[kind]));
         assert_true(strlen(d.where) > 0 && strlen(d.likely) > 0);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -233,7 +233,7 @@ TEST(extremes_of_several_steps_are_speeds)
     assert_true(once[MOST_RELATIVE] > 0.0 && once[MOST_RELATIVE] < 0.999);
     extremes_of_lines(c.s, most[0]);
     assert_memory_equal(once, most[0], sizeof once);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(restart_and_rows_leave_no_trace)

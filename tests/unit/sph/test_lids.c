@@ -28,7 +28,7 @@ static double energy_of(int dim, int scheme, int axis, int along)
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, 12, 100.0));
     sph_sums(c.s, sums);
-    sph_free(&c.s);
+    DROP(c.s);
     return sums[SUM_KINETIC];
 }
 

@@ -67,7 +67,7 @@ TEST(translation_is_exact)
             worst = fmax(worst, fabs(m / y[at_volume(2)] - 1.0));
         }
         assert_true(worst < 1e-10);
-        sph_free(&c.s);
+        DROP(c.s);
     }
     refine_nothing();
 }
@@ -96,7 +96,7 @@ TEST(pairs_conserve_mass_and_momentum)
         }
         for (int a = 0; a < 3; a++)
             assert_true(size[a] > 0.0 && fabs(sum[a]) < 1e-12 * size[a]);
-        sph_free(&c.s);
+        DROP(c.s);
     }
     refine_nothing();
 }
@@ -124,7 +124,7 @@ TEST(vortices_decay_as_they_should)
             all += m * (u * u + v * v);
         }
         assert_true(sqrt(error / all) < 0.05);
-        sph_free(&c.s);
+        DROP(c.s);
     }
     refine_nothing();
 }
@@ -153,7 +153,7 @@ TEST(graded_sizes_change_slowly)
     assert_close(volume, 1.0, 1e-12);
     assert_true(least < 0.501 * s->R && largest > 0.9 * s->R);
     assert_true(most < 1.03);
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }
 
@@ -193,6 +193,6 @@ TEST(children_coalesce)
     for (int a = 0; a < 3; a++)
         assert_close(after[a], before[a], 1e-12);
     assert_true(s->p.n <= 408); /* a few find no partner */
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }

@@ -85,7 +85,7 @@ static void carry(bool local_steps)
         assert_true(sph_case_run(&c, 1, 1.0));
     assert_true(departure(s, U) < 1e-10);
     assert_true(flowing(s) == n[0] && flowing(s->finer) == n[1]);
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }
 
@@ -113,7 +113,7 @@ TEST(nested_boxes_and_space_are_exact)
             assert_true(flowing(q) > 0.0);
         assert_true(sph_case_run(&c, dim == 2 ? 10 : 4, 100.0));
         assert_true(departure(s, U) < 1e-10);
-        sph_free(&c.s);
+        DROP(c.s);
     }
     refine_nothing();
 }
@@ -131,7 +131,7 @@ TEST(empty_levels_run)
         assert_true(sph_case_run(&c, 20, 100.0));
         assert_true(departure(s, U) < 1e-10);
         assert_true(flowing(s) == 400.0 && flowing(s->finer) == 0.0);
-        sph_free(&c.s);
+        DROP(c.s);
     }
     refine_nothing();
 }
@@ -179,7 +179,7 @@ TEST(guards_take_linear_fields)
     s->lists.ready = false;
     integrate_prepare(s);
     assert_true(guards_off(s, (const double[]){0.01, -0.02, 0.0, 0.3, 0.2, -0.4}, false) < 1e-12);
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }
 
@@ -200,7 +200,7 @@ TEST(guards_beside_walls_take_linear_fields)
     s->lists.ready = false;
     integrate_prepare(s);
     assert_true(guards_off(s, (const double[]){0.01, 0.0, 0.3, 0.0, 0.0, 0.0}, true) < 1e-12);
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }
 
@@ -230,7 +230,7 @@ TEST(nobody_is_born_behind_walls)
     assert_true(none_anywhere(behind));
     assert_true(sph_case_run(&c, 3, 100.0));
     assert_true(max_anywhere(s->total.lost) == 0.0);
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }
 
@@ -277,7 +277,7 @@ TEST(local_steps_are_as_good)
             error[local] = vortex_error(s);
             mass[local] = fabs(sums[SUM_MASS] - 1.0);
             steps[local] = c.run.step;
-            sph_free(&c.s);
+            DROP(c.s);
         }
         if (SANITIZED)
             continue;
@@ -326,6 +326,6 @@ TEST(missing_children_are_born_again)
         assert_true(fabs(guards_of(fine) - after) < 0.02 * before);
     }
     assert_true(departure(s, U) < 1e-3);
-    sph_free(&c.s);
+    DROP(c.s);
     refine_nothing();
 }

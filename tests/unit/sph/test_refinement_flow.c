@@ -37,7 +37,7 @@ static double vortices(int scheme, int transport, bool refined)
     assert_true((s->finer != NULL) == refined);
     assert_true(sph_case_run(&c, (refined ? 40 : 20) / (SANITIZED ? 4 : 1), 100.0));
     const double error = velocity_error(s);
-    sph_free(&c.s);
+    DROP(c.s);
     refine(0.0, 0.0, 0.0, 0.0);
     return error;
 }
@@ -90,7 +90,7 @@ static double lost_by_stream(bool walled, bool strip, bool local)
             sums[1] += particles_is_guard(&q->p, i) ? 0.0 : y[2];
         }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    sph_free(&c.s);
+    DROP(c.s);
     refine(0.0, 0.0, 0.0, 0.0);
     return sums[1] / sums[0] - 1.0;
 }
@@ -139,7 +139,7 @@ static double amplitude_of_guards(int kind)
             }
         }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    sph_free(&c.s);
+    DROP(c.s);
     refine(0.0, 0.0, 0.0, 0.0);
     return sums[0] / sums[1] - 1.0;
 }
@@ -177,7 +177,7 @@ static void run_mirrored(MPI_Comm comm, bool mirrored, double *kinetic, double *
     *kinetic = sums[SUM_KINETIC];
     *count = s->p.n + s->finer->p.n;
     MPI_Allreduce(MPI_IN_PLACE, count, 1, MPI_DOUBLE, MPI_SUM, comm);
-    sph_free(&c.s);
+    DROP(c.s);
     refine(0.0, 0.0, 0.0, 0.0);
 }
 
@@ -244,7 +244,7 @@ static double state_of(bool shown)
         }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     assert_true(sums[0] > 0.0);
-    sph_free(&c.s);
+    DROP(c.s);
     refine(0.0, 0.0, 0.0, 0.0);
     return sums[1];
 }
@@ -271,7 +271,7 @@ TEST(water_at_rest_stays)
             assert_true(sph_case_run(&c, 1, 100.0));
         print_message("tank at rest: %.2e c0\n", s->total.max_mach);
         assert_true(s->total.max_mach < 1e-3);
-        sph_free(&c.s);
+        DROP(c.s);
     }
     refine(0.0, 0.0, 0.0, 0.0);
 }
@@ -312,7 +312,7 @@ static double pushed(int cells, double from)
                     q->walls->bodies[0].now.x[0] == s->walls->bodies[0].now.x[0]);
     assert_true(max_anywhere(s->total.lost) == 0.0);
     const double u = s->walls->bodies[0].now.u[0];
-    sph_free(&c.s);
+    DROP(c.s);
     refine(0.0, 0.0, 0.0, 0.0);
     return u;
 }

@@ -77,7 +77,7 @@ TEST(the_surface_is_refined)
         assert_true(max_anywhere((double)seen) > 0.0);
         assert_true(fine > 1024 && (double)fine < particles(s, true)); /* not the corner below */
     }
-    sph_free(&c.s);
+    DROP(c.s);
     ask_nothing();
 }
 
@@ -105,7 +105,7 @@ TEST(vortices_are_refined_within_the_budget)
         if (budget > 0.0)
             assert_true(most <= budget);
         last = most;
-        sph_free(&c.s);
+        DROP(c.s);
     }
     ask_nothing();
 }
@@ -138,7 +138,7 @@ TEST(ranks_have_the_same_regions)
     const double n = particles(both[0].s, true), share = particles(both[1].s, true);
     assert_close(n, share / both[0].run.size, 0.0);
     for (int k = 0; k < 2; k++)
-        sph_free(&both[k].s);
+        DROP(both[k].s);
     ask_nothing();
 }
 
@@ -186,7 +186,7 @@ TEST(still_water_is_refined_by_its_weight_alone)
         }
         assert_true(max_anywhere((double)(in + out)) > 0.0);
         assert_true(none_anywhere(k == 1 ? out : in));
-        sph_free(&c.s);
+        DROP(c.s);
     }
     ask_nothing();
 }
@@ -219,7 +219,7 @@ TEST(steep_pressures_are_refined)
         }
         assert_true(max_anywhere((double)above) > 0.0);
         assert_true(none_anywhere(outside));
-        sph_free(&c.s);
+        DROP(c.s);
     }
     ask_nothing();
 }
@@ -248,6 +248,6 @@ TEST(the_peak_takes_its_region_along)
     /* hydrostatic: the largest pressure is at the foot, near x = 0 and far from the front */
     assert_true(before < -0.1 && g->sets[0].shift[1] == 0.0);
     assert_true(particles(s, true) > 256.0);
-    sph_free(&c.s);
+    DROP(c.s);
     ask_nothing();
 }

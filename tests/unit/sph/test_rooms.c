@@ -65,7 +65,7 @@ static struct trimesh open_box(const double *lo, const double *hi)
 
 static void finish(struct sph_case *c)
 {
-    sph_free(&c->s);
+    DROP(c->s);
     scene_meshes_free(&c->run.scene);
 }
 

@@ -45,7 +45,7 @@ TEST(the_edge_is_where_half_a_row_is_left)
         beach(&c, way, k > 1);
         const double edge = shore_height(c.s, way > 0 ? 0.1 : 1.9);
         assert_true(fabs(edge - (level - 0.5 * dx)) < 0.5 * dx);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -54,5 +54,5 @@ TEST(a_tank_without_a_beach_has_no_edge)
     struct sph_case c;
     beach(&c, 1, false);
     assert_true(isnan(shore_height(c.s, 1.9)));
-    sph_free(&c.s);
+    DROP(c.s);
 }

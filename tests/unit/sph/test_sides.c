@@ -55,7 +55,7 @@ static double echo(enum wall_kind kind)
     const double before = sound(s);
     assert_true(sph_case_run(&c, SANITIZED ? 20 : 200, 0.1)); /* L/c0 */
     const double after = sound(s);
-    sph_free(&c.s);
+    DROP(c.s);
     return after / before;
 }
 
@@ -86,7 +86,7 @@ TEST(streams_keep_their_mass)
                   sums[SUM_MOMENTUM] / sums[SUM_MASS]);
     assert_close(sums[SUM_MASS] / s->start.mass, 1.0, 0.03);
     assert_close(sums[SUM_MOMENTUM] / sums[SUM_MASS], 1.0, 0.01);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* u_x of a stream along x, polynomials across it: 1 is that of the test, 2 also curved. */
@@ -130,7 +130,7 @@ static double outlet_error(int degree)
         s->zones->eval(s->zones->ctx, 0.0, 1, x, u, &p, NULL, NULL);
         most = fmax(most, fabs(u[0] - profile_at(x, degree)));
     }
-    sph_free(&c.s);
+    DROP(c.s);
     return max_anywhere(most);
 }
 
@@ -164,7 +164,7 @@ static void outlet_pressures(double below, double p[2])
         s->zones->eval(s->zones->ctx, 0.0, 1, x, u, p + k, NULL, NULL);
         p[k] /= s->rho0;
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Water at rest outside has no more head than its pressure; what runs in through the whole side is

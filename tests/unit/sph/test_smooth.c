@@ -201,7 +201,7 @@ TEST(noise_starts_packed)
         assert_close(volume, 1.0, 0.002);
         assert_true(rms < 0.003);
         assert_close(off, 0.0, 1e-12);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -228,6 +228,6 @@ TEST(a_closed_tank_keeps_its_level)
         print_message("mean pressure %.4f of rho g H/2\n", p / volume / 0.5);
         assert_close(volume, 1.0, 1e-12);
         assert_close(p / volume, 0.5, 0.01);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }

@@ -23,7 +23,7 @@ static double *run_on(MPI_Comm comm, int dim, int cells, int steps, int n)
     sph_case_start(&c, NULL);
     sph_case_run(&c, steps, 100.0);
     double *y = sph_case_gather(c.s, n);
-    sph_free(&c.s);
+    DROP(c.s);
     return y;
 }
 
@@ -70,7 +70,7 @@ static void zone_sums(MPI_Comm comm, double *sums)
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, SANITIZED ? 10 : 40, 100.0));
     sph_sums(c.s, sums);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(ranks_agree_with_open_sides)
@@ -124,7 +124,7 @@ static void write_on(MPI_Comm comm, int dim, int steps, const char *path, double
     h5_close(&f);
     assert_true(sph_case_run(&c, steps, 100.0));
     take_sums(&c, sums);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static void go_on_on(MPI_Comm comm, int dim, int steps, const char *path, double *sums)
@@ -139,7 +139,7 @@ static void go_on_on(MPI_Comm comm, int dim, int steps, const char *path, double
     h5_close(&f);
     assert_true(sph_case_run(&c, steps, 100.0));
     take_sums(&c, sums);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static void goes_on_on_others(int dim, int steps)

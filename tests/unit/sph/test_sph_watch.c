@@ -21,7 +21,7 @@ TEST(a_sound_flow_gains_nothing)
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, SANITIZED ? 30 : 120, 100.0));
     assert_true(gain_of(&c) < 1e-3);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Beyond the bound of the Riemann schemes; strict bounds hold the densities meanwhile. */
@@ -43,7 +43,7 @@ TEST(an_unstable_step_is_ended_by_its_energy)
     assert_true(d.bad);
     assert_non_null(strstr(d.reason, "energy"));
     assert_true(c.s->total.max_mach < 0.5); /* long before the speeds say so */
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A channel along x between no-slip walls; the upper one at U, or a force. */
@@ -79,7 +79,7 @@ TEST(work_from_outside_is_no_gain)
         assert_true(SANITIZED ||
                     sums[SUM_KINETIC] > 0.01 * c.s->start.mass * U * U); /* 20 % of the scale */
         assert_true(gain_of(&c) < 0.01);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -104,7 +104,7 @@ TEST(the_worst_particle_is_named)
         assert_close(x, worse ? 20.5 / 24.0 : 3.5 / 24.0, 1e-2);
         assert_close(y, worse ? 20.5 / 24.0 : 3.5 / 24.0, 1e-2);
         assert_null(strstr(d.where, "rank"));
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -136,7 +136,7 @@ TEST(an_impact_is_no_fault)
     }
     print_message("compressed by %.3g\n", most);
     assert_true(most > 0.07);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static double shift_speed(enum initial_field field, double U, double V)
@@ -150,7 +150,7 @@ static double shift_speed(enum initial_field field, double U, double V)
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, 3, 100.0));
     const double speed = c.s->step.shift_speed;
-    sph_free(&c.s);
+    DROP(c.s);
     return speed;
 }
 
@@ -174,7 +174,7 @@ TEST(a_restart_judges_as_one_run)
             sph_case_restart(&c);
         assert_true(sph_case_run(&c, 30, 100.0));
         after[restart] = c.s->watch;
-        sph_free(&c.s);
+        DROP(c.s);
     }
     assert_true(after[0].work == after[1].work);
     assert_int_equal(after[0].budget.n, after[1].budget.n);
@@ -214,6 +214,6 @@ TEST(forces_are_compared_at_rest)
         assert_int_equal(w->warned, wrong == 1);
         if (wrong == 1)
             assert_close(w->worst, 0.1, 0.005);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }

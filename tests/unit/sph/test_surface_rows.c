@@ -74,7 +74,7 @@ static struct sph *start(struct sph_case *c, const struct triangle *t, double L,
 
 static void finish(struct sph_case *c)
 {
-    sph_free(&c->s);
+    DROP(c->s);
     apr_given = (struct apr_params){0};
 }
 

@@ -83,5 +83,5 @@ TEST(shifts_fade_with_the_support)
     }
     print_message("%d on the surface, %d near it, %d inside\n", on, part, inner);
     assert_true(on > 5 && part > 5 && inner > 5);
-    sph_free(&c.s);
+    DROP(c.s);
 }

@@ -40,7 +40,7 @@ static double floor_left(struct trimesh *m, double size, int *triangles)
     const double area = trimesh_area(&left);
     if (triangles)
         *triangles = left.ntriangles;
-    tree_free(&t);
+    FREE(t);
     trimesh_free(&left);
     return area;
 }

@@ -65,7 +65,7 @@ TEST(layers_are_curved)
         assert_close(sum / (n * dx * dx), 1.0, 0.5 / n);
     }
     mem_free(layers.of);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Behind the sides of a tank the layers fill its frame, corners included. */
@@ -81,7 +81,7 @@ TEST(layers_fill_corners)
         sum += layers.of[k].w;
     assert_close(sum, (1.0 + 2.0 * s->R) * (1.0 + 2.0 * s->R) - 1.0, 1e-9);
     mem_free(layers.of);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Water of a full tank rests round a body, which it bears by its weight of water: the average of
@@ -103,7 +103,7 @@ static void rests_round(int n, const double r[2], double turned)
     assert_close((double)s->walls->returned, 0.0, 0.0);
     assert_true(SANITIZED || late < 1e-3 * s->c0);
     assert_true(SANITIZED || fabs(lift / (9810.0 * area) - 1.0) < 0.02);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(rests_round_bodies)

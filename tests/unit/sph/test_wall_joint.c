@@ -39,8 +39,8 @@ static int joints_with(double (*bed)[2], int n, double x[][2])
     struct wall_joints found = {0};
     wall_joints_find(tank_with(&c, bed, n, x), &found);
     const int joints = found.n;
-    wall_joints_free(&found);
-    sph_free(&c.s);
+    FREE(found.of);
+    DROP(c.s);
     return joints;
 }
 
@@ -98,8 +98,8 @@ TEST(nobody_sees_through)
     assert_false(wall_joint_hides(j, (double[2]){0.35, 0.65}, (double[2]){0.65, 0.65}));
     assert_true(wall_joint_parts(j, left, c.s->R));
     assert_false(wall_joint_parts(j, low, 0.1));
-    wall_joints_free(&found);
-    sph_free(&c.s);
+    FREE(found.of);
+    DROP(c.s);
 }
 
 /* Beside the top of a square that stands on its corner the water is one again. */
@@ -115,8 +115,8 @@ TEST(fluids_meet_over_a_small_body)
         assert_true(wall_joint_parts(j, (double[2]){0.5 + side * 0.05, 0.02}, c.s->R));
         assert_false(wall_joint_parts(j, (double[2]){0.5 + side * 0.05, 0.38}, c.s->R));
     }
-    wall_joints_free(&found);
-    sph_free(&c.s);
+    FREE(found.of);
+    DROP(c.s);
 }
 
 /* Of a symmetric scene. */
@@ -143,7 +143,7 @@ TEST(sides_of_a_tip_are_mirrors)
             worst = fmax(worst, fabs(gamma_of_mirror(s, gamma, prim_line(&s->p, i)) - gamma[i]));
     assert_close(worst, 0.0, 1e-12);
     mem_free(gamma);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A driven tip that leaves the floor opens it, one that comes down closes it. */
@@ -161,6 +161,6 @@ TEST(joints_come_and_go)
         wall_joints_find(s, &found);
         assert_int_equal(found.n, up == 1 ? 0 : 1);
     }
-    wall_joints_free(&found);
-    sph_free(&c.s);
+    FREE(found.of);
+    DROP(c.s);
 }

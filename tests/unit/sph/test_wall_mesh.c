@@ -43,7 +43,7 @@ TEST(a_box_of_walls_is_one_closed_mesh)
     assert_close(wall_meshes_nearest(s->walls, out, 1.0, &which).distance, -hypot(.02, .03), 1e-12);
     wall_meshes_nearest(s->walls, out, 0.01, &which);
     assert_int_equal(which, -1);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Beside a plane a half of the kernel is behind it, in an edge three quarters, in a corner seven
@@ -63,7 +63,7 @@ TEST(what_is_behind_faces_is_known_in_their_frame)
         assert_close(wall_share_in_frame(s, 0, own), wall_share(s, -1, x[k]), 1e-12);
         assert_close(wall_share_in_frame(s, 0, own), want[k], 1e-3);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Bottom and one side; the bottom goes on by 2.5 R where no wall ends it. */
@@ -81,7 +81,7 @@ TEST(open_sides_prolong_the_others)
     assert_close(lo[2], 0.0, 1e-12);
     assert_close(hi[2], 1.0 + 2.5 * s->R, 1e-12);
     assert_int_equal(s->walls->meshes[0].mesh.nparts, 1); /* they share the edge where they meet */
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(walls_unlike_each_other_are_meshes_of_their_own)
@@ -90,7 +90,7 @@ TEST(walls_unlike_each_other_are_meshes_of_their_own)
     static const int none[1];
     struct sph *s;
     cube(&c, 0, none);
-    sph_free(&c.s);
+    DROP(c.s);
     c.run.scene.walls[0] = (struct scene_wall){.side = SIDE_Z_MIN, .kind = WALL_NO_SLIP};
     c.run.scene.walls[1] =
         (struct scene_wall){.side = SIDE_Z_MAX, .kind = WALL_NO_SLIP, .velocity = {1.0, 0.0, 0.0}};
@@ -100,7 +100,7 @@ TEST(walls_unlike_each_other_are_meshes_of_their_own)
     assert_int_equal(s->walls->nmeshes, 3);
     assert_true(!s->walls->meshes[0].no_slip && s->walls->meshes[1].no_slip); /* x before z */
     assert_close(s->walls->meshes[2].u[0], 1.0, 0.0);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A floor that ends at periodic sides goes on beyond them without a rim; a ball near one of them
@@ -111,7 +111,7 @@ TEST(meshes_repeat_with_the_domain)
     const double o[3] = {0.2, 0.5, 0.6};
     struct sph_case c;
     cube(&c, 0, none);
-    sph_free(&c.s);
+    DROP(c.s);
     struct scene *e = &c.run.scene;
     e->domain.periodic[0] = true;
     e->meshes = NEW(struct scene_meshes, 1);
@@ -147,7 +147,7 @@ TEST(meshes_repeat_with_the_domain)
     assert_close(f.distance, 0.1, 1e-12);
     assert_close(wall_meshes_nearest(s->walls, image, 1.0, &mesh).distance, 0.07, 0.005);
     assert_int_equal(mesh, 1);
-    sph_free(&c.s);
+    DROP(c.s);
     scene_meshes_free(e);
 }
 

@@ -77,7 +77,7 @@ TEST(every_particle_finds_its_walls)
         worst = fmax(worst, fabs(gamma[i] - gamma_in_box(prim_line(&s->p, i), s->R)));
     assert_close(max_anywhere(worst), 0.0, 1e-11);
     mem_free(gamma);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* int_r^R W s^2 ds by midpoints. */
@@ -116,7 +116,7 @@ TEST(weight_behind_a_corner)
     for (int a = 0; a < 3; a++)
         assert_close(out[a], want[a], 2e-3 * 9.81 * R);
     assert_true(vec3_length(want) > 0.02 * 9.81 * R);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Periodic along y: as far from the ends of the walls as anywhere. */
@@ -141,7 +141,7 @@ TEST(walls_go_on_beyond_periodic_sides)
     }
     assert_close(max_anywhere(worst), 0.0, 1e-11);
     mem_free(gamma);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* --- operators --- */
@@ -179,7 +179,7 @@ static double laplacian(int row, int power)
         if (fabs(y[2] - (row + 0.5) / CELLS) < 1e-6)
             most = fmax(most, (y[3] / y[7] - pow(y[2], power)) / 1e-8);
     }
-    sph_free(&c.s);
+    DROP(c.s);
     return max_anywhere(most);
 }
 
@@ -221,7 +221,7 @@ TEST(a_stream_along_walls_stays)
                 worst = fmax(worst, fabs(y[3 + a] / y[7] - (a == 0)));
         }
         assert_close(max_anywhere(worst), 0.0, 1e-9);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -242,7 +242,7 @@ TEST(surface_is_found)
         }
         assert_true(none_anywhere(missed));
         assert_true(none_anywhere(falsely));
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -290,7 +290,7 @@ TEST(momentum_is_balanced)
         assert_close(left / scale, 0.0, 1e-10);
         sph_sums(s, sums);
         assert_close(sums[SUM_MASS] / s->start.mass, 1.0, 1e-12);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -314,7 +314,7 @@ TEST(walls_carry_the_weight)
     }
     const double weight = 9.81 * s->start.mass; /* in the middle of the floor */
     if (SANITIZED) {
-        sph_free(&c.s);
+        DROP(c.s);
         return;
     }
     assert_close(sum.F[0] / weight, 0.0, 0.01);
@@ -323,7 +323,7 @@ TEST(walls_carry_the_weight)
     assert_close(sum.M[0] / weight, -0.5, 0.01);
     assert_close(sum.M[1] / weight, 0.5, 0.01);
     assert_close(sum.M[2] / weight, 0.0, 0.01);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A side is cut into two triangles and yet its own mirror image: water at rest in a square tank has
@@ -340,7 +340,7 @@ TEST(a_square_tank_has_no_sense)
     assert_true(size > 0.0);
     assert_close(sums[SUM_MOMENTUM] / size, 0.0, 1e-9);
     assert_close(sums[SUM_MOMENTUM + 1] / size, 0.0, 1e-9);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(a_particle_behind_is_put_back)
@@ -368,7 +368,7 @@ TEST(a_particle_behind_is_put_back)
         outside += y[0] < 0.0 || y[1] < 0.0 || y[2] < 0.0;
     }
     assert_true(none_anywhere(outside));
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static double *rows_after(MPI_Comm comm, int steps, int *n)
@@ -383,7 +383,7 @@ static double *rows_after(MPI_Comm comm, int steps, int *n)
     assert_true(sph_case_run(&c, steps, 100.0));
     *n = 1000; /* ids are those of the cells, the air above included */
     all = sph_case_gather(c.s, *n);
-    sph_free(&c.s);
+    DROP(c.s);
     return all;
 }
 

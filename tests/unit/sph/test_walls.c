@@ -193,7 +193,7 @@ static double laplacian(int row, int power)
         if (fabs(y[1] - (row + 0.5) / 32.0) < 1e-6)
             most = fmax(most, 1e3 + (y[2] / y[5] - pow(y[1], power)) / 1e-8);
     }
-    sph_free(&c.s);
+    DROP(c.s);
     return max_anywhere(most) - 1e3;
 }
 
@@ -255,7 +255,7 @@ TEST(water_at_rest_stays)
         assert_close(before, 200.0, 0.0);
         assert_close(sums[SUM_MASS] / mass, 1.0, 1e-12);
         assert_true(largest_speed(s) < wanted[walls] * s->c0);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -281,7 +281,7 @@ static double shift_work(int scheme)
         sums[1] += q[at_volume(2)] * hypot(u0[0] - q[2], u0[1] - q[3]);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    sph_free(&c.s);
+    DROP(c.s);
     assert_true(sums[1] > 0.0);
     return fabs(sums[0]) / sums[1];
 }
@@ -312,7 +312,7 @@ static void float_in_still_water(int integrals)
     assert_close(f.F[0], 0.0, 1e-6);
     assert_close(f.F[1], 0.04 * 1000.0 * 9.81, 0.01 * 0.04 * 1000.0 * 9.81);
     assert_close(f.M[2], 0.0, 1e-6);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(body_in_still_water)
@@ -343,7 +343,7 @@ static double least_room(double degrees)
     for (int i = 0; i < s->p.n; i++)
         least = fmin(least, room[i]);
     mem_free(room);
-    sph_free(&c.s);
+    DROP(c.s);
     return -max_anywhere(-least);
 }
 
@@ -388,7 +388,7 @@ TEST(gauge_reads_mean)
     }
     probes_row(s, row);
     assert_close(row[1] / row[0], 7.0 / M_PI * 0.04 / 0.25, 0.01); /* w W(0), of a quarter */
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A closed ALE run: pair fluxes with mirrored ghosts are antisymmetric, NFM gives mass back. */
@@ -404,7 +404,7 @@ TEST(mass_is_kept)
         assert_true(sph_case_run(&c, 20, 10.0));
         sph_sums(c.s, sums);
         assert_close(sums[SUM_MASS] / c.s->start.mass, 1.0, 1e-12);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -426,7 +426,7 @@ TEST(surface_is_found)
             }
             assert_true(none_anywhere(missed));
             assert_true(none_anywhere(falsely));
-            sph_free(&c.s);
+            DROP(c.s);
         }
 }
 
@@ -454,7 +454,7 @@ static double energy_after(int walls, MPI_Comm comm)
     sph_case_start(&c, NULL);
     assert_true(sph_case_run(&c, 20, 10.0));
     sph_sums(c.s, sums);
-    sph_free(&c.s);
+    DROP(c.s);
     return sums[SUM_KINETIC];
 }
 
@@ -544,7 +544,7 @@ TEST(motion)
         assert_close(u[a], (after[a] - before[a]) / (2.0 * h), 1e-6);
         assert_close(du[a], (after[a] + before[a] - 2.0 * g->a[a]) / (h * h), 1e-3);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Nothing flows yet when the first lattice is rearranged, with a free surface or without. */
@@ -565,6 +565,6 @@ TEST(packing_moves_the_lattice)
             most =
                 fmax(most, fabs(remainder(s->p.y[(size_t)i * s->p.nstate] - 0.5 * s->dx, s->dx)));
         assert_true(max_anywhere(most) > 0.05 * s->dx);
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }

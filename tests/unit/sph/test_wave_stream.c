@@ -114,7 +114,7 @@ static void waves_obey_the_equations(int kind, int up, double sign)
     assert_close(p, s->rho0 * g * 0.05, 1e-9);
     s->zones->surface(s->zones->ctx, t, 1, x, &phi, g3);
     assert_close(phi, -0.05, 1e-9);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 TEST(under_any_gravity)
@@ -147,5 +147,5 @@ TEST(the_mean_discharge_is_the_current_s)
         }
     }
     assert_close(sum, current * depth, 2e-3);
-    sph_free(&c.s);
+    DROP(c.s);
 }

@@ -55,7 +55,7 @@ TEST(disc_on_the_floor_is_borne)
     assert_true(on[1] > 0.0 && on[1] < 9.81 * depth * width);
     assert_close(on[0] + back[0], 0.0, 1e-12);
     assert_close(on[1] + back[1], 0.0, 1e-12);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* No water is below a block on the floor; a disc above it has particles all round. Neither asks. */
@@ -63,9 +63,9 @@ TEST(others_have_none)
 {
     struct sph_case c;
     assert_int_equal(tank(&c, 0.0, true)->walls->nwedges, 0);
-    sph_free(&c.s);
+    DROP(c.s);
     assert_int_equal(tank(&c, 4.0 / CELLS, false)->walls->nwedges, 0);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Of a plane floor: half of the kernel on it, nothing from R on; in the corner with a side three
@@ -79,7 +79,7 @@ TEST(shares_of_planes)
     assert_close(wall_share(s, -1, (const double[3]){0.5, -e}), 0.5, 1e-6);
     assert_close(wall_share(s, -1, (const double[3]){0.5, R}), 0.0, 1e-12);
     assert_close(wall_share(s, -1, (const double[3]){e, e}), 0.75, 1e-6);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Forces of pairs on either side of a slit of height h, of p at their middle, are those of p at the
@@ -96,5 +96,5 @@ TEST(weight_in_a_slit)
         assert_close(out[0], 0.0, 1e-9);
         assert_true(fabs(out[1] - want) < 0.01 * 9.81 * s->R * 0.1);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }

@@ -87,7 +87,7 @@ static void check_moving(int dim, double u, double v, const double *box, double 
     assert_true(spacing(s) > least);
     assert_close(s->lo[0], 0.1 + box[0] * s->t, 1e-12);
     assert_close(s->hi[1], 0.9 + box[1] * s->t, 1e-12);
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static void check_flow(int dim, double u, double v, double least, int steps)
@@ -146,7 +146,7 @@ static double carried(double u, double v, bool boxed)
     const double error = velocity_error(s);
     if (boxed)
         assert_close(total_mass(s), s->start.mass, 0.01 * s->start.mass);
-    sph_free(&c.s);
+    DROP(c.s);
     return error;
 }
 
@@ -184,7 +184,7 @@ TEST(one_birth_a_face_and_spacing)
     assert_close(born, TRAVEL * 40.0, 0.0);
     assert_true(gone == TRAVEL * 40.0 ||
                 gone == (TRAVEL + 1) * 40.0); /* the last column stands on the face */
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* Columns created by a flow along x through a box that is periodic along y, and how far their rows
@@ -217,7 +217,7 @@ static double columns(int births, double way, double *off)
     assert_close(error_of_velocity(s, 1.0, 0.0), 0.0, 1e-12);
     /* on a side particles stand 0.01 dx inside, lest rounding loses them */
     assert_true(spacing(s) > (births == BIRTHS_FACES ? 1.0 : 0.99) - 1e-9);
-    sph_free(&c.s);
+    DROP(c.s);
     return born / 50.0;
 }
 
@@ -254,7 +254,7 @@ TEST(blending_follows_the_depth)
                                        : in < 1.0 ? ZONE_TRANSITION
                                                   : ZONE_FREE);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* coupling.blend = all, for comparison [6.7-6.8]: at any side both p and u are means of within, at
@@ -278,7 +278,7 @@ TEST(all_is_blended_on_request)
         assert_close(y[2] / y[5], alpha, 1e-12);
         assert_close(eos_p(y[5] / y[4], s->rho0, s->c0, s->gamma), 10.0 * (1.0 - alpha), 1e-8);
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A box that reaches the domain's sides: there it ends, below a surface or at a partner's wall, and
@@ -311,7 +311,7 @@ TEST(sides_of_the_domain_stay_closed)
     c.s = sph_create(&c.run, &c.prm, NULL);
     assert_non_null(c.s->zones);
     assert_null(c.s->walls); /* the wall below is the partner's */
-    sph_free(&c.s);
+    DROP(c.s);
     c.prm.box[0][1] = 0.0;
     sph_params_open(&c.run, &c.prm, open);
     assert_false(open[2]);
@@ -341,7 +341,7 @@ TEST(gauge_is_the_level_inside_and_weighs_the_missing_mass)
             s->p.y[6 * (size_t)i + k] *= 0.999;
     zones_gauge(s);
     assert_close(s->zones->gauge - level, 10.0 * 2.0 * 1e-3 * s->start.mass, 1e-9); /* over 1 m */
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A void that went out leaves a face with the mass of 20 particles booked that never came: 20
@@ -375,7 +375,7 @@ TEST(what_voids_left_is_drained)
         const double left = (mass - zones_mass(s)) / whole;
         assert_true(left > 5.0 && left < 35.0); /* the rest is on the way: half a row of 25 */
     }
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 static void as_sph(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
@@ -450,9 +450,9 @@ TEST(the_overlap_is_watched)
     z->watched->asks = true;
     d = judge(s);
     assert_true(d.bad && strstr(d.reason, "free surface lies in the transition"));
-    overlap_free(&z->watched);
+    DROP(z->watched);
     z->eval = NULL;
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* What faces wait for stays theirs where the outside has a surface, also before it is known: a
@@ -473,7 +473,7 @@ TEST(voids_wait_where_a_surface_crosses)
     openings_settle(s);
     assert_true(o->mass[0] > 0.5 * deficit && s->zones->drain > 0.0);
     s->surface = NULL;
-    sph_free(&c.s);
+    DROP(c.s);
 }
 
 /* A crest at x, a fifth of the box wide, of particles that have a volume. */
@@ -523,7 +523,7 @@ TEST(faces_end_at_a_bed)
             const double bed = low + x[0] * (high - low), above = (x[1] - bed) / o->dx + 0.5;
             assert_close(o->room[f], fmin(1.0, fmax(0.0, above)), 0.07);
         }
-        sph_free(&c.s);
+        DROP(c.s);
     }
 }
 
@@ -556,5 +556,5 @@ TEST(a_box_goes_with_a_crest)
     for (int k = 0; k < 300; k++)
         box_tracking_step(s, 0.01, along, way);
     assert_true(fabs(way[0] - there) < 0.5 * s->dx);
-    sph_free(&c.s);
+    DROP(c.s);
 }
