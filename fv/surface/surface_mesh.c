@@ -227,17 +227,17 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
     int most = 1;
     if (s->m->moves) /* sizes are those of the start, to the last bit, after a restart, too */
         mesh_motion_place(s->m, 0.0);
-    w->count = mesh_field(s->m);
-    w->height = mesh_field(s->m);
+    w->count = mem_own(w, mesh_field(s->m));
+    w->height = mem_own(w, mesh_field(s->m));
     for (int k = 0; k < s->m->nblocks; k++)
         f->any_inclined = f->any_inclined || is_slanting(s, s->m->block + k);
     w->out = NEW_IN(w, unsigned char, s->size);
     w->keep = NEW_IN(w, unsigned char, s->size);
     for (int a = 0; a < 3; a++) {
-        w->x[a] = mesh_field(s->m);
-        w->speed[a] = mesh_field(s->m);
+        w->x[a] = mem_own(w, mesh_field(s->m));
+        w->speed[a] = mem_own(w, mesh_field(s->m));
         for (int b = a; b < 3 && a < s->dim; b++)
-            w->K[a][b] = mesh_field(s->m);
+            w->K[a][b] = mem_own(w, mesh_field(s->m));
     }
     for (int q = 0; q < s->grid.nparts; q++) {
         const struct part *p = s->grid.part + q;
