@@ -156,7 +156,6 @@ static const struct param wall_rows[] = {
                NEED(FULL, "under a free surface the level says it (walls.level)"))),
     PARAM(P, carried,  "-",   "false", 0, 1, "at an outflow (fv): convective outflow, dw/dt + U dw/dn = 0, the pressure is not given",
           USED(ONLY(kind, ONE(WALL_OUTFLOW), "only an outflow can be"),
-               WHERE(no_flow, "no level and no discharge", "a level or a discharge is given"),
                NEED(FV, "sph has no convective outflow"))),
     PARAM(P, level,    "m",   "1e30", -1e9, 1e9, "at an opening under a free surface: height of its water, against gravity; an inflow has it in the opening, an outflow far outside; by default of an outflow alone, as at the start",
           USED_LEVEL),

@@ -37,6 +37,11 @@ void surface_check(const struct run *r, struct faults *f);
 void probes_check_surface(const struct run *r, struct faults *f);
 /* Why newton has no outflow outside of which nothing stands, or less than elsewhere. */
 const char *surface_newton_lacks(bool falls);
+/* fv_scene.c, mesh_scene.c, without a surface: the fault of inflows that take out %g m^%d/s. */
+#define SUCKS                                                                                      \
+    "the velocities of the inflows point out of the domain: %g m^%d/s more would leave through "   \
+    "them than come in, and the fluid come in through the outflow; turn their signs, or make the " \
+    "side where it comes in the \"inflow\" and the other one the \"outflow\""
 /* hanging_water.c: of water that would hang from the side of the domain above it. */
 void surface_check_hanging(const struct run *r, struct faults *f);
 

@@ -138,7 +138,11 @@ static void check_balance(const struct run *r, struct faults *f)
             exact = exact || !w;
             net += side_flux(r, &e, a, up, &all);
         }
-    if (!given || fabs(net) <= 1e-6 * all || surface_wanted(r)) /* a tank fills, or empties */
+    if (surface_wanted(r)) /* a tank fills, or empties */
+        return;
+    if (!given && in && !exact && !r->coupled && net > 1e-6 * all)
+        params_fault(r->params, f, "walls", SUCKS, net, s->domain.dim);
+    if (!given || fabs(net) <= 1e-6 * all)
         return;
     if (r->coupled && (exact || !in)) /* the partner's part may have the rest */
         return;

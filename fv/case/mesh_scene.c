@@ -152,6 +152,8 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
                      "two outflows at different heights: the flow would fall from one to the "
                      "other, and this solver balances gravity across sides by the pressure; make "
                      "that direction periodic, or give one of them as an \"inflow\"");
+    if (out && in && !exact && net > 1e-6 * all && !surface_wanted(r) && !r->coupled)
+        params_fault(r->params, f, "blocks", SUCKS, net, m->dim);
     if (!out && fabs(net) > (exact ? 0.01 : 1e-6) * all)
         params_fault(r->params, f, "blocks",
                      "an %s without an outflow: %g m^%d/s more flow %s, and no side is an "
