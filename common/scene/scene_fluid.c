@@ -27,7 +27,7 @@ int scene_still_axis(const struct scene *s)
     if (scene_still_gravity(s, g) == 0.0)
         return -1;
     for (int a = 1; a < s->domain.dim; a++)
-        axis = fabs(g[a]) > fabs(g[axis]) ? a : axis;
+        axis = fabs(g[a]) >= fabs(g[axis]) ? a : axis;
     return axis;
 }
 

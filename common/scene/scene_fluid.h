@@ -10,7 +10,8 @@
 /* The part of gravity that a hydrostatic pressure balances, m/s^2: without that along periodic
  * axes, which drives a flow instead. Returns its magnitude. */
 double scene_still_gravity(const struct scene *s, double still[3]);
-/* The axis along which that gravity has its largest component; -1: it is zero. */
+/* The axis along which that gravity has its largest component, the last of equal ones; -1: it is
+ * zero. */
 int scene_still_axis(const struct scene *s);
 /* Height of x against that gravity, m; where it is zero, y, in 3D z. */
 double scene_height(const struct scene *s, const double *x);

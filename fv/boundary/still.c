@@ -30,15 +30,10 @@ struct gravity still_split(const struct scene *scene)
     return split;
 }
 
-/* From the scene's gravity, whichever axes are periodic. */
 int still_upright(const struct scene *scene)
 {
-    double g[3];
-    int up = scene->domain.dim - 1;
-    scene_still_gravity(scene, g);
-    for (int a = 0; a < scene->domain.dim; a++)
-        up = fabs(g[a]) > fabs(g[up]) ? a : up;
-    return up;
+    const int up = scene_still_axis(scene);
+    return up < 0 ? scene->domain.dim - 1 : up;
 }
 
 /* 1e-3 of |g| across is a lean; rounding is not. */

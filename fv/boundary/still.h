@@ -17,7 +17,7 @@ double fv_still_in_exact(const struct fv *s, const double *x);
 /* still.c: splits gravity, m/s^2: along a periodic axis it drives the flow; across closed sides a
  * hydrostatic pressure balances it, which is 0 at the height of its level, m. */
 struct gravity still_split(const struct scene *scene);
-/* Axis along which the balanced gravity is strongest; without any the last. */
+/* scene_still_axis; without gravity that is balanced the last axis. */
 int still_upright(const struct scene *scene);
 /* Whether it is not along an axis. */
 bool still_is_inclined(const double still[3]);
