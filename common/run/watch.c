@@ -73,3 +73,14 @@ double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_les
         least = fmin(least, b->least[k]);
     return energy_less_work - least;
 }
+
+double watch_budget_lasting(const struct watch_budget *b, int steps)
+{
+    double least = INFINITY, late = INFINITY;
+    for (int k = 0; k < b->n; k++) {
+        least = fmin(least, b->least[k]);
+        if (b->slot[k] > b->slot[b->n - 1] - (steps * WATCH_SLOTS + WATCH_STEPS - 1) / WATCH_STEPS)
+            late = fmin(late, b->least[k]);
+    }
+    return b->n > 0 ? late - least : 0.0;
+}

@@ -44,5 +44,8 @@ struct watch_budget {
 /* Adds energy - work, J, at this step; steps must not decrease, one may come more than once.
  * Returns the rise over the minimum of the last WATCH_STEPS steps, J, at least 0. */
 double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_less_work);
+/* The same of a rise that has lasted: over that minimum of the least of the last `steps' steps, J,
+ * after watch_budget_gain of the last of them. */
+double watch_budget_lasting(const struct watch_budget *b, int steps);
 
 #endif

@@ -24,6 +24,22 @@ TEST(a_gain_is_that_of_the_last_hundred_steps)
     assert_close(gain, 0.0, 0.0);
 }
 
+/* A jet that comes and goes within 20 steps is no gain that lasts; one that stays is. */
+TEST(a_gain_counts_once_it_has_lasted)
+{
+    struct watch_budget b = {.n = 0};
+    for (int step = 0; step < 200; step++) {
+        watch_budget_gain(&b, step, step >= 100 && step < 120 ? 1.0 : 0.0);
+        assert_close(watch_budget_lasting(&b, 25), 0.0, 0.0);
+    }
+    double lasting = 0.0;
+    for (int step = 200; step < 230; step++) {
+        watch_budget_gain(&b, step, 1.0);
+        lasting = watch_budget_lasting(&b, 25);
+        assert_true(step < 220 ? lasting == 0.0 : step < 229 || lasting == 1.0); /* to a slot */
+    }
+}
+
 TEST(every_tenth_step_is_enough)
 {
     struct watch_budget b = {.n = 0};
