@@ -24,13 +24,16 @@ static double wall_pressure(const double p[3], bool slip)
     return slip ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
 }
 
-/* 12 h times the slope of u along `in', i.e. inwards, in the cell beside a wall; ghosts stand
- * behind sides, those behind boxes are made here. */
-static double slope_at(const double *u, const struct side_face *f)
+/* 12 h times the slope of component q along `in', i.e. inwards, in the cell beside a wall; ghosts
+ * stand behind sides, those behind boxes are made here. Across a slip face it is not 0 where the
+ * flow along it changes. */
+static double slope_at(const struct fv *s, int q, const struct side_face *f)
 {
-    const double first = f->body ? blocked_ghost(u, f->in, 1, GHOST_NO_SLIP) : u[-f->in];
-    const double second = f->body ? blocked_ghost(u, f->in, 2, GHOST_NO_SLIP) : u[-2 * f->in];
-    return 15.0 * (u[0] - first) - (u[f->in] - second);
+    const double *u = s->u[q] + f->cell;
+    double ghost[2] = {u[-f->in], u[-2 * f->in]};
+    for (int k = 0; k < 2 && f->body; k++)
+        ghost[k] = blocked_ghost(u, f->in, k + 1, blocked_rule(s, f->body - 1, q, f->a));
+    return 15.0 * (u[0] - ghost[0]) - (u[f->in] - ghost[1]);
 }
 
 /* The fluxes of the momentum equation, so that walls take what the flow loses. On a dry wall acts
@@ -57,9 +60,8 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
     x[f->a] += 0.5 * out * block_size(b, f->a, at[f->a]);
     sum[f->a] += out * f->flow_area *
                  (wall_pressure(p, slip) + fv_still_pressure(s, x) + s->partners.pressure);
-    for (int q = 0; q < b->dim && !(slip && f->body); q++)
-        sum[q] +=
-            f->flow_area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s->u[q] + c, f);
+    for (int q = 0; q < b->dim; q++)
+        sum[q] += f->flow_area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s, q, f);
 }
 
 /* The fluxes of energy, of pressure and of friction on the face: values there by the scheme's own
@@ -75,7 +77,7 @@ double even_face_power(const struct fv *s, const struct side_face *f)
     for (int q = 0; q < s->dim; q++) {
         const double *u = s->u[q] + c;
         const double w = (7.0 * (u[0] + u[-in]) - (u[in] + u[-2 * in])) / 12.0;
-        const double slope = slope_at(u, f) / (12.0 * grid_height(&s->grid, c, f->a));
+        const double slope = slope_at(s, q, f) / (12.0 * grid_height(&s->grid, c, f->a));
         square += w * w;
         friction -= s->nu * w * slope;
     }
