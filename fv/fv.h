@@ -141,6 +141,8 @@ struct stage_fields {
     double *N[3], *N_old[3]; /* m/s^2: convection now and before (rk3: of a stage; bdf2: a step) */
     double *u_old[3];        /* m/s: of the step before; bdf2, newton; else NULL */
     double *step_p[3];       /* m/s^2: gradient of the pressure at the step's start */
+    double implicit;         /* m^2: nu times the implicit part of the stage under way where that
+                              * makes the step's pressure, else 0 */
 };
 
 /* On blocks that move, what the fringe has beyond its interpolation; else NULL; time/moving.h. */

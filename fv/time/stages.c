@@ -101,11 +101,25 @@ void stage_predict_fluxes(struct fv *s, double t)
         forcing_fluxes(s, t, s->U);
 }
 
+/* Friction acts on u* = u + tau grad psi where it is implicit, so the pressure of the projected
+ * flow is p + psi - c Lap psi, c = s->stages.implicit (Brown, Cortez & Minion, J. Comput. Phys.
+ * 168, 2001); Lap psi is the divergence of u* over tau. p + psi alone leaves c grad Lap psi in a
+ * flow that is steady, where psi gives back what smooth_pressure takes. */
+static void subtract_friction(struct fv *s, double tau, const double *div)
+{
+    FLOW_ROWS (s, at, n)
+        for (int64_t i = at; i < at + n; i++)
+            if (forcing_is_free(s, i))
+                s->p[i] -= s->stages.implicit * (s->m ? div[i] / (tau * s->m->V[i]) : div[i]);
+}
+
 bool stage_solve_pressure(struct fv *s, int stage, double tau, double tol)
 {
     levels_fluxes(s, tau);
-    return poisson_solve(s, tau, s->ops->divergence(s, tau), tol, s->stages.start[stage],
-                         s->stages.psi[stage]);
+    double *div = s->ops->divergence(s, tau);
+    if (s->stages.implicit > 0.0)
+        subtract_friction(s, tau, div);
+    return poisson_solve(s, tau, div, tol, s->stages.start[stage], s->stages.psi[stage]);
 }
 
 /* m/s^2: of differences of pressure between sides. */
