@@ -5,6 +5,7 @@
 #define COMMON_FILES_DOOR_H
 
 #include "disk.h"
+#include "fit_file.h"
 #include "h5.h"
 #include "series.h"
 #include "table.h"

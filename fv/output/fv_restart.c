@@ -65,6 +65,33 @@ static int boxes_of(const struct fv *s, struct layout_box *of)
     return n;
 }
 
+/* What the summary of the whole run needs of its past: the surface's oscillation, and forces on
+ * blocks in each row of the series. */
+static void save_samples(const struct fv *s, struct h5 *f)
+{
+    const struct fv_output *o = s->output;
+    const bool first = s->run->rank == 0;
+    if (s->surface)
+        fit_save(&s->surface->oscillation, f, first);
+    if (o && o->nhistory > 0)
+        h5_write_real(f, "forces", "s, N, N", first ? o->nhistory : 0, 3, o->history[0], false);
+}
+
+static void load_samples(struct fv *s, struct h5 *f)
+{
+    struct fv_output *o = s->output;
+    int64_t n;
+    double *rows = o ? h5_read_all_real(f, "forces", 3, &n) : NULL;
+    if (s->surface)
+        fit_load(s->surface, &s->surface->oscillation, f);
+    if (!rows)
+        return;
+    GROW(o->history, o->nhistory, (int)n);
+    o->nhistory = (int)n;
+    memcpy(o->history, rows, (size_t)n * sizeof *o->history);
+    mem_free(rows);
+}
+
 /* Collective; nothing in the state changes. */
 void fv_checkpoint(void *state, struct h5 *f)
 {
@@ -79,6 +106,7 @@ void fv_checkpoint(void *state, struct h5 *f)
     save_numbers(s, f);
     watches_save(s->watches, f);
     moving_save(s, f);
+    save_samples(s, f);
     if (s->wave_zones)
         wave_zones_save(s->wave_zones, f, s->run->rank == 0);
     if (s->link)
@@ -146,6 +174,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
     }
     outflow_restore(s);
     watches_load(s->watches, f);
+    load_samples(s, f);
     if (s->wave_zones)
         wave_zones_load(s->wave_zones, f);
     return there(!s->link || coupling_load(s, f), "past of the coupling");

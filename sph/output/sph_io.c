@@ -257,30 +257,6 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 12 };
 /* The member itself. */
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
 
-/* Samples of an oscillation, so that a restarted run fits all of them. */
-static void save_signal(const struct sph *s, struct h5 *f)
-{
-    const struct fit *g = &s->total.signal_fit;
-    const int n = s->run->rank == 0 ? g->n : 0;
-    double *rows = NEW(double, 2 * (size_t)g->n);
-    for (int k = 0; k < g->n; k++) {
-        rows[2 * k] = g->t[k];
-        rows[2 * k + 1] = g->v[k];
-    }
-    h5_write_real(f, "signal", "s, -", n, 2, rows, false);
-    mem_free(rows);
-}
-
-/* Adds the saved samples to the fit. */
-static void read_signal(struct sph *s, struct h5 *f)
-{
-    int64_t n;
-    double *rows = h5_read_all_real(f, "signal", 2, &n);
-    for (int64_t k = 0; rows && k < n; k++)
-        fit_add(s, &s->total.signal_fit, rows[2 * k], rows[2 * k + 1]);
-    mem_free(rows);
-}
-
 /* A dataset of one level: the first has plain names. Valid until the next call. */
 static const char *name(const struct sph *s, const char *plain)
 {
@@ -367,8 +343,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     h5_write_real(f, "put_back", "-", 1, 1, &back, false);
     if (s->refinement)
         save_levels(s, f);
-    if (s->total.signal_fit.n > 0)
-        save_signal(s, f);
+    fit_save(&s->total.signal_fit, f, s->run->rank == 0);
     for (int k = 0; k < NUMBERS; k++)
         h5_attribute_real(f, numbers[k].name, *number(s, k));
     write_region(s, f);
@@ -544,6 +519,6 @@ bool sph_restore(struct sph *s, struct h5 *f)
             walls_expect_speed(q);
         q->lists.ready = false;
     }
-    read_signal(s, f);
+    fit_load(s, &s->total.signal_fit, f);
     return !lacks;
 }

@@ -1,0 +1,15 @@
+/* fit_file.h - samples of an oscillation in restart files, so that a run that goes on fits all of
+ * them. SPDX-License-Identifier: BSD-3-Clause */
+#ifndef COMMON_FIT_FILE_H
+#define COMMON_FIT_FILE_H
+
+#include "../base/base.h"
+#include "h5.h"
+
+/* Writes the samples, which are the same on all ranks, as the dataset "signal"; none: nothing.
+ * first: whether this is rank 0. Collective. */
+void fit_save(const struct fit *samples, struct h5 *f, bool first);
+/* Adds those of the file, if it has any, on all ranks; they belong to `owner'. Collective. */
+void fit_load(void *owner, struct fit *samples, struct h5 *f);
+
+#endif
