@@ -176,8 +176,7 @@ static void progress(void *state, char *line, int size)
     const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
     snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s",
              s->step.dt, limit_name(s->step.limit), s->max.rate * s->step.dt,
-             (double)s->totals.iterations / steps,
-             fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+             (double)s->totals.iterations / steps, fv_fastest(s));
 }
 
 /* Steps of a free surface are long, some tens a period of the water's. A row costs 2 % (a dam

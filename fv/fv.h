@@ -4,6 +4,7 @@
 #ifndef FV_FV_H
 #define FV_FV_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -248,6 +249,11 @@ struct fv {
                          its_once_##c = 1;                                                         \
                  its_once_##c; its_once_##c = 0)
 
+/* m/s: the largest |u| on blocks, component of u on uniform cells, of all ranks. */
+static inline double fv_fastest(const struct fv *s)
+{
+    return fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+}
 /* The box of fv.hole, lower and upper corner; NULL: none. */
 static inline const double (*fv_hole(const struct fv_params *p))[2][3]
 {

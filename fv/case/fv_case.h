@@ -37,7 +37,12 @@ void surface_check(const struct run *r, struct faults *f);
 void probes_check_surface(const struct run *r, struct faults *f);
 /* Why newton has no outflow outside of which nothing stands, or less than elsewhere. */
 const char *surface_newton_lacks(bool falls);
-/* fv_scene.c, mesh_scene.c, without a surface: the fault of inflows that take out %g m^%d/s. */
+/* fv_scene.c, mesh_scene.c, without a surface: the faults of outflows at different heights, and of
+ * inflows that take out %g m^%d/s. */
+#define FALLS                                                                                      \
+    "two outflows at different heights: the flow would fall from one to the other, and this "      \
+    "solver balances gravity across sides by the pressure; make that direction periodic, or give " \
+    "one of them as an \"inflow\""
 #define SUCKS                                                                                      \
     "the velocities of the inflows point out of the domain: %g m^%d/s more would leave through "   \
     "them than come in, and the fluid come in through the outflow; turn their signs, or make the " \
@@ -84,8 +89,6 @@ void fv_make_fields(struct fv *s);
 /* mesh_state.c, the same for blocks: makes the mesh, its fields and all that stands on them, the
  * flow of the scene in them. Collective. */
 void mesh_state_create(struct fv *s);
-/* Projects the velocities of the start, without a surface, which does so in its first stage. */
-void mesh_state_start(struct fv *s);
 /* shape_velocity.c: adds to u what the scene's shapes do, the mean over a cell of edges h (m)
  * around x, or over a face, whose h is 0 across it; h NULL: at x. Nothing where fv has a surface.
  */

@@ -182,10 +182,7 @@ static void check_falling(const struct run *r, struct faults *f)
         most = fmax(most, height);
     }
     if (most - least > 1e-9 * size)
-        params_fault(r->params, f, "fluid.gravity",
-                     "two outflows at different heights: the flow would fall from one to the "
-                     "other, and this solver balances gravity across sides by the pressure; make "
-                     "that direction periodic, or give one of them as an \"inflow\"");
+        params_fault(r->params, f, "fluid.gravity", FALLS);
 }
 
 /* --- free surface --- */

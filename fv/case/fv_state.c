@@ -122,7 +122,7 @@ static void empty_boxes(struct fv *s)
 
 static void set_limit(struct fv *s)
 {
-    const double most = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+    const double most = fv_fastest(s);
     s->speed.scene = limits_reference(s->run);
     s->speed.decay = limits_decay(&s->run->scene);
     s->speed.reference = fmax(most, fmax(s->speed.scene, s->speed.partner));
@@ -136,7 +136,7 @@ void fv_start(struct fv *s)
     sides_fluxes(s, BC_GIVEN, s->U);
     measure(s);
     set_limit(s);
-    if (fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])) > 0.0)
+    if (fv_fastest(s) > 0.0)
         pressure_start(s);
 }
 
@@ -160,27 +160,32 @@ static void meet_pressures(struct fv *s)
     pressure_start(s);
 }
 
-/* An inflow that starts at once, and boxes in the flow of the start, push the whole fluid at once:
- * the start is the flow with these fluxes that has no divergence, as on blocks, so that the first
- * step is made for its speeds. A partner gives its cells later. */
+/* Blocks start from fluxes without divergence. So do uniform cells with an inflow that starts at
+ * once, or boxes in the flow of the start, which push the whole fluid at once: the first step is
+ * made for the speeds of that flow. A partner gives its cells later, and a surface's first stage
+ * makes its own. */
 static void project_start(struct fv *s)
 {
-    if ((!sides_give_inflow(s) && !s->blocked) || s->surface || s->run->coupled)
+    const int stage = s->m ? 2 : 0;
+    const bool pushes = (sides_give_inflow(s) || s->blocked) && !s->run->coupled;
+    if (s->surface || !(s->m || pushes))
         return;
-    projection(s, s->t, 0, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
+    projection(s, s->t, stage, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
     s->totals.start_iterations = s->totals.iterations;
     s->totals.iterations = 0;
-    memset(s->stages.psi[0], 0, (size_t)s->size * sizeof(double));
+    memset(s->stages.psi[stage], 0, (size_t)s->size * sizeof(double));
+    if (s->m)
+        memset(s->stages.start[stage], 0, (size_t)s->size * sizeof(double));
     measure(s);
-    set_limit(s);
+    if (!s->m)
+        set_limit(s);
 }
 
 /* Water at rest is not in balance where its surface is not level: p of the start is that which sets
  * it in motion. A partner and walls that move give velocities later. */
 static void meet_surface(struct fv *s)
 {
-    if (!s->surface || s->run->coupled || s->moving ||
-        fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])) > 0.0)
+    if (!s->surface || s->run->coupled || s->moving || fv_fastest(s) > 0.0)
         return;
     levels_keep(s);
     pressure_start(s);
@@ -260,12 +265,10 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         fv_free(&s);
         return NULL;
     }
-    if (!f && blocks)
-        mesh_state_start(s);
-    else if (!f)
+    if (!f) {
         project_start(s);
-    if (!f)
         meet_pressures(s);
+    }
     measure(s);
     if (!f) {
         if (s->moving)
@@ -278,8 +281,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         meet_surface(s);
     }
     s->watches->sum_before = s->max.u[0] + s->max.u[1] + s->max.u[2];
-    s->speed.reference =
-        fmax(s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+    s->speed.reference = fmax(s->speed.reference, fv_fastest(s));
     return s;
 }
 

@@ -148,10 +148,7 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
     for (int a = 0; a < m->dim; a++)
         size += fabs(r->scene.fluid.gravity[a]) * (r->scene.domain.max[a] - r->scene.domain.min[a]);
     if (most - least > 1e-9 * size && !surface_wanted(r)) /* outside stands water, too */
-        params_fault(r->params, f, "fluid.gravity",
-                     "two outflows at different heights: the flow would fall from one to the "
-                     "other, and this solver balances gravity across sides by the pressure; make "
-                     "that direction periodic, or give one of them as an \"inflow\"");
+        params_fault(r->params, f, "fluid.gravity", FALLS);
     if (out && in && !exact && net > 1e-6 * all && !surface_wanted(r) && !r->coupled)
         params_fault(r->params, f, "blocks", SUCKS, net, m->dim);
     if (!out && fabs(net) > (exact ? 0.01 : 1e-6) * all)

@@ -57,19 +57,6 @@ static void fill(struct fv *s)
     }
 }
 
-/* Divergence-free fluxes for the velocities of the start. */
-void mesh_state_start(struct fv *s)
-{
-    if (s->surface) /* the first stage makes them */
-        return;
-    projection(s, s->t, 2, 1.0, 1e-3 * fmin(1.0, s->prm.tol_pressure));
-    s->totals.start_iterations = s->totals.iterations;
-    s->totals.iterations = 0;
-    memset(s->stages.start[2], 0, (size_t)s->size * sizeof(double));
-    memset(s->stages.psi[2], 0, (size_t)s->size * sizeof(double));
-    measure(s);
-}
-
 void mesh_state_create(struct fv *s)
 {
     struct faults faults = {0};
@@ -122,7 +109,7 @@ void mesh_state_create(struct fv *s)
     for (int k = 0; k < s->m->nblocks && s->moving; k++)
         if (s->m->block[k].motion)
             s->speed.scene = fmax(s->speed.scene, s->m->block[k].motion->speed);
-    s->speed.reference = fmax(s->max.u[0], fmax(s->speed.scene, s->speed.partner));
+    s->speed.reference = fmax(fv_fastest(s), fmax(s->speed.scene, s->speed.partner));
     s->speed.limit = 10.0 * s->speed.reference;
     if (s->prm.integrator == INTEGRATOR_NEWTON)
         s->newton = mem_own(s, newton_create(s));

@@ -36,8 +36,9 @@ static double wall_value(const double *q, int64_t in, enum blocked_ghost rule)
     return rule == GHOST_EVEN ? (7.0 * q[0] - q[in]) / 6.0 : 0.0;
 }
 
-void blocked_faces(const struct fv *s, int q, int a, const double *u, const double *U, double C,
-                   double *face)
+/* layer: between dry cells alone; NULL: everywhere. */
+static void set_faces(const struct fv *s, int q, int a, const double *u, const double *U, double C,
+                      const unsigned char *layer, double *face)
 {
     const struct blocked *w = s->blocked;
     const int64_t d = s->b.stride[a];
@@ -49,7 +50,7 @@ void blocked_faces(const struct fv *s, int q, int a, const double *u, const doub
         rules(s, x, q, a, rule);
         if (x->free[0] == 0)
             face[c] = wall_value(u + c, d, rule[0]);
-        else if (x->free[0] < 2 || x->free[1] < 1) {
+        else if ((x->free[0] < 2 || x->free[1] < 1) && (!layer || (layer[c] && layer[c - d]))) {
             blocked_line(x, u, d, 2, rule, v + 2);
             face[c] = face_value(v + 2, C > 0.0 ? U[c] : 0.0, C);
         }
@@ -58,29 +59,17 @@ void blocked_faces(const struct fv *s, int q, int a, const double *u, const doub
     }
 }
 
+void blocked_faces(const struct fv *s, int q, int a, const double *u, const double *U, double C,
+                   double *face)
+{
+    set_faces(s, q, a, u, U, C, NULL, face);
+}
+
 void blocked_face_velocities(const struct fv *s, double *const u[3], double *const U[3],
                              bool only_dry)
 {
-    const struct blocked *w = s->blocked;
-    const unsigned char *layer = only_dry ? s->surface->layer : NULL;
-    for (int a = 0; a < s->b.dim; a++) {
-        const int64_t d = s->b.stride[a];
-        for (int64_t k = 0; k < w->nnear[a]; k++) {
-            const struct near_box *x = w->near[a] + k;
-            const int64_t c = x->cell;
-            enum blocked_ghost rule[2];
-            double v[5];
-            rules(s, x, a, a, rule);
-            if (x->free[0] == 0)
-                U[a][c] = 0.0;
-            else if ((x->free[0] < 2 || x->free[1] < 1) && (!layer || (layer[c] && layer[c - d]))) {
-                blocked_line(x, u[a], d, 2, rule, v + 2);
-                U[a][c] = face_value(v + 2, 0.0, 0.0);
-            }
-            if (x->free[1] == 0)
-                U[a][c + d] = 0.0;
-        }
-    }
+    for (int a = 0; a < s->b.dim; a++)
+        set_faces(s, a, a, u[a], NULL, 0.0, only_dry ? s->surface->layer : NULL, U[a]);
 }
 
 /* What the product along t is beside a box, less what it was with the numbers within the box. The

@@ -98,7 +98,7 @@ void fv_row(void *state, double *values)
     int n = 3;
     fv_energies(s, sum);
     values[0] = s->run->scene.fluid.rho * sum[0];
-    values[1] = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+    values[1] = fv_fastest(s);
     s->totals.fastest = fmax(s->totals.fastest, values[1]);
     values[2] = flow_largest_divergence(s);
     if (s->prm.errors) {

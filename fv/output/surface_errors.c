@@ -176,7 +176,7 @@ void surface_summarise(struct fv *s)
     struct summary *to = s->run->summary;
     const double volume = surface_volume(s);
     summarise_oscillation(s);
-    summary_real(to, "largest_velocity", fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+    summary_real(to, "largest_velocity", fv_fastest(s));
     summary_real(to, "drift.volume", volume / f->volume0 - 1.0);
     summary_real(to, "volume_returned", f->returned / surface_volume_scale(s));
     summary_real(to, "volume_lost", f->lost / surface_volume_scale(s));

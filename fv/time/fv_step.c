@@ -89,7 +89,7 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
 
 static void diagnose(const struct fv *s, double dt, double before, bool good, struct diagnosis *d)
 {
-    const double most = fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2]));
+    const double most = fv_fastest(s);
     if (!isfinite(most) || !(most <= s->speed.limit)) {
         find_worst(s, before, d);
     } else if (*grid_trouble(&s->grid)) {
@@ -191,8 +191,7 @@ void push_start(struct fv *s)
     if (s->stages.start[0])
         memset(s->stages.start[0], 0, bytes);
     measure(s);
-    s->speed.reference =
-        fmax(s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+    s->speed.reference = fmax(s->speed.reference, fv_fastest(s));
     s->speed.limit = 10.0 * s->speed.reference;
 }
 
@@ -208,7 +207,7 @@ static bool crawls(const struct fv *s, double n, const struct step_limit *most, 
     snprintf(d->reason, sizeof d->reason,
              "the step has shrunk to %.3g s, %.3g of them to a coupling step", most->dt, n);
     snprintf(d->where, sizeof d->where, "limited by %s; largest velocity %.3g m/s",
-             limit_name(most->by), fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+             limit_name(most->by), fv_fastest(s));
     snprintf(d->likely, sizeof d->likely,
              "velocities given on sides or by the partner that the flow does not have");
     return true;
@@ -256,8 +255,7 @@ double integrate(struct fv *s, double t_stop, struct diagnosis *d)
         return dt;
     s->totals.max_cfl =
         fmax(s->totals.max_cfl, s->max.rate * (s->prm.steady ? s->newton->dtau : dt));
-    s->speed.limit =
-        limits_follow(&s->speed.reference, fmax(s->max.u[0], fmax(s->max.u[1], s->max.u[2])));
+    s->speed.limit = limits_follow(&s->speed.reference, fv_fastest(s));
     s->totals.defect = fmax(s->totals.defect, s->step.defect);
     if (!failed)
         fv_watches_look(s, d);
