@@ -93,6 +93,8 @@ void mesh_state_create(struct fv *s);
  * around x, or over a face, whose h is 0 across it; h NULL: at x. Nothing where fv has a surface.
  */
 void fv_shape_velocity(const struct fv *s, const double *x, const double *h, double *u);
+/* Projects the velocities of the start, where they need it. Collective. */
+void fv_project_start(struct fv *s);
 /* After u and U have been set: ghosts, limits, the pressure that goes with them. */
 void fv_start(struct fv *s);
 

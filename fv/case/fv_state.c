@@ -164,7 +164,7 @@ static void meet_pressures(struct fv *s)
  * once, or boxes in the flow of the start, which push the whole fluid at once: the first step is
  * made for the speeds of that flow. A partner gives its cells later, and a surface's first stage
  * makes its own. */
-static void project_start(struct fv *s)
+void fv_project_start(struct fv *s)
 {
     const int stage = s->m ? 2 : 0;
     const bool pushes = (sides_give_inflow(s) || s->blocked) && !s->run->coupled;
@@ -266,7 +266,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         return NULL;
     }
     if (!f) {
-        project_start(s);
+        fv_project_start(s);
         meet_pressures(s);
     }
     measure(s);

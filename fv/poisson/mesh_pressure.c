@@ -341,7 +341,7 @@ static double in_pinned_row(const struct mesh_pressure *p, const double *b)
 }
 
 /* c V is no larger than the right side it is taken out of, so z_w needs a tenth of the finest
- * tolerance of the run: the start's, see project_start; of blocks that move, which find it each
+ * tolerance of the run: the start's, see fv_project_start; of blocks that move, which find it each
  * step, that of a step. */
 static void solve_volumes(struct fv *s, struct mesh_pressure *p)
 {

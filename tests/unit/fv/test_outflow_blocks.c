@@ -62,7 +62,7 @@ static void add_vortex(struct fv *s, double x0, double y0)
             s->u[1][c] += e * x;
         }
     }
-    mesh_state_start(s);
+    fv_project_start(s);
 }
 
 /* What is left of the vortex's velocity, relative to its largest, when it should have gone. */
