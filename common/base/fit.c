@@ -13,12 +13,8 @@ void fit_add(void *owner, struct fit *f, double t, double v)
 {
     if (f->n > 0 && t <= f->t[f->n - 1])
         return; /* the same time twice: the last row before an output */
-    if (f->n == f->capacity) {
-        const int more = 2 * f->capacity + 256;
-        GROW_IN(owner, f->t, f->capacity, more);
-        GROW_IN(owner, f->v, f->capacity, more);
-        f->capacity = more;
-    }
+    ROOM_IN(owner, f->t, f->n + 1);
+    ROOM_IN(owner, f->v, f->n + 1);
     f->t[f->n] = t;
     f->v[f->n++] = v;
 }

@@ -7,8 +7,7 @@
 /* The samples collected so far. Start from zeroed memory; the arrays belong to the owner that
  * fit_add is called with. */
 struct fit {
-    /* samples held; elements allocated */
-    int n, capacity;
+    int n; /* samples held */
     /* [n] times in s, strictly increasing, and values in any unit; owned */
     double *t, *v; /* s, any unit: samples, times rising */
 };

@@ -108,6 +108,12 @@ void *mem_grow_in(void *owner, void *p, size_t n_old, size_t n, size_t size)
     return p ? mem_grow(p, n_old, n, size) : mem_new_in(owner, n, size);
 }
 
+void *mem_room(void *owner, void *p, size_t n, size_t size)
+{
+    const size_t room = p ? (head_of(p)->bytes - LINE) / size : 0;
+    return n > room ? mem_grow_in(owner, p, room, 2 * n + 64, size) : p;
+}
+
 void mem_free(void *p)
 {
     if (!p)

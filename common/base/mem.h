@@ -21,10 +21,14 @@ void mem_at_free(void *p, void (*close)(void *p));
 /* Moves p to a new block of n elements, keeping min(n_old, n) of them; the rest is zero. The old
  * block is freed, so the caller replaces p by the returned pointer. The new block has the owner,
  * the close function and all that the old one owned. p may be NULL with n_old 0. There is no spare
- * room: callers that append one by one double n themselves. */
+ * room, see mem_room. */
 void *mem_grow(void *p, size_t n_old, size_t n, size_t size);
 /* The same; a new block belongs to `owner', if p is NULL. */
 void *mem_grow_in(void *owner, void *p, size_t n_old, size_t n, size_t size);
+/* Room for n elements in p, a block or NULL: if it has less it grows to more than 2 n, so that
+ * elements can be added one by one; contents are kept, the rest is zero. A new block belongs to
+ * `owner'. */
+void *mem_room(void *owner, void *p, size_t n, size_t size);
 /* Frees a block and all that it owns, the youngest first; NULL does nothing. */
 void mem_free(void *p);
 /* Frees the n blocks p[n], in their order; FREE below is the way to call it. */
@@ -37,6 +41,8 @@ void mem_free_all(size_t n, void *const *p);
 #define NEW_IN(owner, type, n) ((type *)mem_new_in((owner), (size_t)(n), sizeof(type)))
 #define GROW_IN(owner, p, n_old, n)                                                                \
     ((p) = mem_grow_in((owner), (p), (size_t)(n_old), (size_t)(n), sizeof *(p)))
+/* ROOM_IN(owner, p, n): mem_room, which replaces p. */
+#define ROOM_IN(owner, p, n) ((p) = mem_room((owner), (p), (size_t)(n), sizeof *(p)))
 /* DROP(p): mem_free of p, which is NULL then. */
 #define DROP(p) (mem_free(p), (void)((p) = NULL))
 /* FREE(p, q, ...): mem_free of each; the pointers keep their values. */

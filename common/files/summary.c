@@ -21,7 +21,7 @@ struct entry {
 };
 
 struct summary {
-    int n, capacity;
+    int n;
     struct entry *of;
 };
 
@@ -48,10 +48,7 @@ static struct entry *entry(struct summary *s, const char *key)
             s->of[k].text = NULL;
             return s->of + k;
         }
-    if (s->n == s->capacity) {
-        GROW_IN(s, s->of, s->capacity, 2 * s->capacity + 32);
-        s->capacity = 2 * s->capacity + 32;
-    }
+    ROOM_IN(s, s->of, s->n + 1);
     struct entry *e = s->of + s->n++;
     *e = (struct entry){0};
     snprintf(e->key, sizeof e->key, "%s", key);

@@ -78,7 +78,7 @@ struct table *table_read(const char *path)
     fclose(f);
     free(line); /* getline's own */
     if (t->nrows == 0)
-        FREE(t);
+        DROP(t);
     return t;
 }
 

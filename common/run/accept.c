@@ -393,8 +393,7 @@ static double compare(const struct scene_accept *a, const char *case_dir, const 
         d = accept_distance(a->measure, of_run, of_ref, a->from, a->until);
         FREE(room[0], room[1]);
     }
-    FREE(ref);
-    FREE(run);
+    FREE(ref, run);
     return d;
 }
 

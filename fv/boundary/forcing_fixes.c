@@ -114,7 +114,6 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
 {
     const struct block *b = &s->b;
     const int64_t d = b->stride[a];
-    int64_t room = 0;
     BLOCK_ROWS_AT (b, 0, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
             struct fix x = {.cell = c};
@@ -130,10 +129,7 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
             }
             if (!any)
                 continue;
-            if (f->nfix[a] == room) {
-                room = 2 * room + 64;
-                GROW_IN(f, f->fix[a], f->nfix[a], room);
-            }
+            ROOM_IN(f, f->fix[a], f->nfix[a] + 1);
             f->fix[a][f->nfix[a]++] = x;
         }
 }

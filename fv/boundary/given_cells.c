@@ -149,10 +149,9 @@ static bool is_beside_given(const struct mesh *m, const struct part *p, int64_t 
     return false;
 }
 
-/* Enters the weights of one cell; room: of weights. Six weights a value: three components evenly,
+/* Enters the weights of one cell. Six weights a value: three components evenly,
  * three by a cubic. */
-static void add_cell(const struct mesh *m, const struct part *p, int64_t c, struct one_sided *g,
-                     int64_t *room)
+static void add_cell(const struct mesh *m, const struct part *p, int64_t c, struct one_sided *g)
 {
     double all[2][3][WINDOW_CELLS];
     for (int how = 0; how < 2; how++)
@@ -172,11 +171,8 @@ static void add_cell(const struct mesh *m, const struct part *p, int64_t c, stru
             any = any || all[q / m->dim][q % m->dim][k] != 0.0;
         if (!any)
             continue;
-        if (n == *room) {
-            *room = 2 * *room + 1024;
-            GROW_IN(g, g->place, n, *room);
-            GROW_IN(g, g->w, 6 * n, 6 * *room);
-        }
+        ROOM_IN(g, g->place, n + 1);
+        ROOM_IN(g, g->w, 6 * (n + 1));
         g->place[n] = c + step_to(p, at);
         for (int q = 0; q < 6; q++)
             g->w[6 * n + q] = q % 3 < m->dim ? all[q / 3][q % 3][k] : 0.0;
@@ -190,14 +186,14 @@ static void add_cell(const struct mesh *m, const struct part *p, int64_t c, stru
 void given_rows_create(const struct fv *s, struct forcing *f)
 {
     struct one_sided *g = f->gradient = NEW_IN(f, struct one_sided, 1);
-    int64_t room = 0, n = 0;
+    int64_t n = 0;
     for (int pass = 0; pass < 2; pass++) {
         FLOW_ROWS_AT (s, part, j, at, len)
             for (int64_t c = at; c < at + len; c++) {
                 if (s->m->status[c] != CELL_COMPUTED || !is_beside_given(s->m, part, c))
                     continue;
                 if (pass == 1)
-                    add_cell(s->m, part, c, g, &room);
+                    add_cell(s->m, part, c, g);
                 n += pass == 0;
             }
         if (pass == 0) {

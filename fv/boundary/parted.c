@@ -127,7 +127,7 @@ struct parted *parted_create(const struct fv *s, const unsigned char *forced)
     }
     mem_free(part);
     if (!any_floats(p))
-        FREE(p);
+        DROP(p);
     return p;
 }
 

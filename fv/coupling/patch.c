@@ -255,8 +255,7 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
             request[n++].in = i;
     }
     mesh_exchange_create(s->link, s->m, &p->sample, 4, n, request);
-    FREE(walls);
-    FREE(request, weight);
+    FREE(walls, request, weight);
     return good;
 }
 

@@ -178,7 +178,7 @@ struct overset *overset_create(const struct run *r, struct faults *f, struct mes
     mesh_given_trim(m);
     overset_count(m);
     if (overlap && !find_donors(r, f, m, o))
-        FREE(o);
+        DROP(o);
     return o;
 }
 

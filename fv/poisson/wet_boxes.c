@@ -59,12 +59,8 @@ static void add_box(void *owner, const struct block *b, const int lo[3], const i
                     struct wet_boxes *w)
 {
     int64_t cells = 1;
-    if (w->n == w->room) {
-        const int more = 2 * w->room + 8;
-        GROW_IN(owner, w->lo, w->n, more);
-        GROW_IN(owner, w->hi, w->n, more);
-        w->room = more;
-    }
+    ROOM_IN(owner, w->lo, w->n + 1);
+    ROOM_IN(owner, w->hi, w->n + 1);
     for (int a = 0; a < 3; a++) {
         const int from = b->lo[a] / TILE;
         w->lo[w->n][a] = (from + lo[a]) * TILE > b->lo[a] ? (from + lo[a]) * TILE : b->lo[a];

@@ -8,7 +8,7 @@
 
 /* The boxes; owned. */
 struct wet_boxes {
-    int n, room;
+    int n;
     int (*lo)[3], (*hi)[3]; /* first and last cells, of the whole grid */
     int64_t cells;
 };

@@ -231,11 +231,7 @@ static bool may_slow(const struct fv *s, double h)
 
 static void list_carry(struct surface *f, int layer, const struct carry *x)
 {
-    if (f->ncarry[layer] == f->carry_room[layer]) {
-        const int64_t more = 2 * f->carry_room[layer] + 256;
-        GROW_IN(f, f->carry[layer], f->ncarry[layer], more);
-        f->carry_room[layer] = more;
-    }
+    ROOM_IN(f, f->carry[layer], f->ncarry[layer] + 1);
     f->carry[layer][f->ncarry[layer]++] = *x;
 }
 

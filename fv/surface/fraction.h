@@ -45,7 +45,7 @@ struct fraction {
     /* m^dim/s: water through the lower faces in the last advance, for gauges; NULL without any. */
     double *passed[3];
     bool has_passed;
-    int64_t nair, air_room;
+    int64_t nair;
     struct air_cell *air;
     unsigned char *smooth; /* 1: phi resolves the surface here */
     bool boxes;            /* boxes are cut out of this rank's cells */

@@ -71,11 +71,7 @@ static void list_air(struct fv *s)
         for (int64_t i = c; i < c + n; i++) {
             if (!is_air(s, i))
                 continue;
-            if (f->nair == f->air_room) {
-                const int64_t more = 2 * f->air_room + 256;
-                GROW_IN(f, f->air, f->nair, more);
-                f->air_room = more;
-            }
+            ROOM_IN(f, f->air, f->nair + 1);
             f->air[f->nair++] = look(s, p, i);
         }
 }

@@ -70,9 +70,9 @@ struct surface {
     double *stress;       /* 1/s: n.(D n) of dry cells beside the water */
     unsigned char *layer; /* 0: wet; 1 .. LAYERS; DEEP */
     double *open[3];      /* 1: both cells of the face are wet and free */
-    int64_t ncut[3], room[3];
+    int64_t ncut[3];
     struct cut *cut[3];
-    int64_t ncarry[LAYERS + 1], carry_room[LAYERS + 1];
+    int64_t ncarry[LAYERS + 1];
     struct carry *carry[LAYERS + 1];
     int64_t nstencil, stencil_room, ngrad, grad_room;
     int64_t nkept; /* of the stencils, the first ones: those of patterns, which stay */

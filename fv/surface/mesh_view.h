@@ -41,9 +41,9 @@ struct surface_mesh {
     double *slopes[3][2];            /* scratch: of a row, from below and from above */
     double *speed[3];                /* m/s: rate along each index, times the size */
     double *count;                   /* m^dim: volume that counts */
-    int64_t nshared, shared_room;    /* cells of which some counts, 2D */
+    int64_t nshared;                 /* cells of which some counts, 2D */
     struct shared_cell *shared;
-    int64_t npieces, piece_room;
+    int64_t npieces;
     struct polygon *piece;
     double *height;     /* m: of centres, against gravity */
     unsigned char *out; /* 0: a cell; else none: behind sides and in holes, where psi is mirrored
@@ -52,7 +52,7 @@ struct surface_mesh {
     unsigned char *keep;
     bool slants[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright, or end in an
                                      overlap */
-    int64_t nface[3], face_room[3];
+    int64_t nface[3];
     struct wet_face *face[3];
     int64_t nat, at_room;
     int64_t *at;

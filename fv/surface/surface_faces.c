@@ -81,11 +81,7 @@ static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
 static void add_face(struct fv *s, int a, const struct wet_face *x, const struct stencil *q)
 {
     struct surface_mesh *w = s->surface->mesh;
-    if (w->nface[a] == w->face_room[a]) {
-        const int64_t more = 2 * w->face_room[a] + 256;
-        GROW_IN(w, w->face[a], w->nface[a], more);
-        w->face_room[a] = more;
-    }
+    ROOM_IN(w, w->face[a], w->nface[a] + 1);
     if (w->nat + q->n > w->at_room) {
         const int64_t more = 2 * w->at_room + 1024;
         GROW_IN(w, w->at, w->nat, more);

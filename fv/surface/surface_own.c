@@ -101,7 +101,7 @@ static double share_of_points(const struct mesh *m, const struct overset *o, con
 
 /* Cells of later blocks that a cell meets, found from one to the next. */
 struct meeting {
-    int n, room;
+    int n;
     int (*cell)[4]; /* block, indices */
 };
 
@@ -110,21 +110,13 @@ static void meet(struct meeting *w, int block, const int *i)
     for (int k = 0; k < w->n; k++)
         if (w->cell[k][0] == block && w->cell[k][1] == i[0] && w->cell[k][2] == i[1])
             return;
-    if (w->n == w->room) {
-        const int more = 2 * w->room + 32;
-        GROW(w->cell, w->n, more);
-        w->room = more;
-    }
+    ROOM_IN(NULL, w->cell, w->n + 1);
     memcpy(w->cell[w->n++], (const int[]){block, i[0], i[1], i[2]}, sizeof w->cell[0]);
 }
 
 static void add_piece(struct surface_mesh *w, const struct polygon *p)
 {
-    if (w->npieces == w->piece_room) {
-        const int64_t more = 2 * w->piece_room + 256;
-        GROW_IN(w, w->piece, w->npieces, more);
-        w->piece_room = more;
-    }
+    ROOM_IN(w, w->piece, w->npieces + 1);
     w->piece[w->npieces++] = *p;
 }
 
@@ -220,11 +212,7 @@ static void count_shared(struct fv *s, const struct overset *o, const struct par
     w->count[c] = fmax(0.0, area_of(&x.own) - sum);
     if (x.n == 0)
         return;
-    if (w->nshared == w->shared_room) {
-        const int64_t more = 2 * w->shared_room + 64;
-        GROW_IN(w, w->shared, w->nshared, more);
-        w->shared_room = more;
-    }
+    ROOM_IN(w, w->shared, w->nshared + 1);
     w->shared[w->nshared++] = x;
 }
 

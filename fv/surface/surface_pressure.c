@@ -44,11 +44,7 @@ void level_add_cut(struct fv *s, int a, struct cut cut, const double *x, const d
     struct surface *f = s->surface;
     cut.theta = fmax(cut.theta, fmax(f->theta_least, 0.01)) + rise_of(s, e) / cut.step;
     cut.height = -fv_still_pressure(s, x) / s->run->scene.fluid.rho;
-    if (f->ncut[a] == f->room[a]) {
-        const int64_t more = 2 * f->room[a] + 256;
-        GROW_IN(f, f->cut[a], f->ncut[a], more);
-        f->room[a] = more;
-    }
+    ROOM_IN(f, f->cut[a], f->ncut[a] + 1);
     f->cut[a][f->ncut[a]++] = cut;
 }
 

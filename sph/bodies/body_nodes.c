@@ -13,11 +13,7 @@
 
 static struct average_node *add_node(struct nodes *to)
 {
-    if (to->n == to->capacity) {
-        const int more = 2 * to->capacity + 256;
-        GROW(to->node, to->capacity, more);
-        to->capacity = more;
-    }
+    ROOM_IN(NULL, to->node, to->n + 1);
     struct average_node *d = to->node + to->n++;
     memset(d, 0, sizeof *d);
     return d;
@@ -128,7 +124,7 @@ static void merge(struct nodes *of, double width)
         to[k].area = vec3_unit(to[k].n);
     }
     FREE(sorted, of->node);
-    *of = (struct nodes){.n = n, .capacity = of->n, .node = to};
+    *of = (struct nodes){.n = n, .node = to};
 }
 
 /* The points of a mesh where it is now. */

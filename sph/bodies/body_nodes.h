@@ -26,7 +26,7 @@ struct average_node {
 
 /* The points of one body. */
 struct nodes {
-    int n, capacity;
+    int n;
     struct average_node *node; /* owned by whom asked for them: mem_free */
 };
 

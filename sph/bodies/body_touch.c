@@ -96,10 +96,7 @@ void pair_add(const struct walls *w, struct pair *p, const double *x, const doub
               double depth, bool mine)
 {
     double other[3];
-    if (p->n == p->capacity) {
-        GROW(p->touch, p->capacity, 2 * p->capacity + 8);
-        p->capacity = 2 * p->capacity + 8;
-    }
+    ROOM_IN(NULL, p->touch, p->n + 1);
     struct touch *t = p->touch + p->n++;
     *t = (struct touch){.depth = depth, .mine = mine};
     memcpy(t->x, x, (size_t)w->bodies[p->a].dim * sizeof *x);

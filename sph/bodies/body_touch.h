@@ -15,7 +15,7 @@ struct touch {
 /* Two bodies with their touches; touch is owned. */
 struct pair {
     int a, b; /* bodies; b = -1: walls at rest */
-    int n, capacity;
+    int n;
     struct touch *touch;
 };
 

@@ -45,7 +45,6 @@ static void find_runs(struct basins *b)
     const struct lattice *l = b->l;
     b->columns = l->n[b->across[0]] * l->n[b->across[1]];
     b->start = NEW_IN(b, int, b->columns + 1);
-    int room = 0;
     for (int c = 0; c < b->columns; c++) {
         bool in = false, parted = false;
         b->start[c] = b->nruns;
@@ -55,10 +54,7 @@ static void find_runs(struct basins *b)
             const int64_t cell = lattice_cell(l, ic);
             const bool has = lattice_has(l, cell);
             if (has && (!in || parted)) {
-                if (b->nruns == room) {
-                    GROW_IN(b, b->runs, room, 2 * room + 64);
-                    room = 2 * room + 64;
-                }
+                ROOM_IN(b, b->runs, b->nruns + 1);
                 b->runs[b->nruns] = (struct basin_run){.first = k, .part = b->nruns};
                 b->nruns++;
             }

@@ -168,7 +168,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
     create_finer(s);
     if (f) {
         if (!sph_restore(s, f))
-            FREE(s);
+            DROP(s);
         return s;
     }
     struct fill *fill = NULL;
@@ -180,8 +180,7 @@ struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f
         log_say("%s: walls and bodies leave no place for a particle: no water, nothing to compute; "
                 "nothing was started",
                 r->case_name);
-        FREE(fill);
-        FREE(s);
+        FREE(fill, s);
         return NULL;
     }
     if (s->finer && criteria_due(s->refinement->regions, s->t)) { /* of the coarsest level alone */

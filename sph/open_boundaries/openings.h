@@ -48,12 +48,11 @@ struct openings {
     double *shift; /* m: place of the incoming lattice behind each face */
     int64_t born, gone,
         refused; /* number of particles created, removed, not created for lack of room; this rank */
-    double through[6]; /* kg: fluxes of the faces of each side, less drops; this rank */
-    int64_t first_id;  /* ids of created particles: first_id + time in ticks * faces + face */
-    double tick;       /* s: far below a step */
-    int nghost, first_ghost,
-        ghost_capacity; /* the lattice behind the faces, last among the ghosts */
-    double *ghost_x;    /* [nghost][3] at time ghost_t */
+    double through[6];       /* kg: fluxes of the faces of each side, less drops; this rank */
+    int64_t first_id;        /* ids of created particles: first_id + time in ticks * faces + face */
+    double tick;             /* s: far below a step */
+    int nghost, first_ghost; /* the lattice behind the faces, last among the ghosts */
+    double *ghost_x;         /* [nghost][3] at time ghost_t */
     double ghost_t;
 };
 

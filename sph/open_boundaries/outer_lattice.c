@@ -23,11 +23,7 @@ static void add_ghost(struct sph *s, const double *y, const double *lo, const do
     for (int a = 0; a < o->dim; a++)
         if (y[a] < lo[a] - reach || y[a] > hi[a] + reach)
             return;
-    if (o->nghost == o->ghost_capacity) {
-        const int more = 2 * o->ghost_capacity + 256;
-        GROW_IN(o, o->ghost_x, 3 * o->ghost_capacity, 3 * more);
-        o->ghost_capacity = more;
-    }
+    ROOM_IN(o, o->ghost_x, 3 * (o->nghost + 1));
     memcpy(o->ghost_x + 3 * (size_t)o->nghost++, y, 3 * sizeof *y);
 }
 

@@ -189,11 +189,7 @@ static void create_child(struct sph *at, const double *x, const struct sph *from
     struct guards *g = at->guards;
     const int dim = at->dim;
     const double *q = prim_line(&from->p, i);
-    if (g->ncreated == g->created_capacity) {
-        const int more = 2 * g->created_capacity + 16;
-        GROW_IN(g, g->created, g->created_capacity, more);
-        g->created_capacity = more;
-    }
+    ROOM_IN(g, g->created, g->ncreated + 1);
     struct created *to = g->created + g->ncreated++;
     *to = (struct created){.t = from->t,
                            .rho = q[at_rho(dim)],

@@ -36,7 +36,7 @@ struct guards {
      * them. */
     double *prior;
     bool fresh; /* deep guards have not yet been given the fields of this step */
-    int ncreated, created_capacity;
+    int ncreated;
     struct created *created; /* [ncreated] of this level, at the end of the step; counts.h */
     bool mean;               /* fields by Shepard's mean [5.23-5.24] alone, for comparison */
     bool own_rates;          /* with local steps: a guard's fields continue by its own rates */

@@ -18,9 +18,9 @@ struct fixed {
     struct ghost_block ghosts;
     struct fixed_layers layers;
     double *room; /* [layers.n] part of the image's support that walls leave to the fluid */
-    double (*gradient)[2];              /* [layers.n] kg/m^4: of rho, behind the wall */
-    int nclose, close_capacity, *close; /* lines near any wall, by x */
-    int *first, *near, near_capacity;   /* lines around the image of each, of the present step */
+    double (*gradient)[2]; /* [layers.n] kg/m^4: of rho, behind the wall */
+    int nclose, *close;    /* lines near any wall, by x */
+    int *first, *near;     /* lines around the image of each, of the present step */
 };
 
 static void image(const struct walls *w, const struct fixed_node *d, double *x)
@@ -170,10 +170,7 @@ static void find_close(struct sph *s, struct fixed *m)
     for (int i = 0; i < s->p.n + s->p.nghost; i++) {
         if (fabs(walls_distance(s->walls, prim_line(&s->p, i), reach)) >= reach)
             continue;
-        if (m->nclose == m->close_capacity) {
-            GROW_IN(m, m->close, m->close_capacity, 2 * m->close_capacity + 256);
-            m->close_capacity = 2 * m->close_capacity + 256;
-        }
+        ROOM_IN(m, m->close, m->nclose + 1);
         m->close[m->nclose++] = i;
     }
 }
@@ -185,10 +182,7 @@ static int list_near(struct sph *s, struct fixed *m, const double *x, int have)
         const double *q = prim_line(&s->p, m->close[k]), d[2] = {q[0] - x[0], q[1] - x[1]};
         if (fabs(d[0]) >= reach || d[0] * d[0] + d[1] * d[1] >= reach * reach)
             continue;
-        if (have == m->near_capacity) {
-            GROW_IN(m, m->near, m->near_capacity, 2 * m->near_capacity + 1024);
-            m->near_capacity = 2 * m->near_capacity + 1024;
-        }
+        ROOM_IN(m, m->near, have + 1);
         m->near[have++] = m->close[k];
     }
     return have;

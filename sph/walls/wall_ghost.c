@@ -15,7 +15,6 @@ struct mirror {
     struct ghost_block ghosts;
     int *source; /* [n] line that is mirrored */
     unsigned char *plane;
-    int capacity;
 };
 
 static void *mirror_create(struct sph *s)
@@ -28,12 +27,8 @@ static void *mirror_create(struct sph *s)
 
 static void add(struct sph *s, struct mirror *m, int source, int plane)
 {
-    if (m->ghosts.n == m->capacity) {
-        const int more = 2 * m->capacity + 256;
-        GROW_IN(m, m->source, m->capacity, more);
-        GROW_IN(m, m->plane, m->capacity, more);
-        m->capacity = more;
-    }
+    ROOM_IN(m, m->source, m->ghosts.n + 1);
+    ROOM_IN(m, m->plane, m->ghosts.n + 1);
     m->source[m->ghosts.n] = source;
     m->plane[m->ghosts.n] = (unsigned char)plane;
     ghost_append(s, &m->ghosts, 1);

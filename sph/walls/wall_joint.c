@@ -198,10 +198,7 @@ static void try_at(const struct sph *s, struct wall_joints *to, const double *x)
     const double near = 0.1 * s->dx;
     if (is_there(to, x, near))
         return;
-    if (to->n == to->capacity) {
-        GROW(to->of, to->capacity, to->capacity + 4);
-        to->capacity += 4;
-    }
+    ROOM_IN(NULL, to->of, to->n + 1);
     to->n += make_joint(s->walls, x, near, 2.0 * s->R, to->of + to->n);
 }
 

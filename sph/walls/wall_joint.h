@@ -28,7 +28,7 @@ struct wall_joint {
 
 /* All joints; of is owned. Zeroed memory is empty. */
 struct wall_joints {
-    int n, capacity;
+    int n;
     int nfixed; /* the first so many joints are of walls that never move */
     bool known; /* the fixed ones have been found */
     struct wall_joint *of;

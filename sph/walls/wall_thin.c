@@ -16,7 +16,7 @@ struct thin_face {
 };
 
 struct faces {
-    int n, capacity;
+    int n;
     struct thin_face *face;
     const struct scene *scene;
     bool passages; /* between different pieces, not both sides of the domain */
@@ -27,10 +27,7 @@ static void add_face(struct faces *f, const double *a, const double *b, struct t
     const double d[2] = {b[0] - a[0], b[1] - a[1]}, length = hypot(d[0], d[1]);
     if (length <= 0.0)
         return;
-    if (f->n == f->capacity) {
-        GROW(f->face, f->capacity, 2 * f->capacity + 64);
-        f->capacity = 2 * f->capacity + 64;
-    }
+    ROOM_IN(NULL, f->face, f->n + 1);
     memcpy(with.a, a, sizeof with.a);
     with.length = length;
     for (int k = 0; k < 2; k++)

@@ -69,9 +69,7 @@ static void *create(struct run *r, struct h5 *f)
 static void destroy(void *state)
 {
     struct toy *s = state;
-    mem_free(s->x);
-    mem_free(s->v);
-    mem_free(s);
+    FREE(s->x, s->v, s);
 }
 
 static double step(void *state, double t_stop, struct diagnosis *d)

@@ -42,10 +42,7 @@ TEST(transforms_are_sums)
                 }
                 worst = fmax(worst, fabs(sum - is[i]));
             }
-            FREE(f);
-            mem_free(z);
-            mem_free(is);
-            mem_free(work);
+            FREE(f, z, is, work);
         }
     below(worst, 1e-12, "transforms");
 }
@@ -79,8 +76,7 @@ static void surface_of(const struct steady *w, const struct wave_grid *g, double
     wave_grid_to_fields(g, 1, z, work);
     for (int i = 0; i < n; i++)
         phi[i] = z[2 * i];
-    mem_free(z);
-    mem_free(work);
+    FREE(z, work);
 }
 
 struct steep {
@@ -127,10 +123,7 @@ static void check_steep(const struct steep *of)
     assert_true(products > 0);
     below(worst / top[0], of->bound, "velocities");
     below(rate / (w.c * top[0]), of->bound, "phi_t");
-    mem_free(eta);
-    mem_free(phi);
-    FREE(l);
-    FREE(g);
+    FREE(eta, phi, l, g);
 }
 
 TEST(steep_waves_have_their_velocities)
@@ -176,11 +169,7 @@ TEST(planes_turn_lines)
         }
     }
     below(worst / top[0], 1e-6, "plane");
-    mem_free(eta);
-    mem_free(phi);
-    FREE(l);
-    FREE(g);
-    FREE(one);
+    FREE(eta, phi, l, g, one);
 }
 
 struct kept {
@@ -227,9 +216,7 @@ static void check_kept(const struct kept *of)
     print_message("ka %g kd %g order %d: %.1f products a stage; ", of->ka, of->kd, of->order,
                   e->products / (240.0 * of->periods + 4.0));
     below(fabs(e->energy / energy - 1.0), of->energy, "energy");
-    mem_free(eta);
-    mem_free(phi);
-    FREE(e);
+    FREE(eta, phi, e);
 }
 
 TEST(steady_waves_stay_what_they_are)

@@ -80,3 +80,21 @@ TEST(owner_can_change)
     FREE(p);
     assert_int_equal(nclosed, 3);
 }
+
+/* Blocks move less than once in twice as many elements. */
+TEST(room_is_made_for_one_more)
+{
+    int *a = NULL, moves = 0;
+    void *root = NEW(char, 1);
+    for (int n = 0; n < 5000; n++) {
+        const int *before = a;
+        ROOM_IN(root, a, n + 1);
+        moves += a != before;
+        assert_int_equal(a[n], 0);
+        a[n] = n;
+    }
+    for (int n = 0; n < 5000; n++)
+        assert_int_equal(a[n], n);
+    assert_true(moves <= 8);
+    FREE(root);
+}

@@ -213,8 +213,7 @@ TEST(interpolated_pairs_are_pairs)
         }
         for (int a = 0; a < 3; a++)
             near(off[a] / most[a], 0.0, 0.01);
-        FREE(s);
-        mem_free(c);
+        FREE(s, c);
     }
 }
 

@@ -66,8 +66,7 @@ TEST(a_slow_piston_has_no_modes_beside_it)
     assert_true(fabs(slow->beside) < 1e-2 * slow->made);
     assert_close(slow->made, slow->k * 0.5, 1e-2);
     assert_true(fast->beside > 0.2 && fast->beside < 1.0);
-    FREE(slow);
-    FREE(fast);
+    FREE(slow, fast);
 }
 
 /* Steps of the equations of the header under a level e^(i(wt + kx)) that comes in: with what runs

@@ -54,8 +54,7 @@ static void compare(double height, double depth, int evolve, double *first, doub
         *first = fmax(*first, fabs(waves_eta(w, x, 0.0) - linear));
         *second = fmax(*second, fabs(waves_eta(w, x, 0.0) - linear - more));
     }
-    FREE(bound);
-    FREE(w);
+    FREE(bound, w);
 }
 
 /* What the sum of second order leaves falls as the cube of the height, what the first leaves as its
@@ -166,8 +165,5 @@ TEST(bits_do_not_depend_on_who_asks)
     waves_velocity(last, 0.7, 0.0, -0.1, v);
     assert_memory_equal(u, v, sizeof u);
     assert_true(SANITIZED || last->field->of->products < one->field->of->products / 10);
-    FREE(last);
-    FREE(third);
-    FREE(one);
-    FREE(other);
+    FREE(last, third, one, other);
 }

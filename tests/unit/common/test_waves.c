@@ -109,8 +109,7 @@ TEST(currents_carry_the_wave)
             near(u[0], v[0] + U, 1e-8);
             near(u[1], v[1], 1e-8);
         }
-        FREE(s);
-        FREE(w);
+        FREE(s, w);
     }
 }
 
@@ -351,8 +350,7 @@ TEST(bits_do_not_depend_on_who_asks)
     waves_velocity(one, 0.7, 0.0, -0.1, u);
     waves_velocity(other, 0.7, 0.0, -0.1, v);
     assert_memory_equal(u, v, 2 * sizeof *u);
-    FREE(one);
-    FREE(other);
+    FREE(one, other);
 }
 
 /* Without a zone all comes back, and long ones send on what u_w says. Of one length R is that of

@@ -106,12 +106,7 @@ static inline void box_difference(const struct box_flow *f, const struct box_flo
     d[2] = sqrt(sum[2] / sum[3]);
 }
 
-static inline void box_free(struct box_flow *f)
-{
-    mem_free(f->u[0]);
-    mem_free(f->u[1]);
-    mem_free(f->p);
-}
+static inline void box_free(struct box_flow *f) { FREE(f->u[0], f->u[1], f->p); }
 
 /* Error of Taylor-Green, which meets slip walls on the sides of the square, at t = 0.5. */
 static inline double box_slip_error(int n, const char *graded)

@@ -135,10 +135,7 @@ static int steps(struct water *w)
             r[c] -= alpha * q[c];
         last = rz;
     }
-    mem_free(r);
-    mem_free(z);
-    mem_free(p);
-    mem_free(q);
+    FREE(r, z, p, q);
     return n;
 }
 
@@ -152,10 +149,7 @@ TEST(the_cycle_is_symmetric)
         halving_cycle(w.h, s, y);
         assert_close(dot(&w, s, x), dot(&w, r, y), 1e-12);
         assert_true(dot(&w, r, x) > 0.0);
-        mem_free(r);
-        mem_free(s);
-        mem_free(x);
-        mem_free(y);
+        FREE(r, s, x, y);
         end(&w);
     }
 }
@@ -188,8 +182,7 @@ TEST(ranks_make_no_difference)
             double *r = field(&w, 3), *x = field(&w, 0);
             halving_cycle(w.h, r, x);
             sum[k] = dot(&w, x, x);
-            mem_free(r);
-            mem_free(x);
+            FREE(r, x);
             end(&w);
         }
         assert_close(sum[1], sum[0], 1e-12);

@@ -244,8 +244,7 @@ static double off_solution(int n)
             if (f->layer[at] == 0)
                 most = fmax(most, fabs(psi[at] - solution(x)));
         }
-    mem_free(psi);
-    mem_free(div);
+    FREE(psi, div);
     fv_free(&c.s);
     return most_of(most);
 }

@@ -47,9 +47,7 @@ TEST(even_rows_go_on_below)
     n = p.n;
     MPI_Allreduce(&n, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     assert_int_equal(all, 16 * 32);
-    mem_free(f);
-    mem_free(to);
-    FREE(p.blend);
+    FREE(f, to, p.blend);
     const double high[2][3] = {{0.25, 0.6, 0.0}, {box[1][0], box[1][1], box[1][2]}};
     patch_create(s, 1, &high, &box, &p, x);
     assert_null(p.blend); /* even rows alone are looked at */
@@ -90,10 +88,6 @@ TEST(tall_cells_are_asked_at_several_places)
         mask[i] = i > p.first[p.ncells / 2]; /* what is not seen does not count */
     forced_points_mean(&p, 1, v, mask, to, has);
     assert_true(p.ncells == 0 || !has[0]);
-    mem_free(v);
-    mem_free(to);
-    mem_free(mask);
-    mem_free(has);
-    FREE(p.first, p.x, p.id);
+    FREE(v, to, mask, has, p.first, p.x, p.id);
     fv_free(&c.s);
 }

@@ -351,8 +351,7 @@ TEST(steps_taken_back_leave_no_trace)
         const double *const now[] = {s->u[0], s->p, s->surface->phi}; /* steps swap the last */
         for (int f = 0; f < 3; f++)
             assert_memory_equal(once + f * s->size, now[f], (size_t)s->size * sizeof *once);
-        mem_free(once);
-        FREE(kept);
+        FREE(once, kept);
         mesh_case_end(&c, &s);
     }
 }

@@ -89,8 +89,7 @@ static double *gather_places(const struct sph *s, int *n)
         own[4 * i + 3] = y[2 * s->dim];
     }
     MPI_Allgatherv(own, mine, MPI_DOUBLE, all, count, count + size, MPI_DOUBLE, MPI_COMM_WORLD);
-    mem_free(own);
-    mem_free(count);
+    FREE(own, count);
     *n = total / 4;
     return all;
 }
@@ -161,8 +160,7 @@ TEST(ghosts_are_all_images_within_reach)
         for (int i = 0; !bad && i < 4 * n; i++)
             bad += fabs(want[i] - have[i]) > 1e-15;
         assert_true(none_anywhere(bad));
-        mem_free(want);
-        mem_free(have);
+        FREE(want, have);
         DROP(c.s);
     }
 }

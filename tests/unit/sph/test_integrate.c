@@ -55,8 +55,7 @@ static double toy_error(int integrator, int steps)
         error = fmax(error, fabs(q[0] * cos(turn) - q[1] * sin(turn) - r[0]));
         error = fmax(error, fabs(q[0] * sin(turn) + q[1] * cos(turn) - r[1]));
     }
-    mem_free(before);
-    mem_free(after);
+    FREE(before, after);
     DROP(c.s);
     return error;
 }
@@ -247,8 +246,6 @@ TEST(restart_and_rows_leave_no_trace)
                                   memcmp(straight, rows, (size_t)n[0] * sizeof(double)) != 0));
         assert_true(none_anywhere(n[0] != n[2] ||
                                   memcmp(straight, again, (size_t)n[0] * sizeof(double)) != 0));
-        mem_free(straight);
-        mem_free(rows);
-        mem_free(again);
+        FREE(straight, rows, again);
     }
 }

@@ -41,8 +41,7 @@ static void agree(int dim, int cells, int steps)
             most = fmax(most, k < dim ? e * cells : e / alone[i * row + row - 1]);
         }
     assert_true(max_anywhere(most) < 1e-9);
-    mem_free(alone);
-    mem_free(shared);
+    FREE(alone, shared);
 }
 
 TEST(ranks_agree_in_2d) { agree(2, 30, 8); }

@@ -395,8 +395,7 @@ TEST(ranks_agree)
     for (int k = 0; k < 8 * n; k++)
         worst = fmax(worst, fabs(together[k] - alone[k]));
     assert_close(worst, 0.0, 1e-9);
-    mem_free(together);
-    mem_free(alone);
+    FREE(together, alone);
 }
 
 static double *run_scene(bool restart, int *n)
@@ -413,6 +412,5 @@ TEST(restart_is_exact)
     double *straight = run_scene(false, n), *again = run_scene(true, n + 1);
     const bool same = n[0] == n[1] && memcmp(straight, again, (size_t)n[0] * sizeof(double)) == 0;
     assert_true(none_anywhere(!same));
-    mem_free(straight);
-    mem_free(again);
+    FREE(straight, again);
 }

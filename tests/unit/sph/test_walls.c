@@ -511,8 +511,7 @@ TEST(restart_is_exact)
         if (!same)
             print_message("kind %d differs\n", kind);
         assert_true(none_anywhere(!same));
-        mem_free(straight);
-        mem_free(again);
+        FREE(straight, again);
     }
 }
 
