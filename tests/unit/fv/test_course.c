@@ -15,7 +15,7 @@ static struct fv *start(struct fv_case *c)
     const char *const overrides[] = {"fv.cells=(16,16)", NULL};
     fv_case_set(c, MPI_COMM_WORLD, overrides);
     struct fv *s = fv_case_start(c, NULL);
-    s->forcing = forcing_create(s, 1, &box, true);
+    s->forcing = mem_own(s, forcing_create(s, 1, &box, true));
     return s;
 }
 

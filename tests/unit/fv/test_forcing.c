@@ -50,7 +50,7 @@ static double error_with(const char *const *overrides)
     struct fv_case c;
     fv_case_set(&c, MPI_COMM_WORLD, overrides);
     struct fv *s = fv_case_start(&c, NULL);
-    s->forcing = forcing_create(s, 1, &box, true);
+    s->forcing = mem_own(s, forcing_create(s, 1, &box, true));
     fill_partner(s, s->forcing);
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t i = 0; i < s->b.size; i++)
@@ -93,7 +93,7 @@ TEST(an_outlet_feels_no_source)
     wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
     struct fv *s = fv_case_start(&c, NULL);
     DROP(s->forcing);
-    struct forcing *f = s->forcing = forcing_create(s, 1, &box, true);
+    struct forcing *f = s->forcing = mem_own(s, forcing_create(s, 1, &box, true));
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];
         grid_place(&s->grid, f->partner[i], x);

@@ -98,7 +98,7 @@ TEST(an_outline_may_end_at_sides)
         (const char *const[]){"domain.periodic=(true,false)", "initial.field=\"uniform\"",
                               "initial.velocity=(0.5,0)", "fv.hole=((0,0.5),(1,1))", NULL});
     DROP(s->forcing);
-    struct forcing *f = s->forcing = forcing_create(s, 0, NULL, true);
+    struct forcing *f = s->forcing = mem_own(s, forcing_create(s, 0, NULL, true));
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         double x[3];
         grid_place(&s->grid, f->partner[i], x);

@@ -20,7 +20,7 @@ static void relax(const char *const *overrides, const double (*box)[3], double t
     fv_case_set(&c, MPI_COMM_WORLD, overrides);
     struct fv *s = fv_case_start(&c, NULL);
     DROP(s->forcing);
-    s->forcing = forcing_create(s, 1, (const double(*)[2][3])box, true);
+    s->forcing = mem_own(s, forcing_create(s, 1, (const double(*)[2][3])box, true));
     assert_true(mean_velocity_is_known(s));
     s->t = t;
     double *before[3];

@@ -16,7 +16,7 @@ static struct fv *start(struct fv_case *c)
                 (const char *const[]){"domain.periodic=(true,false)", "fv.cells=(16,28)",
                                       "fv.graded=(0.5,16)", NULL});
     struct fv *s = fv_case_start(c, NULL);
-    s->forcing = forcing_create(s, 1, &box, true);
+    s->forcing = mem_own(s, forcing_create(s, 1, &box, true));
     return s;
 }
 
