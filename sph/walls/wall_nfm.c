@@ -643,7 +643,9 @@ static bool gives_back(const struct sph *s)
     const bool levels = s->guards != NULL, ale = s->prm.scheme == SCHEME_RIEMANN_ALE;
     while (s->coarser)
         s = s->coarser;
-    return ale && (s->zones ? !s->wave_zones : !levels);
+    if (s->zones)
+        return ale && !(s->wave_zones && s->prm.outer == OUTER_SIDES);
+    return ale && !levels;
 }
 
 /* Mass that walls have made or lost is given back with its momentum, which the walls gave or took
