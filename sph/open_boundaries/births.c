@@ -234,9 +234,9 @@ static void give_birth(struct sph *s)
         const double un = fabs(u[a] - of_box[a]), deep = o->law->depth * s->dx + over;
         for (int b = 0; b < dim; b++)
             x[b] += b == a ? openings_inward(side) * deep : along(u[b] - of_box[b], un) * deep;
-        keep_within(o, x);
-        if (s->zones->surface)
+        if (s->zones->surface) /* beside a steep surface down is sideways, too */
             wet_faces_lower(s, 0.25 * s->dx, 1, x);
+        keep_within(o, x);
         if (crowded(&near, o, x)) {
             o->refused++;
             if (held > openings_max_deficit * whole)

@@ -312,7 +312,7 @@ static const char *side_left(const struct sph *s, const double *x, bool *wall)
         side = s->periodic[a] ? side : x[a] < s->lo[a] ? 2 * a : x[a] > s->hi[a] ? 2 * a + 1 : side;
     const struct scene_wall *is =
         side >= 0 ? scene_wall_of(&s->run->scene, SIDE_X_MIN + side) : NULL;
-    *wall = is && (is->kind == WALL_SLIP || is->kind == WALL_NO_SLIP);
+    *wall = is && !s->open[side] && (is->kind == WALL_SLIP || is->kind == WALL_NO_SLIP);
     return side >= 0 ? scene_side_names[side] : "a side";
 }
 
