@@ -182,6 +182,11 @@ void fv_params_check(const struct run *r, struct faults *f)
     if (given.upwind < 0.0 && given.upwind != -1.0)
         params_fault(r->params, f, "fv.upwind", "%g: 0 or more, or -1 for what suits the scene",
                      given.upwind);
+    if (given.cells[0] == 0 && given.cells[1] == 0) {
+        params_fault(r->params, f, "fv.cells",
+                     "none are given: how many along each axis, or blocks");
+        return;
+    }
     check_graded(r, f);
     int dims[3];
     if (f->n == 0 && !block_split(r->size, r->scene.domain.dim, given.cells, dims))

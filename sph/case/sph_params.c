@@ -360,6 +360,13 @@ static void check_axis(const struct run *r, int a, struct faults *f)
                      axes[a], lo[a], hi[a], L);
         return;
     }
+    if (length <= 0.0 && has_box()) {
+        params_fault(r->params, f, key,
+                     "along %c its first corner, at %g m, is not below its second, at %g m, or it "
+                     "lies beyond the domain, %g to %g m",
+                     axes[a], lo[a], hi[a], d->min[a], d->max[a]);
+        return;
+    }
     if (length <= 0.0 || lo[a] < d->min[a] - beyond || hi[a] > d->max[a] + beyond) {
         params_fault(r->params, f, key,
                      "%c from %g to %g m, with transition and buffer, is not inside the domain, %g "

@@ -492,6 +492,8 @@ faulty('tank', '/^walls/d; /^shapes/d', 'domain: .*up to its side x_min', 'sph')
 # the box of the particles
 faulty('coupled', 's/(0.2, 0.2), (0.8, 0.8)/(0.21, 0.2), (0.8, 0.8)/', 'sph.box: x from 0.21 .*as 0.2', 'sph', '--check')
 faulty('coupled', 's/(0.2, 0.2), (0.8, 0.8)/(0.4, 0.4), (0.6, 0.6)/', 'sph.box: .*leave nothing .*larger', 'sph', '--check')
+faulty('coupled', 's/(0.2, 0.2), (0.8, 0.8)/(0.8, 0.2), (0.2, 0.8)/', 'sph.box: along x its first corner, at 0.8 m, is not below', 'sph', '--check')
+faulty('coupled', '/^fv:/s/cells = ([^)]*);//', 'fv.cells: none are given', 'fv', '--check')
 faulty('sph', 's/dx = 0.02/dx = 0.02; box_velocity = (0.1, 0)/', 'case.cfg:6: sph.box_velocity: no box has both sides open', 'sph')
 faulty('coupled', 's/box = .*));/free = ((-3.0, 0.4), (-2.6, 0.6));/', 'sph.free: x from -3.* is not inside the domain', 'sph', '--check')
 edit('tank.cfg', r's/^sph:.*/sph: { dx = 0.02; R_dx = 2.0; c0 = 30.0; box = ((0.5, 0.2), (1.5, 1)); };\nfv: { cells = (16, 16); };/; /^bodies/d', 'part.cfg')
