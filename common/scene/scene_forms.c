@@ -49,9 +49,11 @@ static void check_size(int dim, const double *lo, const double *hi, const char *
                        const struct params *p, struct faults *f)
 {
     for (int a = 0; a < dim; a++)
-        if (!(hi[a] > lo[a]))
+        if (!(hi[a] > lo[a])) {
             params_fault(p, f, key, "it has no size along %c: both corners are at %g m", "xyz"[a],
                          lo[a]);
+            return;
+        }
 }
 
 static bool is_clear(const struct scene *s, int k, const struct params *p, struct faults *f)
@@ -133,8 +135,14 @@ void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
     for (int k = 0; k < s->nshapes; k++)
         if (s->shapes[k].form == SHAPE_BOX) {
             double(*box)[3] = s->shapes[k].box;
+            const char *key = key_text("shapes.[%d].box", k);
             order_corners(box);
-            check_size(s->domain.dim, box[0], box[1], key_text("shapes.[%d].box", k), p, f);
+            if (params_given(p, key))
+                check_size(s->domain.dim, box[0], box[1], key, p, f);
+            else
+                params_fault(p, f, key,
+                             "a box, the default form, without corners: give them, or the form "
+                             "that fits: polygon has points, below a level, disc a radius");
         }
     for (int k = 0; k < s->nbodies; k++) {
         struct scene_body *b = s->bodies + k;

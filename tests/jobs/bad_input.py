@@ -489,6 +489,7 @@ island = 's/^walls.*/walls: ( { closed = true; points = ((0.5, 0.2), (0.5, 0.8),
 faulty('tank', island, r'case.cfg:6: walls.\[0\].points: clockwise, .*counter-clockwise', 'sph')
 faulty('tank', island + '; /^shapes/d', r'walls.\[0\].points: clockwise', 'sph')
 faulty('tank', '/^walls/d; /^shapes/d', 'domain: .*up to its side x_min', 'sph')
+faulty('tank', 's/^shapes.*/shapes: ( { points = ((0, 0), (2, 0), (2, 0.4)); } );/', r'shapes.\[0\].box: a box, the default form', 'sph', '--check')
 # the box of the particles
 faulty('coupled', 's/(0.2, 0.2), (0.8, 0.8)/(0.21, 0.2), (0.8, 0.8)/', 'sph.box: x from 0.21 .*as 0.2', 'sph', '--check')
 faulty('coupled', 's/(0.2, 0.2), (0.8, 0.8)/(0.4, 0.4), (0.6, 0.6)/', 'sph.box: .*leave nothing .*larger', 'sph', '--check')
