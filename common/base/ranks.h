@@ -50,4 +50,25 @@ static inline bool ranks_all(MPI_Comm comm, bool holds)
     return holds;
 }
 
+/* Whether some rank has it; then all get the `bytes' at `what' of the lowest that has. */
+static inline bool ranks_first(MPI_Comm comm, bool has, void *what, int bytes)
+{
+    int first, size;
+    MPI_Comm_rank(comm, &first);
+    MPI_Comm_size(comm, &size);
+    first = has ? first : size;
+    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
+    if (first < size)
+        MPI_Bcast(what, bytes, MPI_BYTE, first, comm);
+    return first < size;
+}
+
+/* The largest of the ranks' numbers; all get the `bytes' at `what' of the lowest rank with it. */
+static inline double ranks_most(MPI_Comm comm, double v, void *what, int bytes)
+{
+    const double most = ranks_max(comm, v);
+    (void)ranks_first(comm, v == most, what, bytes);
+    return most;
+}
+
 #endif

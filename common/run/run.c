@@ -47,14 +47,7 @@ struct life {
 
 bool run_diagnose(struct diagnosis *d, MPI_Comm comm)
 {
-    int rank, size, first;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
-    first = d->bad ? rank : size;
-    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm);
-    if (first < size)
-        MPI_Bcast(d, (int)sizeof *d, MPI_BYTE, first, comm);
-    return first < size;
+    return ranks_first(comm, d->bad, d, sizeof *d);
 }
 
 /* --- start --- */

@@ -503,10 +503,6 @@ static void count_missing(struct fv *s)
 {
     struct link *k = s->link;
     const struct forcing *f = s->forcing;
-    struct {
-        double n;
-        int rank;
-    } most = {0.0, s->run->rank};
     double sum[2] = {0.0, 0.0};
     for (int64_t i = 0; i < f->npartner + f->nrim; i++) {
         const int64_t c = f->partner[i];
@@ -518,13 +514,10 @@ static void count_missing(struct fv *s)
             sum[0] += 1.0;
         }
     }
-    most.n = sum[0];
+    const double mine = sum[0];
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
-    if (sum[0] > 0.0) {
-        MPI_Comm_rank(s->comm, &most.rank);
-        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->comm);
-        MPI_Bcast(k->where, 3, MPI_DOUBLE, most.rank, s->comm);
-    }
+    if (sum[0] > 0.0)
+        (void)ranks_most(s->comm, mine, k->where, sizeof k->where);
     k->missing = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
 }
 

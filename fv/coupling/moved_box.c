@@ -130,12 +130,10 @@ static void fill_hidden(struct fv *s, unsigned char *was[MESH_BLOCKS_MAX])
 /* Copies to `why' what the lowest rank with a cell without donors says of it. Collective. */
 static void tell_trouble(const struct fv *s, char why[256])
 {
-    int mine = *s->m->trouble ? s->run->rank : s->run->size, least;
-    MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, s->comm);
-    if (least == s->run->size)
-        return;
-    snprintf(why, 256, "%.255s", s->m->trouble);
-    MPI_Bcast(why, 256, MPI_CHAR, least, s->comm);
+    const bool mine = *s->m->trouble != '\0';
+    if (mine)
+        snprintf(why, 256, "%.255s", s->m->trouble);
+    (void)ranks_first(s->comm, mine, why, 256);
 }
 
 /* Cuts the blocks around the box and renews which cells are free. */

@@ -259,16 +259,6 @@ static bool find_donors(const struct fv *s, struct overset *o, struct patch *p,
     return good;
 }
 
-/* Whether all ranks are good; if not, all get the place of the lowest that is not. Collective. */
-static bool agree(const struct fv *s, bool good, double *where)
-{
-    int mine = good ? s->run->size : s->run->rank, least;
-    MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, s->comm);
-    if (least < s->run->size)
-        MPI_Bcast(where, 3, MPI_DOUBLE, least, s->comm);
-    return least == s->run->size;
-}
-
 /* Cells as large as h about, or those of the plain block k: in the box, along axes on which it
  * moves in the whole domain. */
 static void make_grid(const struct fv *s, int k, const double *lo, const double *hi, double h,
@@ -301,6 +291,14 @@ static void find_hull(const struct partners *by, double lo[3], double hi[3])
     }
 }
 
+/* As find_donors, on all ranks alike: false, and the place, if it is on one of them. Collective. */
+static bool all_find_donors(const struct fv *s, struct overset *o, struct patch *p,
+                            const struct partners *by, double where[3])
+{
+    const bool found = find_donors(s, o, p, by, where);
+    return !ranks_first(s->comm, !found, where, 3 * sizeof *where);
+}
+
 /* where starts as the middle of all boxes, in case no block has it. */
 static bool create_on_blocks(const struct fv *s, const struct partners *by, struct patch *p,
                              double *where)
@@ -313,7 +311,7 @@ static bool create_on_blocks(const struct fv *s, const struct partners *by, stru
     const int k = finest_at(s, o, by, &h);
     if (k >= 0)
         make_grid(s, k, lo, hi, h, p);
-    const bool good = k >= 0 && agree(s, find_donors(s, o, p, by, where), where);
+    const bool good = k >= 0 && all_find_donors(s, o, p, by, where);
     if (!s->m->search)
         FREE(o);
     return good;
@@ -341,7 +339,7 @@ bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const dou
 {
     const struct partners by = {n, box, inner};
     mesh_exchange_free(&p->sample);
-    return agree(s, find_donors(s, s->m->search, p, &by, where), where);
+    return all_find_donors(s, s->m->search, p, &by, where);
 }
 
 /* x of cells beyond dim is 0. */

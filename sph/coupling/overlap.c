@@ -123,15 +123,9 @@ void overlap_look(struct sph *s)
     struct overlap *o = s->zones->watched;
     double sums[5] = {0.0, 0.0, 0.0, 0.0, o->found};
     compare(s, sums);
-    struct {
-        double n;
-        int rank;
-    } most = {sums[4], s->run->rank};
     MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    if (sums[4] > 0.0) {
-        MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
-        MPI_Bcast(o->where, 3, MPI_DOUBLE, most.rank, s->run->comm);
-    }
+    if (sums[4] > 0.0)
+        (void)ranks_most(s->run->comm, o->found, o->where, sizeof o->where);
     const double n = sums[0] > 0.0 ? sums[0] : 1.0, mean = sums[2] / n;
     o->du = sqrt(sums[1] / n) / o->U;
     o->dp = sqrt(fmax(sums[3] / n - mean * mean, 0.0)) / o->p;

@@ -29,21 +29,16 @@ static double pressure_of_particle(const struct sph *s, int i)
  * the lowest rank's. Collective. */
 static void find_peak(struct regions *g, const struct sph *s)
 {
-    struct {
-        double p;
-        int rank;
-    } most = {-INFINITY, s->run->rank};
-    double x[3] = {0.0, 0.0, 0.0};
+    double most = -INFINITY, x[3] = {0.0, 0.0, 0.0};
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
-            if (!particles_is_guard(&q->p, i) && pressure_of_particle(q, i) > most.p) {
-                most.p = pressure_of_particle(q, i);
+            if (!particles_is_guard(&q->p, i) && pressure_of_particle(q, i) > most) {
+                most = pressure_of_particle(q, i);
                 memcpy(x, prim_line(&q->p, i), (size_t)q->dim * sizeof *x);
             }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
-    MPI_Bcast(x, 3, MPI_DOUBLE, most.rank, s->run->comm);
-    if (isfinite(most.p))
-        regions_set_peak(g, x, most.p);
+    most = ranks_most(s->run->comm, most, x, sizeof x);
+    if (isfinite(most))
+        regions_set_peak(g, x, most);
 }
 
 /* Largest jump of p between i and its neighbours when both are continued to the middle with their

@@ -275,16 +275,6 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
     }
 }
 
-/* at[3] of the lowest rank that has one. Collective. */
-static void of_first_rank(const struct sph *s, bool any, double *at)
-{
-    struct {
-        int none, rank;
-    } who = {!any, s->run->rank};
-    MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_2INT, MPI_MINLOC, s->run->comm);
-    MPI_Bcast(at, 3, MPI_DOUBLE, who.rank, s->run->comm);
-}
-
 /* Of all ranks: particles that were removed behind walls, and where one of the first was.
  * Collective. */
 static int64_t gone_behind(const struct sph *s, double at[3])
@@ -298,9 +288,8 @@ static int64_t gone_behind(const struct sph *s, double at[3])
             memcpy(at, q->walls->gone_at, 3 * sizeof *at);
             any = true;
         }
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT64_T, MPI_SUM, s->run->comm);
-    of_first_rank(s, any, at);
-    return n;
+    (void)ranks_first(s->run->comm, any, at, 3 * sizeof *at);
+    return ranks_count(s->run->comm, n);
 }
 
 /* Through which side a particle at x has left, and whether that is a wall. If it has crossed
@@ -327,7 +316,7 @@ static void say_left(const struct sph *s, double n)
             memcpy(at, q->total.lost_at, sizeof at);
             any = true;
         }
-    of_first_rank(s, any, at);
+    (void)ranks_first(s->run->comm, any, at, sizeof at);
     const char *side = side_left(s, at, &wall);
     log_warn("t = %g s: %.0f particle(s) left the region since the start, the first across %s at "
              "(%g, %g, %g) m%s",

@@ -37,13 +37,8 @@ struct sph_crowd sph_watch_crowd(const struct sph *s)
 void sph_watch_say_crowd(const struct sph *s, char *text, size_t size)
 {
     const struct sph_crowd *c = &s->watch.crowd;
-    struct {
-        double most;
-        int rank;
-    } worst = {c->most, s->run->rank};
     double at[4] = {c->place[0], c->place[1], c->place[2], c->level};
-    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, s->run->comm);
-    MPI_Bcast(at, 4, MPI_DOUBLE, worst.rank, s->run->comm);
+    const double worst = ranks_most(s->run->comm, c->most, at, sizeof at);
     char place[64];
     if (s->dim == 2)
         snprintf(place, sizeof place, "(%.4g, %.4g)", at[0], at[1]);
@@ -52,5 +47,5 @@ void sph_watch_say_crowd(const struct sph *s, char *text, size_t size)
     snprintf(text, size,
              "%.3g at %s m, level %d: pressures near are those of too much water; keep the edges "
              "of apr.regions clear of jets and sheets there, or refine one level less",
-             worst.most, place, (int)at[3]);
+             worst, place, (int)at[3]);
 }
