@@ -338,8 +338,8 @@ static void describe(const struct run *r)
     struct sph_params fine = *prm;
     fine.dx = regions_finest(r, prm);
     const struct first_water water = first_water_look(r, prm);
-    const double dt = sph_params_dt(&fine, r->scene.fluid.nu, prm->c0, &limit),
-                 n = lattice(r, water.kept);
+    double dt = sph_params_dt(&fine, r->scene.fluid.nu, prm->c0, &limit);
+    const double n = lattice(r, water.kept);
     const double all = n + regions_particles(r, prm);
     describe_scene(r);
     scene_meshes_say(&r->scene);
@@ -349,6 +349,9 @@ static void describe(const struct run *r)
     const struct scene_speed v = prm->speed;
     log_say("expected speed %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
             prm->c0 / v.speed);
+    const double of_bodies = bodies_describe(r, &fine, dt);
+    limit = of_bodies < dt ? "body" : limit;
+    dt = fmin(dt, of_bodies);
     const double steps = ceil(r->scene.time.end / dt);
     const struct apr_params *apr = apr_params_of(r);
     log_say("dt about %.3g s (%s), %.0f steps%s", dt, limit, steps,

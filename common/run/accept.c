@@ -270,6 +270,53 @@ static void check_number(const struct scene *s, int k, const struct params *p, s
         check_word(what, key, p, f);
 }
 
+/* A column of a table as a series, times and values scaled, rows that are no numbers left out. */
+static struct accept_series series_of(const struct table *t, int column, double *room, double start,
+                                      const double *unit)
+{
+    struct accept_series s = {.t = room, .v = room + t->nrows};
+    for (int k = 0; k < t->nrows; k++) {
+        const double *row = t->v + k * t->ncolumns;
+        if (!isfinite(row[0]) || !isfinite(row[column]))
+            continue;
+        room[s.n] = start + unit[0] * row[0];
+        room[t->nrows + s.n++] = unit[1] * row[column];
+    }
+    return s;
+}
+
+static bool changes(struct accept_series s)
+{
+    bool any = false;
+    for (int k = 1; k < s.n; k++)
+        any = any || s.v[k] != s.v[0];
+    return any;
+}
+
+/* A reference that the run never meets, or whose range, which is the unit of rms, is nothing. */
+static void check_rows(const struct scene *s, int k, const struct table *t, const struct params *p,
+                       struct faults *f)
+{
+    const struct scene_accept *a = s->accept + k;
+    double *room = NEW(double, 2 * t->nrows);
+    const struct accept_series ref =
+        series_of(t, table_column(t, column_of(a)), room, a->start, a->unit);
+    const double first = ref.n > 0 ? ref.t[0] : NAN, last = ref.n > 0 ? ref.t[ref.n - 1] : NAN;
+    const double from = fmax(a->from, fmax(first, 0.0)),
+                 to = fmin(fmin(a->until, s->time.end), last);
+    if (!(to > from))
+        params_fault(p, f, key_text("accept.[%d].reference", k),
+                     "its rows are those of %g to %g s, and from %g s to the end of the run, %g s, "
+                     "or accept.until nothing is left of them to compare with",
+                     first, last, a->from, s->time.end);
+    else if (a->measure == ACCEPT_RMS && !changes(ref))
+        params_fault(p, f, key_text("accept.[%d].measure", k),
+                     "rms is taken over the range of the reference, which is %g throughout: peak "
+                     "and impulse compare with such a value",
+                     ref.v[0]);
+    FREE(room);
+}
+
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
                   struct faults *f)
 {
@@ -289,6 +336,8 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
             params_fault(p, f, key, "%s: its first column must be t", path);
         else if (table_column(t, column_of(a)) < 0)
             params_fault(p, f, key, "%s has no column %s", path, column_of(a));
+        else
+            check_rows(s, k, t, p, f);
         FREE(t);
     }
 }
@@ -344,21 +393,6 @@ void accept_check_columns(const struct scene *s, const struct params *p, int n,
                      "series.csv of this run has no column %s%s%s%s", a->what,
                      *word ? ": did you mean " : "", word, *word ? "?" : "");
     }
-}
-
-/* A column of a table as a series, times and values scaled, rows that are no numbers left out. */
-static struct accept_series series_of(const struct table *t, int column, double *room, double start,
-                                      const double *unit)
-{
-    struct accept_series s = {.t = room, .v = room + t->nrows};
-    for (int k = 0; k < t->nrows; k++) {
-        const double *row = t->v + k * t->ncolumns;
-        if (!isfinite(row[0]) || !isfinite(row[column]))
-            continue;
-        room[s.n] = start + unit[0] * row[0];
-        room[t->nrows + s.n++] = unit[1] * row[column];
-    }
-    return s;
 }
 
 /* The series that has the column: of a program alone, or of one of a job. */

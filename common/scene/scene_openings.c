@@ -23,11 +23,12 @@ void wall_histories_read(struct scene *s, struct motion_files *files)
     }
 }
 
+enum { PLACES = 256, HALVINGS = 24, ROWS = 64 }; /* along the height and across a side */
+
 /* Height of the highest place of fluid on the vertical through x, whose height is changed, of n
  * places, - infinity: none; exact to 1e-9 of the line where there is air above it. */
 static double top_along(const struct scene *s, const struct exact *e, int up, double *x)
 {
-    enum { PLACES = 256, HALVINGS = 24 };
     const double lo = s->domain.min[up], length = s->domain.max[up] - lo;
     const bool down = s->fluid.gravity[up] > 0.0; /* gravity along the axis */
     double wet = -1.0;
@@ -68,21 +69,33 @@ bool openings_are_lower(const struct scene *s, double top)
     return top < fmin(scene_water_top(s), high) - 1e-6 * (high - low);
 }
 
-/* The same along an upright side, just inside it. */
-static double top_at(const struct scene *s, const struct exact *e, int side, int up)
+/* The same along an upright side, just inside it; *area: of the water there, m^(dim-1). */
+static double top_at(const struct scene *s, const struct exact *e, int side, int up, double *area)
 {
-    enum { ROWS = 64 };
     const struct scene_domain *d = &s->domain;
-    const int a = side / 2, across = 3 - a - up;
-    double top = -INFINITY, x[3] = {0.0, 0.0, 0.0};
+    const int a = side / 2, across = 3 - a - up, rows = d->dim == 3 ? ROWS : 1;
+    double top = -INFINITY, x[3] = {0.0, 0.0, 0.0}, wet = 0.0;
     x[a] = side % 2 ? d->max[a] - 1e-3 * (d->max[a] - d->min[a])
                     : d->min[a] + 1e-3 * (d->max[a] - d->min[a]);
-    for (int k = 0; k < (d->dim == 3 ? ROWS : 1); k++) {
+    for (int k = 0; k < rows; k++) {
         if (d->dim == 3)
             x[across] = d->min[across] + (k + 0.5) / ROWS * (d->max[across] - d->min[across]);
         top = fmax(top, top_along(s, e, up, x));
+        for (int i = 0; i < PLACES; i++) {
+            x[up] = d->min[up] + (i + 0.5) / PLACES * (d->max[up] - d->min[up]);
+            wet += scene_is_fluid(s, e, x, NULL);
+        }
     }
+    *area = wet / PLACES / rows * (d->max[up] - d->min[up]) *
+            (d->dim == 3 ? d->max[across] - d->min[across] : 1.0);
     return top;
+}
+
+static bool is_upright(const struct scene *s, const struct scene_wall *w, int up)
+{
+    const int axis = (w->side - SIDE_X_MIN) / 2;
+    return up >= 0 && w->side != SIDE_NONE && axis != up && axis < s->domain.dim &&
+           !s->domain.periodic[axis];
 }
 
 void openings_resolve(struct scene *s)
@@ -91,13 +104,12 @@ void openings_resolve(struct scene *s)
     const int up = scene_still_axis(s);
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;
-        const int side = w->side - SIDE_X_MIN;
+        double area;
         w->stands = NAN;
-        if (!openings_have_outside(s) || w->kind != WALL_OUTFLOW || w->side == SIDE_NONE ||
-            side / 2 == up || side / 2 >= s->domain.dim || s->domain.periodic[side / 2] ||
+        if (!openings_have_outside(s) || w->kind != WALL_OUTFLOW || !is_upright(s, w, up) ||
             w->has_level || w->has_discharge || w->carried)
             continue;
-        const double top = top_at(s, &e, side, up);
+        const double top = top_at(s, &e, w->side - SIDE_X_MIN, up, &area);
         w->falls = !isfinite(top);
         w->stands = w->falls ? NAN : top;
         w->lower = !w->falls && openings_are_lower(s, top);
@@ -153,6 +165,24 @@ static void range_of(const struct motion_file *m, double range[2])
         range[0] = fmin(range[0], m->rows[COLUMNS * k + 1]);
         range[1] = fmax(range[1], m->rows[COLUMNS * k + 1]);
     }
+}
+
+double openings_discharge_speed(const struct scene *s)
+{
+    const int up = scene_still_axis(s);
+    double speed = 0.0;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        double area, range[2] = {0.0, fabs(w->discharge)};
+        if (!w->has_discharge || w->kind < WALL_INFLOW || !is_upright(s, w, up))
+            continue;
+        if (w->discharges && w->discharges->n > 0)
+            range_of(w->discharges, range);
+        const struct exact e = exact_create(s);
+        (void)top_at(s, &e, w->side - SIDE_X_MIN, up, &area);
+        speed = area > 0.0 ? fmax(speed, range[1] / area) : speed;
+    }
+    return speed;
 }
 
 static void check_file(const struct params *p, struct faults *f, int k, const char *name,
@@ -252,6 +282,16 @@ void openings_describe_outside(const char *side, double stands, bool falls)
                 side);
 }
 
+/* Rows that end within the run: what holds on is the last of them. */
+static void warn_of_ends(const struct motion_file *m, const char *file, double end)
+{
+    const double *last = m && m->n > 0 ? m->rows + COLUMNS * (m->n - 1) : NULL;
+    if (last && (m->rows[0] > 0.0 || last[0] < end * (1.0 - 1e-9)))
+        log_warn("%s has t = %g to %g s, the run goes from 0 to %g s: before its first row and "
+                 "after its last, %g, their values hold",
+                 file, m->rows[0], last[0], end, last[1]);
+}
+
 void openings_describe(const struct scene *s)
 {
     char text[TEXT];
@@ -261,6 +301,8 @@ void openings_describe(const struct scene *s)
         const char *side = w->side == SIDE_NONE ? "" : scene_side_names[w->side - SIDE_X_MIN];
         if (w->kind < WALL_INFLOW)
             continue;
+        warn_of_ends(w->levels, w->level_file, s->time.end);
+        warn_of_ends(w->discharges, w->discharge_file, s->time.end);
         if (w->has_discharge)
             log_say("%s: %s %s, uniform over the water, whose level is that inside", side,
                     discharge_text(w, s->domain.dim, text), in ? "in" : "out");

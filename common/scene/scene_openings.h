@@ -38,6 +38,9 @@ bool openings_are_lower(const struct scene *s, double top);
 /* Whether the water that stands in an outflow at the start is taken to stand outside, too: gravity
  * has an axis, and no exact wave passes. */
 bool openings_have_outside(const struct scene *s);
+/* Largest velocity, m/s, with which given discharges pass sides through the water that stands there
+ * at the start; 0: none is given, or no water stands there. */
+double openings_discharge_speed(const struct scene *s);
 /* Logs what is outside an outflow that is given nothing; stands NAN: not known. */
 void openings_describe_outside(const char *side, double stands, bool falls);
 /* Logs what each inlet and outlet under a free surface does. */

@@ -21,6 +21,10 @@ static void check_surface(const struct scene *s, const struct params *p, struct 
     if (*is->outline && s->domain.dim == 3)
         params_fault(p, f, key_text("%s.[%d].outline", group, k),
                      "an outline bounds a fluid of 2 dimensions: in space give a mesh");
+    if (s->domain.dim == 2 && (is->rotate[0] != 0.0 || is->rotate[1] != 0.0))
+        params_fault(p, f, key_text("%s.[%d].rotate", group, k),
+                     "out of the plane in a case of 2 dimensions: it turns about z, as in (0, 0, "
+                     "30)");
 }
 
 static void check_surfaces(const struct scene *s, const struct params *p, struct faults *f)

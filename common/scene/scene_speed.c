@@ -9,6 +9,7 @@
 #include "exact.h"
 #include "scene_fluid.h"
 #include "scene_mesh.h"
+#include "scene_openings.h"
 #include "scene_reference.h"
 
 static double extent(const struct scene *s, int a) { return s->domain.max[a] - s->domain.min[a]; }
@@ -434,6 +435,7 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
         central += pow(fmax(fabs(s->domain.min[a]), fabs(s->domain.max[a])), 2.0);
     take(&v, first, "the flow at the start");
     take(&v, inflow_speed(s), "the inflow");
+    take(&v, openings_discharge_speed(s), "the discharge over the water at its side");
     take(&v, wall_speed(s), "the moving walls");
     take(&v, fmax(body_speed(s), file), "the moving bodies");
     take(&v, s->waves.made.speed, "the waves");

@@ -1,8 +1,7 @@
 /* bodies.c - see bodies.h. In a stage (bodies_stage): the fluid's forces are summed by rank 0 and
  * sent to all, so that every rank has the same bits; to them come seals, lines, contacts, weight
  * and the loads of the case, then the rates (body_free.c). bodies_advance carries on with the
- * weights of the fluid's stages. stopping_rate bounds the step at the start: how fast the fluid's
- * impedance stops each body, wet all over.
+ * weights of the fluid's stages.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bodies.h"
 
@@ -18,42 +17,6 @@
 
 /* --- the start --- */
 
-/* The integrand is of second order in the place: the middles of the edges have it exactly. */
-static void add_triangle(const struct body *b, int k, double along, double across,
-                         struct impedance *z)
-{
-    const int *v = b->mesh->vertex[k];
-    double n[3];
-    const double third = trimesh_normal(b->mesh, k, n) / 3.0;
-    for (int e = 0; e < 3; e++) {
-        double arm[3] = {-b->centre[0], -b->centre[1], -b->centre[2]};
-        vec3_add(arm, 0.5, b->mesh->x[v[e]]);
-        vec3_add(arm, 0.5, b->mesh->x[v[(e + 1) % 3]]);
-        impedance_add(z, arm, n, along * third, across * third);
-    }
-}
-
-/* Wet all over; friction by the least distance that it counts with. */
-static double stopping_rate(const struct sph *s, const struct body *b)
-{
-    const double along = s->rho0 * s->c0, rub = s->rho0 * s->nu / (0.25 * s->dx);
-    struct impedance z = {{{0.0}}};
-    for (int k = b->first; k < b->first + b->n; k++) {
-        const struct segment *g = s->walls->segments + k;
-        const int pieces = (int)ceil(g->length / s->dx);
-        const double length = g->length / pieces, n[3] = {g->n[0], g->n[1], 0.0};
-        for (int i = 0; i < pieces; i++) {
-            double arm[3] = {0.0, 0.0, 0.0};
-            for (int a = 0; a < 2; a++)
-                arm[a] = g->a[a] + (i + 0.5) * length * g->t[a] - b->centre[a] - b->now.x[a];
-            impedance_add(&z, arm, n, along * length, g->no_slip ? rub * length : 0.0);
-        }
-    }
-    for (int k = 0; b->mesh && k < b->mesh->ntriangles; k++)
-        add_triangle(b, k, along, b->is->kind == WALL_NO_SLIP ? rub : 0.0, &z);
-    return impedance_rate(&z, b);
-}
-
 void bodies_create(struct sph *s)
 {
     struct walls *w = s->walls;
@@ -67,7 +30,9 @@ void bodies_create(struct sph *s)
     for (int k = 0; k < w->nbodies; k++)
         if (w->bodies[k].free) {
             double *lambda = &w->bodies[k].free->lambda;
-            *lambda = fmax(*lambda, stopping_rate(s, w->bodies + k)); /* of the finest level */
+            *lambda = fmax(*lambda,
+                           impedance_stopping_rate(w->bodies + k, s->rho0 * s->c0, s->rho0 * s->nu,
+                                                   s->dx)); /* of the finest level */
             if (!s->coarser)
                 body_lines_slack(w->bodies + k);
         }

@@ -194,6 +194,44 @@ static void check_degrees(const struct run *r, int k, int dim, struct faults *f)
                      "a hinge holds the body: it has no prescribed motion");
 }
 
+/* Twice the distance of the corner farthest from the middle, m. */
+static double size_of(const struct body *b) { return 2.0 * vec3_length(b->half); }
+
+/* How far x lies outside of the box round the body, m. */
+static double outside(const struct body *b, const double *x)
+{
+    double far2 = 0.0;
+    for (int a = 0; a < b->dim; a++)
+        far2 += pow(fmax(fabs(x[a] - b->middle[a]) - b->half[a], 0.0), 2.0);
+    return sqrt(far2);
+}
+
+/* A centre that was forgotten, or is in other units than the corners; moments that masses within
+ * the corners cannot have, or that would need all of them in the middle. */
+static void check_mass(const struct run *r, int k, const struct body *b, const struct body_mass *m,
+                       struct faults *f)
+{
+    const char *key = key_text("bodies.[%d].centre", k);
+    const bool given = params_given(r->params, key);
+    const double *c = m->centre, off = outside(b, c), size = size_of(b);
+    const double polar = b->dim == 2
+                             ? m->inertia[2][2]
+                             : 0.5 * (m->inertia[0][0] + m->inertia[1][1] + m->inertia[2][2]);
+    const double gyration = sqrt(polar / m->mass);
+    if (!(b->is->mass > 0.0))
+        return;
+    if (off > (given ? size : 0.0))
+        params_fault(r->params, f, key_text("bodies.[%d].%s", k, given ? "centre" : "mass"),
+                     "its mass centre%s, (%g, %g, %g) m, lies %.3g m outside of the body, which is "
+                     "%.3g m across: with mass goes centre",
+                     given ? "" : " is not given and", c[0], c[1], c[2], off, size);
+    else if (!b->is->tank && (gyration < 0.02 * b->reach || gyration > 2.0 * b->reach))
+        params_fault(r->params, f, key_text("bodies.[%d].inertia", k),
+                     "mass and inertia make a radius of gyration of %.3g m, and the corners are up "
+                     "to %.3g m from the centre: inertia is in kg m^2%s, about the centre",
+                     gyration, b->reach, b->dim == 2 ? " per metre" : "");
+}
+
 /* Largest stiffness and damping that a step of dt follows: sqrt(k/M) dt <= 0.2, beyond which the
  * stages of a step feed an oscillation by more than 1e-4 a period; d dt/M <= 1. */
 static void check_spring(const struct run *r, const char *key, double M, double dt, double k,
@@ -228,6 +266,10 @@ static void check_line(const struct run *r, int k, int i, const struct body *b, 
                      other < 0 ? "none of this case" : "this one: a line goes to another");
     if (l->stiffness <= 0.0 && l->damping <= 0.0)
         params_fault(r->params, f, key, "without stiffness and damping it does nothing");
+    if (!*l->body && outside(b, l->from) > 0.0 && outside(b, l->to) == 0.0)
+        params_fault(r->params, f, key,
+                     "goes from a place outside of the body to one in it: `from' is the point of "
+                     "the body, `to' the anchor");
     if (vec3_length(e) <= 0.0) {
         params_fault(r->params, f, key, "from and to are one place: it has no direction");
         return;
@@ -306,6 +348,7 @@ static void check_free(const struct run *r, const struct sph_params *used, int k
                      key_text("bodies.[%d].%s", k, is->load[2] != 0.0 ? "load" : "torque"),
                      "out of the plane in a case of 2 dimensions");
     const int before = f->n;
+    check_mass(r, k, b, &m, f);
     check_degrees(r, k, b->dim, f);
     if (f->n > before)
         return;
@@ -347,6 +390,52 @@ void body_check(const struct run *r, const struct sph_params *used, struct fault
             check_free(r, used, k, &b, f);
         body_destroy(&b);
     }
+}
+
+/* --- what a case says --- */
+
+static void tell_times(const struct run *r, int k, const struct body *b)
+{
+    const double end = r->scene.time.end;
+    if (b->is->free && b->is->release >= end)
+        log_warn("bodies.[%d].release: %g s is not before the end of the run, %g s: the body stays "
+                 "where it is",
+                 k, b->is->release, end);
+    for (int i = 0; i < b->drive.nterms; i++) {
+        const struct scene_motion *m = b->drive.term[i].is;
+        if (m->kind == MOTION_POLYNOMIAL && m->from >= end)
+            log_warn("bodies.[%d].motion.[%d].from: %g s is not before the end of the run, %g s: "
+                     "this motion never begins",
+                     k, i, m->from, end);
+    }
+}
+
+double bodies_describe(const struct run *r, const struct sph_params *used, double dt)
+{
+    const struct scene *c = &r->scene;
+    double least = INFINITY;
+    for (int k = 0; k < c->nbodies; k++) {
+        struct body b;
+        struct body_motion m;
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, r->motions);
+        body_drive_motion(&b.drive, 0.0, &m);
+        if (b.drive.nterms > 0 && vec3_length(m.x) + b.reach * vec3_length(m.r) > 0.01 * used->dx)
+            log_say("body %d (%s): its motion begins (%g, %g, %g) m and %g rad from the place that "
+                    "the case gives it",
+                    k + 1, b.is->name, m.x[0], m.x[1], m.x[2], vec3_length(m.r));
+        tell_times(r, k, &b);
+        const double step =
+            b.free ? 2.0 / impedance_stopping_rate(&b, c->fluid.rho * used->c0,
+                                                   c->fluid.rho * c->fluid.nu, used->dx)
+                   : INFINITY;
+        if (step < 0.1 * dt)
+            log_warn("bodies.[%d]: of %.3g kg over %.3g m^%d it asks for steps of %.2g s, %.2g "
+                     "times as many as the fluid: water has 1000 kg/m^3",
+                     k, b.free->mass, b.volume, b.dim, step, dt / step);
+        least = fmin(least, step);
+        body_destroy(&b);
+    }
+    return least;
 }
 
 double body_speeds(const struct scene *c, struct motion_files *files, double *pressure)

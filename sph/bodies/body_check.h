@@ -12,5 +12,9 @@ void body_check(const struct run *r, const struct sph_params *used, struct fault
  * largest p/rho, m^2/s^2, of the fluid that harmonic motion accelerates: that times the length of
  * a tank, or times half of the length of a body with fluid around. */
 double body_speeds(const struct scene *c, struct motion_files *files, double *pressure);
+/* Logs where prescribed motion begins elsewhere than in the body's place, and warns of what a run
+ * will not see and of steps much shorter than dt, s, those of the fluid. Returns the largest step
+ * that all bodies allow, s. */
+double bodies_describe(const struct run *r, const struct sph_params *used, double dt);
 
 #endif

@@ -63,6 +63,7 @@ struct body {
     int dim;
     double centre[3]; /* m: of rotation and moments at the start */
     double middle[3]; /* m: centre of its bounding box at the start */
+    double half[3];   /* m: half of the sides of that box */
     bool moves;       /* whether it ever moves */
     double reach;     /* m: of the farthest point from it */
     double volume;    /* m^3; 2D: m^2 */

@@ -128,8 +128,10 @@ static void set_middle(struct body *b)
             lo[a] = k ? fmin(lo[a], x) : x;
             hi[a] = k ? fmax(hi[a], x) : x;
         }
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 3; a++) {
         b->middle[a] = 0.5 * (lo[a] + hi[a]);
+        b->half[a] = 0.5 * (hi[a] - lo[a]);
+    }
 }
 
 /* The centre of a free body is that of its mass, of a driven one what the case says. reach is the

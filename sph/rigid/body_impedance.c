@@ -3,6 +3,7 @@
  * it), so the body's velocity falls at the eigenvalues of M^-1 Z, Z = int rho c [n; r x n][n; r x
  * n]^T dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
 #include <lapacke.h>
+#include <math.h>
 #include <string.h>
 
 #include "../../common/base/base.h"
@@ -77,4 +78,47 @@ double impedance_rate(const struct impedance *z, const struct body *b)
         }
     require(n == 0 || LAPACKE_dsygv(LAPACK_ROW_MAJOR, 1, 'N', 'L', n, Z[0], 6, M[0], 6, rate) == 0);
     return n > 0 ? rate[n - 1] : 0.0;
+}
+
+/* The integrand is of second order in the place: the middles of the edges have it exactly. */
+static void add_triangle(const struct body *b, int k, double along, double across,
+                         struct impedance *z)
+{
+    const int *v = b->mesh->vertex[k];
+    double n[3];
+    const double third = trimesh_normal(b->mesh, k, n) / 3.0;
+    for (int e = 0; e < 3; e++) {
+        double arm[3] = {-b->centre[0], -b->centre[1], -b->centre[2]};
+        vec3_add(arm, 0.5, b->mesh->x[v[e]]);
+        vec3_add(arm, 0.5, b->mesh->x[v[(e + 1) % 3]]);
+        impedance_add(z, arm, n, along * third, across * third);
+    }
+}
+
+static void add_edge(const struct body *b, int k, double dx, double along, double across,
+                     struct impedance *z)
+{
+    const struct line l = line_of(&b->is->points, true);
+    const double *from = l.x[k], *to = l.x[(k + 1) % l.n];
+    const double d[2] = {to[0] - from[0], to[1] - from[1]}, length = hypot(d[0], d[1]);
+    const int pieces = (int)ceil(length / dx);
+    const double n[3] = {-d[1] / length, d[0] / length, 0.0};
+    for (int i = 0; i < pieces; i++) {
+        double arm[3] = {0.0, 0.0, 0.0};
+        for (int a = 0; a < 2; a++)
+            arm[a] = from[a] + (i + 0.5) / pieces * d[a] - b->centre[a];
+        impedance_add(z, arm, n, along * length / pieces, across * length / pieces);
+    }
+}
+
+/* Friction by the least distance that it counts with. */
+double impedance_stopping_rate(const struct body *b, double rho_c, double mu, double dx)
+{
+    const double rub = b->is->kind == WALL_NO_SLIP ? mu / (0.25 * dx) : 0.0;
+    struct impedance z = {{{0.0}}};
+    for (int k = 0; !b->mesh && k < b->is->points.n; k++)
+        add_edge(b, k, dx, rho_c, rub, &z);
+    for (int k = 0; b->mesh && k < b->mesh->ntriangles; k++)
+        add_triangle(b, k, rho_c, rub, &z);
+    return impedance_rate(&z, b);
 }

@@ -17,5 +17,8 @@ void impedance_add(struct impedance *z, const double *arm, const double *n, doub
                    double across);
 /* Largest eigenvalue of M^-1 Z in the degrees of freedom that are not locked, 1/s. */
 double impedance_rate(const struct impedance *z, const struct body *b);
+/* The same of fluid of impedance rho_c, kg/(m^2 s), and viscosity mu, Pa s, that wets all of its
+ * surface at the start; particles of spacing dx, m. */
+double impedance_stopping_rate(const struct body *b, double rho_c, double mu, double dx);
 
 #endif

@@ -1,9 +1,10 @@
 /* level_gauge.c - see level_gauge.h. The volume of the fluid in a column around the place over the
  * column's cross-section, drops included, on top of the floor: the first wall or body below the
  * place (the first above it that holds fluid, where the place is in a wall itself), else the end of
- * the domain to which gravity draws. Where walls stand in the column it ends there; what water
- * drowns above the place counts as water. Heights are against gravity, along its axis, from the
- * origin. SPDX-License-Identifier: BSD-3-Clause */
+ * the domain to which gravity draws. Where walls stand in the column it ends there, and where the
+ * floor falls off as a cliff, below which there may be air; what water drowns above the place
+ * counts as water. Heights are against gravity, along its axis, from the origin.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gauge.h"
 
 #include <math.h>
@@ -24,7 +25,9 @@ struct column {
     double lo[3], hi[3]; /* m from it: across */
     double half;         /* m: half width of the hat function that weights it */
     bool walled;         /* by more than sides of the domain */
+    bool cut;            /* walls or cliffs hide a part of the section */
     double section, floor;
+    double cliff;         /* m: a floor below this is another one than that below the place */
     double ground, crest; /* m: highest place of the floor, of solids above the place */
     double roof, drowned; /* m: underside of a solid above the place, its mean height; NAN, 0 */
 };
@@ -84,7 +87,8 @@ static double hat_until(const struct column *c, double x)
     return t < 0.0 ? 0.5 * c->half * rest * rest : c->half * (1.0 - 0.5 * rest * rest);
 }
 
-/* Whether walls hide the place across from the one at x, or at its height what is `by' higher. */
+/* Whether walls hide the place across from the one at x, or at its height what is `by' higher; or
+ * there is a cliff between them. */
 static bool is_hidden(const struct sph *s, const struct column *c, const double *across, double by)
 {
     double d[3] = {0.0, 0.0, 0.0}, x[3];
@@ -93,7 +97,10 @@ static bool is_hidden(const struct sph *s, const struct column *c, const double 
         d[a] = a == c->up ? 0.0 : across[a];
         x[a] += d[a];
     }
-    return walls_meet(s, c->at, d) < 1.0 || (by < 0.0 && free_height(s, c, x, by) > by);
+    if (walls_meet(s, c->at, d) < 1.0 || (by < 0.0 && free_height(s, c, x, by) > by))
+        return true;
+    const double h = height_of(c, x), floor = h + free_height(s, c, x, c->bottom - h);
+    return floor < c->cliff;
 }
 
 /* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof, height. /
@@ -135,21 +142,24 @@ static void sound_all(const struct sph *s, struct column *c)
     const int n = s->dim == 2 ? SAMPLES_2D : SAMPLES_3D, m = s->dim == 2 ? 1 : n;
     double sums[5] = {0.0}, all = 0.0;
     struct column highest = {.ground = -INFINITY, .crest = -INFINITY};
+    const double at = height_of(c, c->at);
+    c->cliff = at + free_height(s, c, c->at, c->bottom - at) - c->half;
     for (int k = 0; k < n * m; k++) {
-        int at = k;
+        int cell = k;
         double across[3] = {0.0, 0.0, 0.0}, weight = 1.0;
         for (int a = 0; a < s->dim; a++) {
             if (a == c->up)
                 continue;
-            across[a] = c->lo[a] + (at % n + 0.5) / n * (c->hi[a] - c->lo[a]);
+            across[a] = c->lo[a] + (cell % n + 0.5) / n * (c->hi[a] - c->lo[a]);
             weight *= fmax(0.0, 1.0 - fabs(across[a]) / c->half);
-            at /= n;
+            cell /= n;
         }
         all += weight;
         sound(s, c, across, weight, sums, &highest);
     }
     if (!(sums[0] > 0.0))
         return;
+    c->cut = sums[0] < all;
     c->section *= sums[0] / all;
     c->floor = sums[1] / sums[0];
     c->ground = highest.ground;
@@ -267,7 +277,8 @@ static double level_of(const struct sph *s, const struct column *c, double volum
  * before open sides, where particles are given their volumes. */
 static bool is_disturbed(const struct sph *s, const struct column *c, double zoned)
 {
-    bool cut = zoned > 0.0 || s->finer || c->ground > c->floor + 1e-6 * s->dx || isfinite(c->roof);
+    bool cut = c->cut || zoned > 0.0 || s->finer || c->ground > c->floor + 1e-6 * s->dx ||
+               isfinite(c->roof);
     for (int a = 0; a < s->dim; a++)
         cut = cut || (a != c->up && c->hi[a] - c->lo[a] < (4.0 - 1e-6) * s->dx);
     return cut;

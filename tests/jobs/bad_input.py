@@ -373,6 +373,12 @@ faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "rz"; amplitud
 # gauges with the name of another column, criteria of what is not there
 faulty('tank', 's/name = "p"/name = "t"/', r'probes.\[0\].*: t: series.csv has a column of this name', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: p is a gauge, .*give a reference', 'sph', '--check')
+write('ref.csv', 't,p\n5,1\n6,2\n')
+write('even.csv', 't,p\n0,1\n6,1\n')
+faulty('tank', r's/^sph:/accept: ( { what = "p"; reference = "ref.csv"; tolerance = 1.0; } );\n&/', r'accept.\[0\].reference: its rows are those of 5 to 6 s', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "p"; reference = "even.csv"; from = 3; tolerance = 1.0; } );\n&/', r'accept.\[0\].reference: .* from 3 s to the end of the run, 0.5 s', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "p"; reference = "even.csv"; tolerance = 1.0; } );\n&/', r'accept.\[0\].measure: rms is taken over the range', 'sph', '--check')
+faulty('tank', r's/^sph:/accept: ( { what = "max_mach"; tolerance = -1.0; } );\n&/', 'accept.tolerance: -1 is not allowed', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "body.c.mass"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: summary.json will have no body.c.mass: no body', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "error.velocty_l2"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: no program reports error.velocty_l2: did you mean error.velocity_l2', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "maximum_mach"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: summary.json has no maximum_mach: did you mean max_mach', 'sph', '--check')
@@ -411,7 +417,18 @@ write('motion.txt', '0 0 0 0\n0.2 0.1 0 0\n')
 faulty('tank', 's/"b"/"b"; motion = "motion.txt"/', r'bodies.\[0\].motion: .*0 to 0.2 s, the run goes from 0 to 0.5', 'sph')
 write('motion.txt', '0 0 0 0\n0.2 0 0 0\n0.201 0.4 0 0\n1 0.4 0 0\n')
 faulty('tank', 's/"b"/"b"; motion = "motion.txt"/', r'bodies.\[0\].motion: jumps at t = 0.2 s, row 3', 'sph')
+write('motion.txt', '0 0.2 0.1 0\n0.2 0.21 0.1 0\n1 0.25 0.1 0\n')
+tells('tank', 's/"b"/"b"; motion = "motion.txt"/', r'body 1 (b): its motion begins (0.2, 0.1, 0) m and 0 rad from the place')
+tells('tank', 's/"b"/"b"; motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0, 0.1); from = 3; } )/', r'motion.\[0\].from: 3 s is not before the end of the run')
+faulty('tank', 's/"b"/"b"; rotate = (0, 90, 0)/', r'bodies.\[0\].rotate: out of the plane', 'sph')
+faulty('tank', 's/side = "y_min";/points = ((0, 0), (2, 0)); rotate = (5, 0, 0);/', r'walls.\[2\].rotate: out of the plane', 'sph')
+faulty('tank', 's/form = "below"; level = 0.5/form = "polygon"; points = ((0, 0), (2, 0), (2, 0.5)); rotate = (30, 0, 0)/', r'shapes.\[0\].rotate: out of the plane', 'sph')
 faulty('tank', 's/"b"/"b"; motion = "nothing.txt"/', r'case.cfg:8: bodies.\[0\].motion: .*no such file', 'sph')
+# a discharge that is faster than the water falls, and one whose rows end early: accepted, with a word
+inlet = 's/side = "x_min"; }/side = "x_min"; kind = "inflow"; %s; }/; s/ c0 = 30.0;//; s/^bodies.*//; s/^probes.*//'
+tells('tank', inlet % 'discharge = 3', 'expected speed 6 m/s: the discharge over the water at its side; c0 is 10 times that')
+write('flow.csv', '0 0\n0.2 0.1\n')
+tells('tank', inlet % 'discharge_file = "flow.csv"', 'flow.csv has t = 0 to 0.2 s, the run goes from 0 to 0.5 s')
 # moved by forces: tank's body with "b" replaced
 free = '"b"; free = true'
 faulty('tank', 's/"b"/"b"; density = 500.0/', r'bodies.\[0\].density: is not used: .*free = true', 'sph')
@@ -419,6 +436,13 @@ faulty('tank', 's/"b"/"b"; lock = "x"/', r'bodies.\[0\].lock: is not used: .*fre
 faulty('tank', 's/"b"/' + free + '/', r'bodies.\[0\].mass: .*density, or mass, centre and inertia', 'sph')
 faulty('tank', 's/"b"/' + free + '; mass = 3.0/', r'bodies.\[0\].mass: with mass goes inertia', 'sph')
 faulty('tank', 's/"b"/' + free + '; mass = 3.0; inertia = -1.0/', r'bodies.\[0\].mass: with mass goes inertia, a number above 0', 'sph')
+faulty('tank', 's/"b"/' + free + '; mass = 40.0; inertia = 1.0/', r'bodies.\[0\].mass: its mass centre is not given and, .* outside of the body', 'sph')
+faulty('tank', 's/"b"/' + free + '; mass = 40.0; inertia = 1.0; centre = (1000, 300)/', r'bodies.\[0\].centre: its mass centre, .* outside of the body', 'sph')
+for inertia in '1e-6', '1e6':
+    faulty('tank', 's/"b"/' + free + '; mass = 40.0; inertia = %s; centre = (1, 0.3)/' % inertia, r'bodies.\[0\].inertia: .* a radius of gyration', 'sph')
+faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.9); to = (1, 0.3); stiffness = 3.0; } )/', r'lines.\[0\]: goes from a place outside of the body to one in it', 'sph')
+tells('tank', 's/"b"/' + free + '; density = 500.0; release = 9.0/', r'bodies.\[0\].release: 9 s is not before the end of the run')
+tells('tank', 's/"b"/' + free + '; density = 0.5/', r'bodies.\[0\]: of 0.04 kg over 0.08 m^2 .* times as many as the fluid', 'dt about .* (body)')
 faulty('tank', 's/"b"/' + free + '; mass = 3.0; density = 500.0/', r'bodies.\[0\].density: density or mass, not both', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; inertia = 1.0/', r'bodies.\[0\].inertia: is not used', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; centre = (1, 0.3)/', r'bodies.\[0\].centre: is not used', 'sph')
@@ -718,7 +742,7 @@ holds({p: (s.st_size, s.st_mtime_ns) for p, s in before.items()} == {p: (s.st_si
       'a refused run touched its folder')
 
 # What a series is to be compared with is known once the columns are: before the first step.
-write('ref.csv', 't,E\n0,1\n1,1\n')
+write('ref.csv', 't,E\n0,1\n1,2\n')
 code = start('fv', 'fv.cfg', '-p', 'accept=({what="kinetic enrgy";reference="ref.csv";column="E";tolerance=1.0;})', '-o', 'accepted')
 holds(code == 2 and told('accept.*no column kinetic enrgy: did you mean kinetic energy?'), 'accept.what that no series has')
 # the columns of a program, too

@@ -230,6 +230,14 @@ for scheme in 'riemann', 'riemann_ale':
     ''' % (probes('level', 'a 0.15, 0.1', 'b 0.25, 0.1', 'c 0.35, 0.1', 'd 0.45, 0.1'), scheme), series=5))
     near('rest: level, ' + scheme, sum(lib.mean('rest', gauge + ' [', 0.5) for gauge in 'abcd') / 4, 0.32, 0.01 * 0.02, 'rest.txt')
 
+# Beside the edge of a ledge the column ends there: over the mean of both floors the level was 0.06 and 0.14 m low.
+run_case('ledge', scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1, 0.8); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); bodies: ( { name = "b"; box = ((0, 0), (0.5, 0.4)); } );
+shapes: ( { box = ((0, 0.4), (0.5, 0.5)); } ); probes: ( %s ); sph: { dx = 0.02; };
+''' % probes('level', 'a 0.25, 0.45', 'b 0.46, 0.45', 'c 0.48, 0.45', 'd 0.49, 0.45')))
+for gauge in 'abcd':
+    near('ledge: level at ' + gauge, column('ledge', gauge + ' [')[0], 0.5, 0.1 * 0.02, 'ledge.txt')
+
 # The level under a body is its underside, also while an edge of refinement goes down through the rows of the column: each
 # of the two levels counts by its share there (by whole rows it was out by 0.4 dx, and a body was taken for drowned).
 run_case('edge', scene(0.6, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1.2, 1.2); };
