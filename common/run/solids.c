@@ -20,11 +20,9 @@ static bool extent(const struct scene *s, enum mesh_owner owner, int k, double l
         lo[a] = m ? m->lo[a] : INFINITY;
         hi[a] = m ? m->hi[a] : -INFINITY;
     }
-    for (int i = 0; i < p->n && !m; i++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = fmin(lo[a], p->x[i][a]);
-            hi[a] = fmax(hi[a], p->x[i][a]);
-        }
+    const struct line l = line_of(p, true);
+    if (!m)
+        line_box(&l, lo, hi);
     return m || p->n > 0;
 }
 

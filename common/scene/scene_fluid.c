@@ -163,15 +163,13 @@ void scene_shape_extent(const struct scene_shape *h, double lo[3], double hi[3])
     const bool points = h->form == SHAPE_POLYGON && h->points.n > 0;
     for (int a = 0; a < 3; a++) {
         const bool box = h->form == SHAPE_BOX && (a < 2 || h->box[1][2] > h->box[0][2]);
-        const bool disc = h->form == SHAPE_DISC, flat = points && a < 2;
-        lo[a] = box ? h->box[0][a] : disc ? h->centre[a] - h->radius : flat ? INFINITY : -INFINITY;
-        hi[a] = box ? h->box[1][a] : disc ? h->centre[a] + h->radius : flat ? -INFINITY : INFINITY;
+        const bool disc = h->form == SHAPE_DISC;
+        lo[a] = box ? h->box[0][a] : disc ? h->centre[a] - h->radius : -INFINITY;
+        hi[a] = box ? h->box[1][a] : disc ? h->centre[a] + h->radius : INFINITY;
     }
-    for (int k = 0; points && k < h->points.n; k++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = fmin(lo[a], h->points.x[k][a]);
-            hi[a] = fmax(hi[a], h->points.x[k][a]);
-        }
+    const struct line l = line_of(&h->points, true);
+    if (points)
+        line_box(&l, lo, hi);
 }
 
 /* Whether shape k holds fluid at one of these places. */

@@ -57,14 +57,22 @@ double line_length(const struct line *l)
     return sum;
 }
 
-double line_size(const struct line *l)
+void line_box(const struct line *l, double lo[2], double hi[2])
 {
-    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-    for (int k = 0; k < l->n; k++)
-        for (int a = 0; a < 2; a++) {
+    for (int a = 0; a < 2; a++) {
+        lo[a] = INFINITY;
+        hi[a] = -INFINITY;
+        for (int k = 0; k < l->n; k++) {
             lo[a] = fmin(lo[a], l->x[k][a]);
             hi[a] = fmax(hi[a], l->x[k][a]);
         }
+    }
+}
+
+double line_size(const struct line *l)
+{
+    double lo[2], hi[2];
+    line_box(l, lo, hi);
     return fmax(hi[0] - lo[0], hi[1] - lo[1]);
 }
 

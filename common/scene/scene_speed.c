@@ -8,6 +8,7 @@
 #include "../base/base.h"
 #include "exact.h"
 #include "scene_fluid.h"
+#include "scene_geometry.h"
 #include "scene_mesh.h"
 #include "scene_openings.h"
 #include "scene_reference.h"
@@ -99,14 +100,8 @@ static double wall_speed(const struct scene *s)
 /* Box around the outline of a body; lo > hi: it has none. */
 static void outline_box(const struct scene_body *b, double lo[2], double hi[2])
 {
-    for (int a = 0; a < 2; a++) {
-        lo[a] = INFINITY;
-        hi[a] = -INFINITY;
-        for (int i = 0; i < b->points.n; i++) {
-            lo[a] = fmin(lo[a], b->points.x[i][a]);
-            hi[a] = fmax(hi[a], b->points.x[i][a]);
-        }
-    }
+    const struct line l = line_of(&b->points, true);
+    line_box(&l, lo, hi);
 }
 
 /* What it turns about; that of a free body of given density follows from its outline, and the

@@ -120,14 +120,11 @@ static void create_free(struct body *b, const struct body_mass *m)
 static void set_middle(struct body *b)
 {
     double lo[3] = {0.0}, hi[3] = {0.0};
+    const struct line l = line_of(&b->is->points, true);
     if (b->mesh)
         trimesh_bounds(b->mesh, lo, hi);
-    for (int k = 0; k < b->is->points.n; k++)
-        for (int a = 0; a < 2; a++) {
-            const double x = b->is->points.x[k][a];
-            lo[a] = k ? fmin(lo[a], x) : x;
-            hi[a] = k ? fmax(hi[a], x) : x;
-        }
+    else if (l.n > 0)
+        line_box(&l, lo, hi);
     for (int a = 0; a < 3; a++) {
         b->middle[a] = 0.5 * (lo[a] + hi[a]);
         b->half[a] = 0.5 * (hi[a] - lo[a]);

@@ -2,10 +2,12 @@
  * case, to refuse what no body can have, and by body_create; in 2D all per metre, and inertia is
  * that about z.
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <lapacke.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "../../common/base/base.h"
 #include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 #include "body.h"
@@ -30,33 +32,12 @@ static void take_inertia(const struct param_numbers *v, int dim, double J[3][3])
         J[at[k][0]][at[k][1]] = J[at[k][1]][at[k][0]] = v->v[k];
 }
 
-/* Eigenvalues of a symmetric matrix (Smith 1961), ascending. With cosines: exact for multiple
- * eigenvalues too, up to rounding. */
-static void eigenvalues(double A[3][3], double e[3])
-{
-    const double off = A[0][1] * A[0][1] + A[0][2] * A[0][2] + A[1][2] * A[1][2];
-    const double mean = (A[0][0] + A[1][1] + A[2][2]) / 3.0;
-    double spread = 2.0 * off, B[3][3];
-    for (int a = 0; a < 3; a++)
-        spread += (A[a][a] - mean) * (A[a][a] - mean);
-    const double p = sqrt(spread / 6.0);
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            B[a][b] = p > 0.0 ? (A[a][b] - (a == b ? mean : 0.0)) / p : 0.0;
-    const double half = 0.5 * (B[0][0] * (B[1][1] * B[2][2] - B[1][2] * B[1][2]) -
-                               B[0][1] * (B[0][1] * B[2][2] - B[1][2] * B[0][2]) +
-                               B[0][2] * (B[0][1] * B[1][2] - B[1][1] * B[0][2]));
-    const double phi = acos(fmax(-1.0, fmin(half, 1.0))) / 3.0;
-    e[2] = mean + 2.0 * p * cos(phi);
-    e[0] = mean + 2.0 * p * cos(phi + 2.0 * M_PI / 3.0);
-    e[1] = 3.0 * mean - e[0] - e[2];
-}
-
 /* Moments of inertia of masses: none above the sum of the others. */
 static bool possible(double J[3][3], char *why, size_t size)
 {
-    double e[3];
-    eigenvalues(J, e);
+    double e[3], A[9];
+    memcpy(A, J, sizeof A);
+    require(LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'U', 3, A, 3, e) == 0); /* ascending */
     if (e[0] > 0.0 && e[2] <= (e[0] + e[1]) * (1.0 + 1e-9))
         return true;
     snprintf(
