@@ -3,7 +3,8 @@
  * place (the first above it that holds fluid, where the place is in a wall itself), else the end of
  * the domain to which gravity draws. Where walls stand in the column it ends there, and where the
  * floor falls off as a cliff, below which there may be air; what water drowns above the place
- * counts as water. Heights are against gravity, along its axis, from the origin.
+ * counts as water, where no air is left below it. Heights are against gravity, along its axis, from
+ * the origin.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gauge.h"
 
@@ -26,6 +27,7 @@ struct column {
     double half;         /* m: half width of the hat function that weights it */
     bool walled;         /* by more than sides of the domain */
     bool cut;            /* walls or cliffs hide a part of the section */
+    bool covered;        /* all of the section lies below a solid */
     double section, floor;
     double cliff;         /* m: a floor below this is another one than that below the place */
     double ground, crest; /* m: highest place of the floor, of solids above the place */
@@ -160,6 +162,7 @@ static void sound_all(const struct sph *s, struct column *c)
     if (!(sums[0] > 0.0))
         return;
     c->cut = sums[0] < all;
+    c->covered = sums[2] == sums[0];
     c->section *= sums[0] / all;
     c->floor = sums[1] / sums[0];
     c->ground = highest.ground;
@@ -219,9 +222,17 @@ static double share_across(const struct sph *s, const struct column *c, int a, d
     return (hat_until(c, d + r) - hat_until(c, d - r)) / s->dx;
 }
 
-/* What a column holds, m^dim: all; of it what is in the window, and above; particles of a surface
- * in the window, and those in the zones before open sides. */
-enum { COLUMN_ALL, COLUMN_WINDOW, COLUMN_ABOVE, COLUMN_SURFACE, COLUMN_ZONED, COLUMN };
+/* What a column holds, m^dim: all; of it what is below a solid above the place, in the window, and
+ * above; particles of a surface in the window, and those in the zones before open sides. */
+enum {
+    COLUMN_ALL,
+    COLUMN_UNDER,
+    COLUMN_WINDOW,
+    COLUMN_ABOVE,
+    COLUMN_SURFACE,
+    COLUMN_ZONED,
+    COLUMN
+};
 
 /* Adds the volumes of what flows of one level, weighted by the hat function. Where levels meet each
  * counts by its share: by their roles rows of the coarser one were in or out as a whole, and the
@@ -248,6 +259,7 @@ static void add_level(const struct sph *s, const struct column *c, const struct 
             continue;
         const double above = level_window_above(w, z), inside = level_window_inside(w, z, above);
         sums[COLUMN_ALL] += weight;
+        sums[COLUMN_UNDER] += z < c->roof ? weight : 0.0;
         sums[COLUMN_ABOVE] += weight * above;
         sums[COLUMN_WINDOW] += weight * inside;
         sums[COLUMN_ZONED] += s->p.zone[i] != ZONE_FREE;
@@ -264,11 +276,15 @@ static void sum_column(const struct sph *s, const struct column *c, const struct
     MPI_Allreduce(MPI_IN_PLACE, sums, COLUMN, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
-/* Level as if the water filled the column's section; drowned solids count as water. With roof NAN
- * the comparison is false, and nothing drowns. */
-static double level_of(const struct sph *s, const struct column *c, double volume)
+/* Level as if the water filled the column's section; drowned solids count as water, but what stands
+ * on one with air below it is another water. With roof NAN the comparisons are false, and nothing
+ * drowns. */
+static double level_of(const struct sph *s, const struct column *c, const double *sums)
 {
-    const double level = c->floor + volume / c->section;
+    const double level = c->floor + sums[COLUMN_ALL] / c->section;
+    const double under = c->floor + sums[COLUMN_UNDER] / c->section;
+    if (c->covered && under < c->roof - s->dx)
+        return under;
     return level > c->roof + 0.5 * s->dx ? level + c->drowned : level; /* no roof: NAN */
 }
 
@@ -296,7 +312,7 @@ double level_gauge(struct sph *s, const double *at)
     const struct level_window none = level_window(INFINITY, INFINITY, s->dx);
     double all[COLUMN] = {0.0}, sums[COLUMN] = {0.0};
     sum_column(s, &c, &none, all);
-    const double level = level_of(s, &c, all[COLUMN_ALL]);
+    const double level = level_of(s, &c, all);
     const struct level_window w = level_window(isfinite(c.roof) ? c.crest : c.ground, level, s->dx);
     if (!is_disturbed(s, &c, all[COLUMN_ZONED]) || !level_window_fits(&w))
         return level;

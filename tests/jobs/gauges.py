@@ -238,6 +238,17 @@ shapes: ( { box = ((0, 0.4), (0.5, 0.5)); } ); probes: ( %s ); sph: { dx = 0.02;
 for gauge in 'abcd':
     near('ledge: level at ' + gauge, column('ledge', gauge + ' [')[0], 0.5, 0.1 * 0.02, 'ledge.txt')
 
+# Water on a deck does not count for the level below it where air is left between; it does where the deck is drowned (at
+# first it always did: 0.26 m for 0.16 m).
+for case, water, deck, wanted in ('decks', '{ box = ((0, 0), (1, 0.16)); }, { box = ((0, 0.4), (1, 0.5)); }', (0, 0.3, 1, 0.4), 0.16), \
+        ('drowned', '{ box = ((0, 0), (1, 0.5)); }', (0.3, 0.2, 0.7, 0.3), 0.5):
+    run_case(case, scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1, 0.8); };
+    walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); bodies: ( { box = ((%g, %g), (%g, %g)); } );
+    shapes: ( %s ); probes: ( %s ); sph: { dx = 0.02; };
+    ''' % (*deck, water, probes('level', 'below 0.5, 0.1', 'above 0.5, 0.45'))))
+    for gauge, level in ('below', wanted), ('above', 0.5):
+        near('%s: level %s the deck' % (case, gauge), column(case, gauge + ' [')[0], level, 0.1 * 0.02, case + '.txt')
+
 # The level under a body is its underside, also while an edge of refinement goes down through the rows of the column: each
 # of the two levels counts by its share there (by whole rows it was out by 0.4 dx, and a body was taken for drowned).
 run_case('edge', scene(0.6, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1.2, 1.2); };
