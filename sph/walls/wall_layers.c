@@ -9,7 +9,7 @@
 /* int f dS over the plane at the height h, f of the distance, within R. Midpoints. */
 static double over_plane(const struct sph *s, double h, double (*f)(const struct sph *s, double r))
 {
-    enum { POINTS = 100 }; /* of W: 5e-5 of the whole at the wall in 3D, 1e-10 in 2D */
+    enum { POINTS = 200 }; /* of W: 1e-5 of the whole at the wall in 3D, 1e-11 in 2D */
     const double R = s->R, half = h < R ? sqrt(R * R - h * h) : 0.0;
     double sum = 0.0;
     for (int j = 0; j < POINTS; j++) {
@@ -20,6 +20,13 @@ static double over_plane(const struct sph *s, double h, double (*f)(const struct
 }
 
 static double kernel(const struct sph *s, double r) { return kernel_w(s->dim, r, s->R); }
+
+/* What the function whose gradient the crowding vector sums [4.89] has more than the kernel. */
+static double excess(const struct sph *s, double r)
+{
+    const double W = kernel(s, r), q = W / kernel(s, s->dx);
+    return 0.04 * W * q * q * q * q;
+}
 
 /* Of the gradient whose sum the crowding vector is, (1 + (W/W(dx))^4/5) grad W: over -r. */
 static double push(const struct sph *s, double r)
@@ -68,26 +75,6 @@ void wall_layers_crowding(const struct sph *s, int n, double *ratio)
     }
 }
 
-/* int (W + 0.04 W^5/W(dx)^4) over int W of a plane at the distance k/n R: what the function
- * whose gradient the crowding vector sums [4.89] has more than the kernel. Midpoints. */
-static void integrals_of_plane(const struct sph *s, int n, double *ratio)
-{
-    enum { POINTS = 200 };
-    const double W0 = kernel_w(s->dim, s->dx / s->R, 1.0);
-    for (int k = 0; k < n; k++) {
-        const double d = (double)k / n, half = sqrt(1.0 - d * d);
-        double sum = 0.0, more = 0.0;
-        for (int j = 0; j < POINTS; j++) {
-            const double y = (j + 0.5) / POINTS * half, ring = s->dim == 3 ? y : 1.0;
-            const double W = kernel_w(s->dim, hypot(d, y), 1.0), q = W / W0;
-            sum += ring * W;
-            more += 0.04 * ring * W * q * q * q * q;
-        }
-        ratio[k] = 1.0 + more / sum;
-    }
-    ratio[n] = 1.0;
-}
-
 /* Whether the fluid fills all between sides of the domain: nothing else bounds it. */
 static bool fills_sides(const struct sph *s)
 {
@@ -100,8 +87,13 @@ static bool fills_sides(const struct sph *s)
 
 void wall_layers_tabulate(const struct sph *s, int n, double *ratio)
 {
-    if (fills_sides(s))
+    if (fills_sides(s)) {
         wall_layers_crowding(s, n, ratio);
-    else
-        integrals_of_plane(s, n, ratio);
+        return;
+    }
+    ratio[n] = 1.0;
+    for (int k = 0; k < n; k++) {
+        const double d = k * s->R / n;
+        ratio[k] = 1.0 + over_plane(s, d, excess) / over_plane(s, d, kernel);
+    }
 }

@@ -18,6 +18,7 @@
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "forces.h"
+#include "wall_air.h"
 #include "wall_gap.h"
 #include "wall_layers.h"
 #include "wall_list.h"
@@ -210,6 +211,7 @@ struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped, mu;
     bool in_air;               /* a layer one particle thick, or less */
+    double open;               /* in air: see wall_air_open */
     bool film;                 /* near a free surface */
     double pairs[3], walls[3]; /* 0: no wall here exerts friction; see friction_weight */
 };
@@ -355,28 +357,13 @@ INLINE double friction_weight(const struct wall_touch *t, const struct seen *i, 
     return walls > 0.5 * t->is.W ? t->is.W * fmax(0.0, fmin(pairs / walls, 2.0)) : t->is.W;
 }
 
-/* Whether a film runs along a wall so fast that its weight is nothing to it: rho u^2/2 above
- * WEIGHTS layers of particles. What hangs or drips is slower; a jet of one particle that no wall
- * held would leave a plate that follows it, and be hit again with rho c u. */
-INLINE bool runs_along(const struct sph *s, const struct seen *i, const double *uw, const double *n,
-                       const int dim)
-{
-    enum { WEIGHTS = 500 };
-    double square = 0.0, across = 0.0, gravity = 0.0;
-    for (int a = 0; a < dim; a++) {
-        square += (i->u[a] - uw[a]) * (i->u[a] - uw[a]);
-        across += (i->u[a] - uw[a]) * n[a];
-        gravity += s->gravity[a] * s->gravity[a];
-    }
-    return fmax(square - across * across, 0.0) >= 2.0 * WEIGHTS * sqrt(gravity) * s->dx;
-}
-
 /* One piece: pressure, volume, friction, and for ALE what runs with u - u0 [4.26-4.29]. */
 INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const struct seen *i,
                          double wave, const int dim)
 {
     const bool ale = s->prm.scheme == SCHEME_RIEMANN_ALE;
-    const double *moved = ale ? i->u0 : i->u, mu = i->mu, W = t->is.W;
+    const double *moved = ale ? i->u0 : i->u, mu = i->mu;
+    const double W = t->is.W * (i->in_air ? wall_air_share(s, t, i->open) : 1.0);
     double x[3], uw[3], across = 0.0, drift = 0.0;
     for (int a = 0; a < dim; a++)
         x[a] = i->x[a] + t->is.e[a];
@@ -390,7 +377,7 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
                  held = wave * share_of_wave(s, t, i->film);
     double P = i->p + wall_pressure(s, i, t->is.e, near, held, uw, t->n, dim) - 2.0 * i->damped;
     /* What walls do not hold: a drop under a roof falls, air comes between. */
-    if (i->in_air && !runs_along(s, i, uw, t->n, dim)) {
+    if (i->in_air && !wall_air_runs_along(s, i->u, uw, t->n, dim)) {
         P = fmax(P, 0.0);
         across = i->p > 0.0 ? across : fmin(across, 0.0);
     }
@@ -429,15 +416,6 @@ INLINE struct given rim_flux(const struct sph *s, const double *rim, const struc
     return to;
 }
 
-/* Whether there are too few neighbours for gradients: none are made then. */
-INLINE bool is_in_air(const struct sph *s, const double *slope, const int dim)
-{
-    bool none = s->surface != NULL;
-    for (int a = 0; a < dim + dim * dim && none; a++)
-        none = slope[a] == 0.0;
-    return none;
-}
-
 INLINE struct seen look(const struct sph *s, int i, const int dim)
 {
     const double *q = prim_line(&s->p, i), *g = slope_line(&s->p, i), rho = q[at_rho(dim)];
@@ -457,7 +435,7 @@ INLINE struct seen look(const struct sph *s, int i, const int dim)
                          .w = q[at_volume(dim)],
                          .damped = is_riemann(s) ? damper * divergence : 0.0,
                          .film = s->walls->near_surface && s->walls->near_surface[i],
-                         .in_air = is_in_air(s, g, dim)};
+                         .in_air = wall_air_around(s, g, dim)};
 }
 
 static bool takes_along(const struct sph *s)
@@ -613,6 +591,7 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
         return 0.0;
     struct seen i = look(s, who, dim);
     i.mu = m->mu;
+    i.open = i.in_air ? wall_air_open(l, k, dim) : 1.0;
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
     double *rate = state_row(&s->p, s->p.rate, who), pairs[3], own[8] = {0.0};

@@ -1,4 +1,4 @@
-"""Walls and bodies as a case has them: a wedge that enters water, schemes and the walls they can take, walls that are too thin.
+"""Walls and bodies as a case has them: a wedge that enters water, schemes and the walls they can take, drops that fall, walls that are too thin.
 SPDX-License-Identifier: BSD-3-Clause"""
 import math
 
@@ -140,6 +140,23 @@ for scheme, dx in ('delta', 0.05), ('delta', 0.025), ('standard', 0.05):
     run_case('channel', channel)
     error = number('channel', 'error.velocity_l2')
     check(error < 0.01, 'channel, %s, dx %g: velocity off by %g' % (scheme, dx, error))
+
+
+# Drops, sheets and blocks fall with g until they are a spacing from the floor, whatever is beside them: a wall, a corner
+G, DX, LOW = 9.81, 0.05, 0.25
+AIR = changed(TANK, time='end = 1;', output='series = 1; snapshots = false;', sph='dx = %g;' % DX)
+THICK = changed(AIR, domain='dim = 3; max = (0.5, 0.5, 0.6);', fluid='rho = 1000.0; gravity = (0, 0, -%g);' % G, walls=sides(FLOOR + ' y_max z_min'))
+for name, case, size in ('one', AIR, (1, 1)), ('two', AIR, (2, 1)), ('sheet', AIR, (20, 1)), ('block', AIR, (4, 4)), \
+        ('one3', THICK, (1, 1, 1)), ('sheet3', THICK, (10, 10, 1)):
+    up = len(size) - 1
+    far = [LOW if k == up else 0 for k in range(len(size))], [n * DX + (LOW if k == up else 0) for k, n in enumerate(size)]
+    run_case('fall', changed(case, shapes='{ form = "box"; box = ((%s), (%s)); }' % tuple(', '.join(map(str, x)) for x in far)))
+    lands = math.sqrt(2 * (LOW - DX / 2) / G)
+    fallen = [(t, -p / m) for t, p, m in zip(column('fall', 't ['), column('fall', 'momentum ' + 'xyz'[up]), column('fall', 'mass')) if t < lands]
+    check(len(fallen) > 10 and max(abs(u - G * t) for t, u in fallen) <= 0.01 * G * lands,
+          '%s: falls at %s m/s after %s s' % (name, fallen[-1][1], fallen[-1][0]), 'fall.txt')
+    check(last('fall', 'put back') == 0 and abs(last('fall', 'momentum ' + 'xyz'[up])) < 0.1 * G * lands * last('fall', 'mass'),
+          name + ' does not stay on the floor')
 
 
 def refuses(words, case, *args):
