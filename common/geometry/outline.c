@@ -364,18 +364,26 @@ static int kept(const struct outline *is, double within, bool *stays)
     return n;
 }
 
+void outline_bounds(int n, const double (*x)[2], double *lo, double *hi)
+{
+    for (int a = 0; a < 2; a++) {
+        lo[a] = INFINITY;
+        hi[a] = -INFINITY;
+        for (int k = 0; k < n; k++) {
+            lo[a] = fmin(lo[a], x[k][a]);
+            hi[a] = fmax(hi[a], x[k][a]);
+        }
+    }
+}
+
 /* share: of the diagonal, what corners may be off. Where too many corners are left the tolerance
  * grows by fifths until there are few enough. A closed outline comes with its first corner twice,
  * as the two ends. */
 static void thin_out(struct outline *is, int most, double share)
 {
     bool *stays = NEW(bool, is->n);
-    double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-    for (int k = 0; k < is->n; k++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = fmin(lo[a], is->x[k][a]);
-            hi[a] = fmax(hi[a], is->x[k][a]);
-        }
+    double lo[2], hi[2];
+    outline_bounds(is->n, (const double(*)[2])is->x, lo, hi);
     double within = share * hypot(hi[0] - lo[0], hi[1] - lo[1]);
     while (kept(is, within, stays) > most)
         within *= 1.2;

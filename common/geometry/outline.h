@@ -24,4 +24,7 @@ struct outline {
 bool outline_read(const char *file, int most, bool whole, struct outline *is, char *text,
                   size_t size);
 
+/* Box around n points of the plane, m: sets the two of lo and hi; lo > hi: there are none. */
+void outline_bounds(int n, const double (*x)[2], double *lo, double *hi);
+
 #endif

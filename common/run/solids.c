@@ -20,9 +20,8 @@ static bool extent(const struct scene *s, enum mesh_owner owner, int k, double l
         lo[a] = m ? m->lo[a] : INFINITY;
         hi[a] = m ? m->hi[a] : -INFINITY;
     }
-    const struct line l = line_of(p, true);
     if (!m)
-        line_box(&l, lo, hi);
+        outline_bounds(p->n, p->x, lo, hi);
     return m || p->n > 0;
 }
 

@@ -4,8 +4,10 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "../geometry/geometry.h"
 #include "scene_facts.h"
 #include "scene_forms.h"
+#include "scene_mesh.h"
 
 #define ROWS(r) (r), (int)(sizeof(r) / sizeof *(r))
 #define AXES "x|y|z|rx|ry|rz"
@@ -172,6 +174,16 @@ const struct param scene_body_rows[] = {
 #undef P
 /* clang-format on */
 const int scene_body_nrows = sizeof scene_body_rows / sizeof scene_body_rows[0];
+
+void scene_body_box(const struct scene_body *b, double lo[3], double hi[3])
+{
+    for (int a = 0; a < 3; a++) {
+        lo[a] = b->mesh ? b->mesh->lo[a] : 0.0;
+        hi[a] = b->mesh ? b->mesh->hi[a] : 0.0;
+    }
+    if (b->points.n > 0)
+        outline_bounds(b->points.n, b->points.x, lo, hi);
+}
 
 bool scene_body_moves(const struct scene_body *b)
 {

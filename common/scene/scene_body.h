@@ -131,6 +131,9 @@ extern const struct param_list scene_motion_list;
 
 /* Whether the body ever moves: it is free, or has a velocity or terms of motion. */
 bool scene_body_moves(const struct scene_body *b);
+/* Box around its surface at the start, m; a body in the plane has 0 along the third axis, one
+ * without a surface everywhere. */
+void scene_body_box(const struct scene_body *b, double lo[3], double hi[3]);
 /* Whether another program of the job moves the body; whether it moves each point of its outline. */
 bool scene_body_partnered(const struct scene_body *b);
 bool scene_body_bends(const struct scene_body *b);

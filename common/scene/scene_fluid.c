@@ -167,9 +167,8 @@ void scene_shape_extent(const struct scene_shape *h, double lo[3], double hi[3])
         lo[a] = box ? h->box[0][a] : disc ? h->centre[a] - h->radius : -INFINITY;
         hi[a] = box ? h->box[1][a] : disc ? h->centre[a] + h->radius : INFINITY;
     }
-    const struct line l = line_of(&h->points, true);
     if (points)
-        line_box(&l, lo, hi);
+        outline_bounds(h->points.n, h->points.x, lo, hi);
 }
 
 /* Whether shape k holds fluid at one of these places. */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../geometry/geometry.h"
+
 /* Lengths below this part of a line's size are rounding. */
 static const double rounding = 1e-9;
 
@@ -57,22 +59,10 @@ double line_length(const struct line *l)
     return sum;
 }
 
-void line_box(const struct line *l, double lo[2], double hi[2])
-{
-    for (int a = 0; a < 2; a++) {
-        lo[a] = INFINITY;
-        hi[a] = -INFINITY;
-        for (int k = 0; k < l->n; k++) {
-            lo[a] = fmin(lo[a], l->x[k][a]);
-            hi[a] = fmax(hi[a], l->x[k][a]);
-        }
-    }
-}
-
 double line_size(const struct line *l)
 {
     double lo[2], hi[2];
-    line_box(l, lo, hi);
+    outline_bounds(l->n, l->x, lo, hi);
     return fmax(hi[0] - lo[0], hi[1] - lo[1]);
 }
 

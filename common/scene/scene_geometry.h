@@ -28,8 +28,6 @@ double line_area(const struct line *l);
 void line_moments(const struct line *l, double *area, double centre[2], double *polar);
 /* Sum of the segments' lengths, m. */
 double line_length(const struct line *l);
-/* The box round its points, m; none: lo > hi. */
-void line_box(const struct line *l, double lo[2], double hi[2]);
 /* Larger side of the bounding box, m. */
 double line_size(const struct line *l);
 /* If the last point repeats the first, drops it and marks the line as closed. */

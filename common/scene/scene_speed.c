@@ -97,26 +97,17 @@ static double wall_speed(const struct scene *s)
     return speed;
 }
 
-/* Box around the outline of a body; lo > hi: it has none. */
-static void outline_box(const struct scene_body *b, double lo[2], double hi[2])
-{
-    const struct line l = line_of(&b->points, true);
-    line_box(&l, lo, hi);
-}
-
 /* What it turns about; that of a free body of given density follows from its outline, and the
  * middle is near enough. */
-static void body_centre(const struct scene_body *b, const struct scene_mesh *mesh, double centre[3])
+static void body_centre(const struct scene_body *b, double centre[3])
 {
+    double lo[3], hi[3];
     memcpy(centre, b->centre, sizeof b->centre);
     if (!b->free || b->mass > 0.0)
         return;
-    double lo[3] = {0.0}, hi[3] = {0.0};
-    outline_box(b, lo, hi);
+    scene_body_box(b, lo, hi);
     for (int a = 0; a < 3; a++)
-        centre[a] = mesh             ? 0.5 * (mesh->lo[a] + mesh->hi[a])
-                    : hi[a] >= lo[a] ? 0.5 * (lo[a] + hi[a])
-                                     : 0.0;
+        centre[a] = 0.5 * (lo[a] + hi[a]);
 }
 
 static double body_speed(const struct scene *s)
@@ -124,9 +115,9 @@ static double body_speed(const struct scene *s)
     double speed = 0.0;
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;
-        const struct scene_mesh *mesh = scene_mesh_of(s, MESH_OF_BODY, k);
+        const struct scene_mesh *mesh = b->mesh;
         double reach = 0.0, centre[3];
-        body_centre(b, mesh, centre);
+        body_centre(b, centre);
         for (int i = 0; i < b->points.n; i++)
             reach =
                 fmax(reach, hypot(b->points.x[i][0] - centre[0], b->points.x[i][1] - centre[1]));
@@ -191,34 +182,59 @@ double scene_water_top(const struct scene *s)
     return top;
 }
 
-/* Box around the meshes that hold the fluid, where no side of the domain does; else no extent. */
-static void room_of(const struct scene *s, double lo[3], double hi[3])
+static void widen(double room[2][3], bool *any, const double *lo, const double *hi)
 {
-    bool sides = !s->meshes, any = false;
+    for (int a = 0; a < 3; a++) {
+        room[0][a] = *any ? fmin(room[0][a], lo[a]) : lo[a];
+        room[1][a] = *any ? fmax(room[1][a], hi[a]) : hi[a];
+    }
+    *any = true;
+}
+
+/* Box around a tank; around the ball that holds it if it moves, for it may turn. */
+static void tank_box(const struct scene_body *b, double lo[3], double hi[3])
+{
+    double across = 0.0;
+    scene_body_box(b, lo, hi);
+    for (int a = 0; a < 3; a++)
+        across += (hi[a] - lo[a]) * (hi[a] - lo[a]);
+    for (int a = 0; a < 3 && scene_body_moves(b); a++) {
+        const double middle = 0.5 * (lo[a] + hi[a]);
+        lo[a] = middle - 0.5 * sqrt(across);
+        hi[a] = middle + 0.5 * sqrt(across);
+    }
+}
+
+/* Box around the tanks and meshes that hold the fluid, where no side of the domain does; else no
+ * extent. */
+static void room_of(const struct scene *s, double room[2][3])
+{
+    bool sides = false, any = false;
     for (int k = 0; k < s->nwalls; k++)
         sides = sides || s->walls[k].side != SIDE_NONE;
-    for (int k = 0; !sides && k < s->meshes->n; k++) {
+    for (int k = 0; s->meshes && !sides && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
-        if (m->owner != MESH_OF_WALL || m->fluid_side != FLUID_INSIDE)
-            continue;
-        for (int a = 0; a < 3; a++) {
-            lo[a] = any ? fmin(lo[a], m->lo[a]) : m->lo[a];
-            hi[a] = any ? fmax(hi[a], m->hi[a]) : m->hi[a];
-        }
-        any = true;
+        if (m->owner == MESH_OF_WALL && m->fluid_side == FLUID_INSIDE)
+            widen(room, &any, m->lo, m->hi);
+    }
+    for (int k = 0; k < s->nbodies; k++) {
+        double lo[3], hi[3];
+        tank_box(s->bodies + k, lo, hi);
+        if (s->bodies[k].tank)
+            widen(room, &any, lo, hi);
     }
 }
 
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
-    double g[3], range[2], lo[3] = {0.0}, hi[3] = {0.0};
+    double g[3], range[2], room[2][3] = {{0.0}};
     bool still = true;
     *depth = *fall = 0.0;
     if (weight(s, g) == 0.0)
         return;
-    room_of(s, lo, hi);
-    heights(s, g, lo, hi, range);
+    room_of(s, room);
+    heights(s, g, room[0], room[1], range);
     if (scene_has_wave(s)) {
         const double level = s->initial.level < LEVEL_TOP ? s->initial.level : range[1];
         *depth = fmin(level + fabs(s->initial.amplitude), range[1]) - range[0];
@@ -313,8 +329,8 @@ static double shortest(const struct scene *s)
     for (int a = 0; a < s->domain.dim; a++)
         least = fmin(least, s->domain.periodic[a] ? INFINITY : extent(s, a));
     for (int k = 0; k < s->nbodies; k++) {
-        double lo[2], hi[2];
-        outline_box(s->bodies + k, lo, hi);
+        double lo[3], hi[3];
+        scene_body_box(s->bodies + k, lo, hi);
         for (int a = 0; a < 2; a++)
             least = hi[a] > lo[a] ? fmin(least, hi[a] - lo[a]) : least;
     }

@@ -63,14 +63,8 @@ static double face_of(const struct scene *s, const struct scene_body *b)
 /* A point in the middle of what is in the way of the waves. */
 static void middle_of(const struct scene_body *b, double middle[3])
 {
-    double lo[3] = {0.0, 0.0, 0.0}, hi[3] = {0.0, 0.0, 0.0};
-    if (b->mesh)
-        trimesh_bounds(&b->mesh->mesh, lo, hi);
-    for (int i = 0; i < b->points.n; i++)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = i > 0 ? fmin(lo[a], b->points.x[i][a]) : b->points.x[i][a];
-            hi[a] = i > 0 ? fmax(hi[a], b->points.x[i][a]) : b->points.x[i][a];
-        }
+    double lo[3], hi[3];
+    scene_body_box(b, lo, hi);
     for (int a = 0; a < 3; a++)
         middle[a] = 0.5 * (lo[a] + hi[a]);
 }

@@ -119,12 +119,11 @@ static void create_free(struct body *b, const struct body_mass *m)
 /* Of the box round its surface. */
 static void set_middle(struct body *b)
 {
-    double lo[3] = {0.0}, hi[3] = {0.0};
-    const struct line l = line_of(&b->is->points, true);
+    double lo[3], hi[3];
     if (b->mesh)
         trimesh_bounds(b->mesh, lo, hi);
-    else if (l.n > 0)
-        line_box(&l, lo, hi);
+    else
+        scene_body_box(b->is, lo, hi);
     for (int a = 0; a < 3; a++) {
         b->middle[a] = 0.5 * (lo[a] + hi[a]);
         b->half[a] = 0.5 * (hi[a] - lo[a]);

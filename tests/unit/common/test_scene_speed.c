@@ -44,6 +44,26 @@ TEST(water_falls_from_its_top_to_the_bottom)
     assert_close(speed_of(&s), sqrt(2.0 * 9.81), 1e-12);
 }
 
+/* Of a tank's water it is the tank's floor, wherever the domain ends; a tank that may turn can
+ * bring its water into a corner. */
+TEST(water_in_a_tank_falls_to_the_floor_of_the_tank)
+{
+    static const struct scene_body tank = {
+        .tank = true, .points = {.n = 4, .x = {{0.0, 0.5}, {0.6, 0.5}, {0.6, 0.9}, {0.0, 0.9}}}};
+    struct scene s = column(0.7);
+    s.shapes[0].box[0][1] = 0.5;
+    s.nbodies = 1;
+    s.bodies[0] = tank;
+    assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 0.2), 1e-12);
+    s.bodies[0].spin[2] = 0.1;
+    const double low = 0.7 - 0.5 * hypot(0.6, 0.4);
+    const double fall = 2.0 * 9.81 * (0.7 - low);
+    assert_true(speed_of(&s) > sqrt(fall) - 1e-12 && speed_of(&s) < sqrt(fall) + 0.1);
+    s.bodies[0].tank = false;
+    s.bodies[0].spin[2] = 0.0;
+    assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 0.7), 1e-12);
+}
+
 TEST(a_column_scales_with_its_units)
 {
     struct scene s = column(0.6), small = s;
