@@ -308,9 +308,23 @@ static void read_plan(char **words)
             m.act[i].first = m.act[i].first || strcmp(m.act[i].name, part(*w, 0)) == 0;
 }
 
-int main(int argc, char **argv)
+/* A file of DIR to write to; what it cannot open is said, and ends the job. */
+static FILE *created(const char *dir, const char *name)
 {
     char path[1024];
+    snprintf(path, sizeof path, "%s/%s", dir, name);
+    FILE *f = fopen(path, "w");
+    if (f)
+        return f;
+    perror(path);
+    cpl_close(&m.c, 2);
+    MPI_Finalize();
+    exit(2);
+}
+
+int main(int argc, char **argv)
+{
+    char name[256];
     int version = CPL_VERSION;
     MPI_Init(&argc, &argv);
     m.dt = INFINITY;
@@ -329,10 +343,10 @@ int main(int argc, char **argv)
             must(cpl_zone(m.c, part(argv[i], 0), box, box));
     }
     must(cpl_meet(m.c, 0, restart, faults, argv[2]));
-    snprintf(path, sizeof path, "%s/%s.%d", argv[2], argv[1], m.rank);
-    m.out = fopen(path, "w");
-    snprintf(path, sizeof path, "%s/%s.sums", argv[2], argv[1]);
-    m.sums = m.rank == 0 ? fopen(path, "w") : NULL;
+    snprintf(name, sizeof name, "%s.%d", argv[1], m.rank);
+    m.out = created(argv[2], name);
+    snprintf(name, sizeof name, "%s.sums", argv[1]);
+    m.sums = m.rank == 0 ? created(argv[2], name) : NULL;
     read_plan(argv + 3);
     must(cpl_ready(m.c, m.t, m.dt));
     for (int i = 0; i < m.nsets; i++)
