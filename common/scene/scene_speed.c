@@ -182,15 +182,6 @@ double scene_water_top(const struct scene *s)
     return top;
 }
 
-static void widen(double room[2][3], bool *any, const double *lo, const double *hi)
-{
-    for (int a = 0; a < 3; a++) {
-        room[0][a] = *any ? fmin(room[0][a], lo[a]) : lo[a];
-        room[1][a] = *any ? fmax(room[1][a], hi[a]) : hi[a];
-    }
-    *any = true;
-}
-
 /* Box around a tank; around the ball that holds it if it moves, for it may turn. */
 static void tank_box(const struct scene_body *b, double lo[3], double hi[3])
 {
@@ -205,36 +196,38 @@ static void tank_box(const struct scene_body *b, double lo[3], double hi[3])
     }
 }
 
-/* Box around the tanks and meshes that hold the fluid, where no side of the domain does; else no
+/* Box around the tank or the meshes that hold the fluid, where no side of the domain does; else no
  * extent. */
-static void room_of(const struct scene *s, double room[2][3])
+static void room_of(const struct scene *s, double lo[3], double hi[3])
 {
-    bool sides = false, any = false;
+    bool sides = !s->meshes, any = false;
     for (int k = 0; k < s->nwalls; k++)
         sides = sides || s->walls[k].side != SIDE_NONE;
-    for (int k = 0; s->meshes && !sides && k < s->meshes->n; k++) {
+    for (int k = 0; !sides && k < s->meshes->n; k++) {
         const struct scene_mesh *m = s->meshes->of + k;
-        if (m->owner == MESH_OF_WALL && m->fluid_side == FLUID_INSIDE)
-            widen(room, &any, m->lo, m->hi);
+        if (m->owner != MESH_OF_WALL || m->fluid_side != FLUID_INSIDE)
+            continue;
+        for (int a = 0; a < 3; a++) {
+            lo[a] = any ? fmin(lo[a], m->lo[a]) : m->lo[a];
+            hi[a] = any ? fmax(hi[a], m->hi[a]) : m->hi[a];
+        }
+        any = true;
     }
-    for (int k = 0; k < s->nbodies; k++) {
-        double lo[3], hi[3];
-        tank_box(s->bodies + k, lo, hi);
+    for (int k = 0; k < s->nbodies; k++)
         if (s->bodies[k].tank)
-            widen(room, &any, lo, hi);
-    }
+            tank_box(s->bodies + k, lo, hi);
 }
 
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
-    double g[3], range[2], room[2][3] = {{0.0}};
+    double g[3], range[2], lo[3] = {0.0}, hi[3] = {0.0};
     bool still = true;
     *depth = *fall = 0.0;
     if (weight(s, g) == 0.0)
         return;
-    room_of(s, room);
-    heights(s, g, room[0], room[1], range);
+    room_of(s, lo, hi);
+    heights(s, g, lo, hi, range);
     if (scene_has_wave(s)) {
         const double level = s->initial.level < LEVEL_TOP ? s->initial.level : range[1];
         *depth = fmin(level + fabs(s->initial.amplitude), range[1]) - range[0];
