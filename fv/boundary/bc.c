@@ -246,15 +246,19 @@ static void fill_line(enum mesh_side kind, bool normal, int64_t in, int n, int64
         }
 }
 
-/* One component along one side. */
-static void fill(const struct bc *bc, const struct block *b, int k, enum mesh_side kind, int q,
-                 const double *w, const double *slip, double *u)
+/* One component along one side, near water. */
+static void fill(const struct fv *s, int k, enum mesh_side kind, int q, const double *w,
+                 const double *slip, double *u)
 {
-    const struct bc_side d = side_of(bc, b, k, true);
+    const struct block *b = &s->b;
+    const struct bc_side d = side_of(s->bc, b, k, true);
     for (int j = d.lo[1]; j < d.hi[1]; j++) {
-        const int64_t m = place(b, &d, d.lo[0], j);
-        fill_line(kind, q == d.a, d.in, d.hi[0] - d.lo[0], b->stride[d.t[0]], w ? w + m : NULL,
-                  slip ? slip + m : NULL, u + cell(b, &d, d.lo[0], j));
+        int ends[2] = {d.lo[0], d.hi[0]};
+        if (d.a > 0) /* lines along x */
+            part_clip(&s->whole, d.a == 1 ? d.first : j, d.a == 1 ? j : d.first, ends);
+        const int64_t m = place(b, &d, ends[0], j);
+        fill_line(kind, q == d.a, d.in, ends[1] - ends[0], b->stride[d.t[0]], w ? w + m : NULL,
+                  slip ? slip + m : NULL, u + cell(b, &d, ends[0], j));
     }
 }
 
@@ -282,7 +286,7 @@ void bc_ghosts(const struct fv *s, enum bc_value what, double *const u[3])
     for (int m = 0; bc && m < 6; m++) {
         const int k = 2 * axis_of_turn(bc, m / 2) + m % 2;
         for (int q = 0; q < s->b.dim && bc->n[k] > 0; q++)
-            fill(bc, &s->b, k, bc->kind[k], q, side_value(bc, k, q, what),
+            fill(s, k, bc->kind[k], q, side_value(bc, k, q, what),
                  what == BC_AHEAD || what == BC_CHANGE ? bc->slip[k][q] : NULL, u[q]);
     }
 }

@@ -108,9 +108,10 @@ void forcing_fill(const struct fv *s, const unsigned char *mask);
 void forcing_fluxes_variation(const struct fv *s, double *const U[3]);
 /* Adds to the gradient `out' of q along axis a the effect of extrapolating q into the imposed
  * cells: with zero gradient, or by a cubic (of lower degree where fewer than four free cells stand
- * in line). */
-void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
-                      double *out);
+ * in line). dry: not 0 in cells that are left alone, since the surface makes their gradient; NULL:
+ * none. */
+void forcing_gradient(const struct fv *s, int a, enum continuation how, const unsigned char *dry,
+                      const double *q, double *out);
 /* forcing_fixes.c: computes the weights for this along axis a. */
 void forcing_list_fixes(const struct fv *s, struct forcing *f, int a);
 /* Extends p into the near imposed cells from the free side, `layers' layers, one by one. */

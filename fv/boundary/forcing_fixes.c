@@ -135,13 +135,15 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
 }
 
 /* given holds an outflow's pressure; psi and variations have none. */
-void forcing_gradient(const struct fv *s, int a, enum continuation how, const double *q,
-                      double *out)
+void forcing_gradient(const struct fv *s, int a, enum continuation how, const unsigned char *dry,
+                      const double *q, double *out)
 {
     const struct forcing *f = s->forcing;
     const int64_t d = s->b.stride[a];
     for (int64_t i = 0; i < f->nfix[a]; i++) {
         const struct fix *x = f->fix[a] + i;
+        if (dry && dry[x->cell])
+            continue;
         const double *w = (how == CONTINUE_EVEN ? x->even : x->cubic) + REACH, *at = q + x->cell;
         for (int m = -REACH; m <= REACH; m++)
             out[x->cell] += w[m] * at[m * d];

@@ -246,3 +246,27 @@ void grid_fill(const struct grid *g, int nf, double *const *f)
     else
         block_halo(g->even, nf, f);
 }
+
+/* to = from, or 0 if from is NULL, in the cells near water of a line and the ghosts beside them. */
+static void set_line(const struct part *p, int j, int k, const double *from, double *to)
+{
+    const int all[2] = {0, p->n[0]};
+    int ends[2];
+    part_with_ghosts(p, p->near ? p->near[part_row(p, j, k)] : all, ends);
+    const int64_t c = part_at(p, ends[0], j, k);
+    const size_t bytes = (size_t)(ends[1] - ends[0]) * sizeof(double);
+    if (from)
+        memcpy(to + c, from + c, bytes);
+    else
+        memset(to + c, 0, bytes);
+}
+
+void grid_copy_near(const struct grid *g, const double *from, double *to)
+{
+    for (const struct part *p = g->part; p < g->part + g->nparts; p++)
+        for (int k = -p->g[2]; k < p->n[2] + p->g[2]; k++)
+            for (int j = -p->g[1]; j < p->n[1] + p->g[1]; j++)
+                set_line(p, j, k, from, to);
+}
+
+void grid_clear_near(const struct grid *g, double *q) { grid_copy_near(g, NULL, q); }

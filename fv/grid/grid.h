@@ -64,6 +64,11 @@ void grid_face_vector(const struct grid *g, int64_t c, int a, double S[3]);
 void grid_halo(const struct grid *g, int nf, double *const *f);
 /* The same and the fringe of overlaps. Collective. */
 void grid_fill(const struct grid *g, int nf, double *const *f);
+/* Copies the cells near water of one field to another, and the ghosts beside them: all of the
+ * fields where all cells are near. */
+void grid_copy_near(const struct grid *g, const double *from, double *to);
+/* Clears the same of a field. */
+void grid_clear_near(const struct grid *g, double *q);
 
 /* The part that has place c, ghosts too, and the cell there (at: or NULL). */
 static inline const struct part *grid_part(const struct grid *g, int64_t c, int *at)

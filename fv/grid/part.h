@@ -41,6 +41,26 @@ static inline int part_nears(const struct part *p, int down, int up, int j, int 
     return n > 0 ? n + down + up : 0;
 }
 
+/* Begin and end of a run (first cell and number, as in near) with the ghosts that lie beside it. */
+static inline void part_with_ghosts(const struct part *p, const int run[2], int ends[2])
+{
+    const int g = run[1] > 0 ? p->g[0] : 0;
+    ends[0] = run[0] - (run[0] == 0 ? g : 0);
+    ends[1] = run[0] + run[1] + (run[0] + run[1] == p->n[0] ? g : 0);
+}
+
+/* Cuts the indices from ends[0] to before ends[1] along x of the line (j, k) to what is within the
+ * ghosts' width of cells near water; none may be left. */
+static inline void part_clip(const struct part *p, int j, int k, int ends[2])
+{
+    const int *run = p->near ? p->near[part_row(p, j, k)] : NULL;
+    if (!run)
+        return;
+    const int first = run[0] - p->g[0], end = run[1] > 0 ? run[0] + run[1] + p->g[0] : first;
+    ends[0] = ends[0] > first ? ends[0] : first;
+    ends[1] = ends[1] < end ? ends[1] : end;
+}
+
 /* Index in a field of cell (i, j, k), which may be a ghost. */
 static inline int64_t part_at(const struct part *p, int i, int j, int k)
 {

@@ -48,9 +48,12 @@ static void viscous(struct fv *s, int q, double *out)
  * times the last stage's. Imposed cells and sides start with the change of their own values. */
 static void start_increment(struct fv *s, double t, double scale)
 {
-    for (int a = 0; a < s->dim; a++)
-        for (int64_t i = 0; i < s->size; i++)
-            s->delta[a][i] = scale != 0.0 ? scale * s->delta[a][i] : 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        if (scale == 0.0)
+            grid_clear_near(&s->grid, s->delta[a]);
+        for (int64_t i = 0; i < s->size && scale != 0.0; i++)
+            s->delta[a][i] *= scale;
+    }
     if (!s->forcing)
         return;
     for (int a = 0; a < s->dim && scale != 0.0; a++)
@@ -85,8 +88,6 @@ static double *divergence(struct fv *s, double tau)
 {
     const struct block *b = &s->b;
     double *restrict div = s->rhs[0];
-    if (s->surface) /* far from water */
-        memset(div, 0, (size_t)s->size * sizeof(double));
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];

@@ -5,6 +5,7 @@
 #include "../fv.h"
 
 #include "../boundary/fv_boundary.h"
+#include "../surface/fv_surface.h"
 #include "operators.h"
 
 /* A row of n cells, c = 1/(12 h). */
@@ -25,5 +26,5 @@ void gradient(const struct fv *s, const double *q, int a, enum continuation how,
         BLOCK_NEAR (s, 0, c, n)
             row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
     if (s->forcing)
-        forcing_gradient(s, a, how, q, out);
+        forcing_gradient(s, a, how, s->surface ? s->surface->layer : NULL, q, out);
 }

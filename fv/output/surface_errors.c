@@ -14,7 +14,7 @@
 double surface_energy(const struct fv *s)
 {
     double sum = 0.0;
-    FLOW_ROWS_AT (s, part, j, c, n)
+    FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             double square = 0.0;
             if (s->forcing && s->forcing->forced[i])
@@ -121,17 +121,21 @@ static double reach_on_cells(const struct fv *s, int a)
     const struct block *b = &s->b;
     const double *phi = s->surface->phi;
     double most = -INFINITY, x[3];
-    BLOCK_CELLS (b, i, j, k, c) {
-        const int above = (a == 0 ? i : a == 1 ? j : k) + 1;
-        if (!(phi[c] < 0.0) || (above < b->n[a] && phi[c + b->stride[a]] < 0.0))
-            continue; /* the next one reaches further */
-        block_centre(b, i, j, k, x);
-        const double next = phi[c + b->stride[a]];
-        double end = foot_of_water(s, (const int[]){i, j, k}, c, a);
-        if (a == 1 && b->rows)
-            end = (next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5) * block_step(b, a, j + 1);
-        most = fmax(most, x[a] + (isfinite(end) ? end : 0.5 * b->h[a]));
-    }
+    int at[3];
+    BLOCK_NEAR (s, 0, row, n)
+        for (int64_t c = row; c < row + n; c++) {
+            if (!(phi[c] < 0.0))
+                continue;
+            grid_part(&s->grid, c, at);
+            if (at[a] + 1 < b->n[a] && phi[c + b->stride[a]] < 0.0)
+                continue; /* the next one reaches further */
+            block_centre(b, at[0], at[1], at[2], x);
+            const double next = phi[c + b->stride[a]];
+            double end = foot_of_water(s, at, c, a);
+            if (a == 1 && b->rows)
+                end = (next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5) * block_step(b, a, at[1] + 1);
+            most = fmax(most, x[a] + (isfinite(end) ? end : 0.5 * b->h[a]));
+        }
     return ranks_max(b->cart, most);
 }
 
@@ -144,7 +148,7 @@ double surface_reach(const struct fv *s, int a)
 static double enstrophy(const struct fv *s)
 {
     double sum = 0.0;
-    FLOW_ROWS_AT (s, p, j, c, n)
+    FLOW_NEAR_AT (s, p, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const double part = surface_water(s, i);
             sum += part > 0.0

@@ -32,6 +32,7 @@ struct halved {
     double *diagonal, *per; /* 1/m^2, m^2: 1 over it, 0 where no row is */
     double *x, *y, *b;
     int (*run)[2];
+    int used[3][2]; /* along y and z: first line that has rows, and the one behind the last */
 };
 
 struct halving {
@@ -49,8 +50,8 @@ static int lines(const struct halved *l) { return l->n[1] * l->n[2]; }
 
 /* Lines of cells along x that have rows: c is the first cell, len their number. */
 #define HALVED_LINES(l, j, k, c, len)                                                              \
-    for (int k = 0, j; k < (l)->n[2]; k++)                                                         \
-        for (j = 0; j < (l)->n[1]; j++)                                                            \
+    for (int k = (l)->used[2][0], j; k < (l)->used[2][1]; k++)                                     \
+        for (j = (l)->used[1][0]; j < (l)->used[1][1]; j++)                                        \
             for (int64_t c = at(l, (l)->run[j + (l)->n[1] * k][0], j, k),                          \
                          len = (l)->run[j + (l)->n[1] * k][1], its_once_##c = 1;                   \
                  its_once_##c; its_once_##c = 0)
@@ -171,6 +172,21 @@ static void clear(const struct halving *h, const struct halved *l)
     }
 }
 
+/* Lines without rows are most of them where water is low. */
+static void find_used(struct halved *l)
+{
+    for (int a = 1; a < 3; a++) {
+        l->used[a][0] = l->n[a];
+        l->used[a][1] = 0;
+    }
+    for (int r = 0; r < lines(l); r++)
+        for (int a = 1; a < 3 && l->run[r][1] > 0; a++) {
+            const int at = a == 1 ? r % l->n[1] : r / l->n[1];
+            l->used[a][0] = at < l->used[a][0] ? at : l->used[a][0];
+            l->used[a][1] = at >= l->used[a][1] ? at + 1 : l->used[a][1];
+        }
+}
+
 static void set_run(const struct halving *h, const struct halved *l, struct halved *to)
 {
     for (int r = 0; r < lines(to); r++) {
@@ -194,6 +210,7 @@ static void set_run(const struct halving *h, const struct halved *l, struct halv
         MPI_Allreduce(MPI_IN_PLACE, to->run, 2 * lines(to), MPI_INT, MPI_MIN, h->block->cart);
     for (int r = 0; r < lines(to); r++)
         to->run[r][1] = to->run[r][0] < to->n[0] ? to->n[0] - to->run[r][1] - to->run[r][0] : 0;
+    find_used(to);
 }
 
 /* to += weight times what a line of a level has, whose first cell is cell `first' of the grid: at
@@ -249,6 +266,7 @@ void halving_begin(struct halving *h)
 
 void halving_set_matrix(struct halving *h)
 {
+    find_used(h->level);
     for (int q = 0; q < h->n; q++) {
         set_diagonal(h, h->level + q);
         if (q + 1 < h->n)

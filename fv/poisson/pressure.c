@@ -105,7 +105,7 @@ static double cut_coefficient(const struct block *b, const struct cut *x)
 static void add_cuts(const struct fv *s, double *z)
 {
     const struct surface *f = s->surface;
-    memset(z, 0, (size_t)s->b.size * sizeof(double));
+    grid_clear_near(&s->grid, z);
     for (int a = 0; a < s->b.dim; a++)
         for (int64_t i = 0; i < f->ncut[a]; i++)
             z[f->cut[a][i].wet] += cut_coefficient(&s->b, f->cut[a] + i);

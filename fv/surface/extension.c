@@ -365,19 +365,21 @@ static void find_layers(struct fv *s)
     struct surface *f = s->surface;
     double *field = f->rate, *wall = f->kept;
     const double level = ON_CENTRE * f->least;
-    for (int64_t c = 0; c < s->size; c++) {
-        wall[c] = surface_holds_none(s, c) ? 1.0 : 0.0;
-        field[c] = f->phi[c] < level && wall[c] == 0.0 ? 0.0 : DEEP;
-    }
-    for (int64_t c = 0; c < s->size; c++) /* scratch of rows that are not near water */
-        s->faces[0][c] = s->flux[c] = DEEP;
+    for (int64_t c = 0; c < s->size; c++) /* what is not near water, and scratch there */
+        field[c] = s->faces[0][c] = s->flux[c] = DEEP;
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
+        PART_NEAR (p, p->g, p->g, c, n)
+            for (int64_t i = c; i < c + n; i++) {
+                wall[i] = surface_holds_none(s, i) ? 1.0 : 0.0;
+                field[i] = f->phi[i] < level && wall[i] == 0.0 ? 0.0 : DEEP;
+            }
     for (int l = 1; l <= LAYERS; l++) {
         grid_halo(&s->grid, 1, &field);
         for (int q = 0; q < s->grid.nparts; q++)
             next_layer(s->grid.part + q, l, wall, s->faces[0], s->flux, field);
     }
     grid_halo(&s->grid, 1, &field);
-    for (int64_t c = 0; c < s->size; c++)
+    for (int64_t c = 0; c < s->size; c++) /* whole: water of another rank comes near in ghosts */
         f->layer[c] = (unsigned char)field[c];
     near_water_find(s);
 }

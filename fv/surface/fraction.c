@@ -201,8 +201,10 @@ void fraction_start(struct fv *s)
 void fraction_note_layers(const struct fv *s)
 {
     const struct surface *f = s->surface;
-    for (int64_t c = 0; c < s->size; c++)
-        f->fraction->layer[c] = f->layer[c];
+    for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++)
+        PART_NEAR (p, p->g, p->g, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                f->fraction->layer[i] = f->layer[i];
     f->fraction->has_flows = false;
 }
 
@@ -456,7 +458,7 @@ static void sweep(struct fv *s, int a, double dt, double per)
 {
     struct fraction *f = s->surface->fraction;
     find_planes(s);
-    memset(f->flux, 0, (size_t)s->size * sizeof(double)); /* beside cells near water, too */
+    grid_clear_near(&s->grid, f->flux); /* beside cells near water, too */
     find_fluxes(s, a, dt);
     outflow_count_volumes(s, f->axes.axis[a], f->flux);
     for (int64_t i = 0; f->passed[a] && i < s->size; i++)

@@ -4,7 +4,6 @@
 #include "fraction.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "../../common/base/base.h"
 #include "levelset.h"
@@ -112,8 +111,8 @@ void fraction_bound(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     /* beyond periods and other ranks both are 0 unless they are sent */
-    memset(f->work, 0, (size_t)s->size * sizeof(double));
-    memset(f->next, 0, (size_t)s->size * sizeof(double));
+    grid_clear_near(&s->grid, f->work);
+    grid_clear_near(&s->grid, f->next);
     for (int k = 0; k < PASSES && find_shares(s); k++)
         exchange(s);
     cut(s);

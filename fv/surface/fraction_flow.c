@@ -4,8 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fraction.h"
 
-#include <string.h>
-
 #include "../../common/base/base.h"
 #include "levelset.h"
 #include "mesh_view.h"
@@ -104,8 +102,8 @@ static void find_potential(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     double weight = 1.0;
-    memset(f->work, 0, (size_t)s->size * sizeof(double));
-    memset(f->next, 0, (size_t)s->size * sizeof(double));
+    grid_clear_near(&s->grid, f->work);
+    grid_clear_near(&s->grid, f->next);
     for (int k = 0; k < SWEEPS; k++) {
         double *const now = f->work;
         weight = k == 1 ? 1.0 / (1.0 - 0.5 * SPECTRAL) : 1.0 / (1.0 - 0.25 * SPECTRAL * weight);

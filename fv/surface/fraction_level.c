@@ -127,7 +127,7 @@ void fraction_correct_level(struct fv *s)
     struct fraction *f = w->fraction;
     const double band = 2.0 * w->largest;
     find_smooth(s);
-    memcpy(f->next, w->phi, (size_t)s->size * sizeof(double));
+    grid_copy_near(&s->grid, w->phi, f->next);
     FLOW_NEAR_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++) {
             const bool mixed = fraction_is_mixed(f->C[i]);
@@ -136,7 +136,7 @@ void fraction_correct_level(struct fv *s)
             const bool trusted = is_trusted(s, part, i);
             f->next[i] += (trusted ? TRUSTED : DOUBTED) * (wanted(s, part, i, trusted) - w->phi[i]);
         }
-    memcpy(w->phi, f->next, (size_t)s->size * sizeof(double));
+    grid_copy_near(&s->grid, f->next, w->phi);
     surface_ghosts(s, w->phi);
 }
 

@@ -35,12 +35,15 @@ static void ghosts(const struct fv *s, enum beyond walls, double *phi)
                 hi[t] = t == a ? lo[t] + 1 : b->n[t] + b->g[t];
             }
             for (int k = lo[2]; k < hi[2]; k++)
-                for (int j = lo[1]; j < hi[1]; j++)
-                    for (int i = lo[0]; i < hi[0]; i++) {
+                for (int j = lo[1]; j < hi[1]; j++) {
+                    int ends[2] = {lo[0], hi[0]};
+                    part_clip(&s->whole, j, k, ends);
+                    for (int i = ends[0]; i < ends[1]; i++) {
                         double *q = phi + block_at(b, i, j, k);
                         for (int m = 1; m <= GHOSTS; m++)
                             q[m * out] = linear ? q[0] + m * (q[0] - q[-out]) : q[(1 - m) * out];
                     }
+                }
         }
 }
 

@@ -64,6 +64,7 @@ struct surface {
     double *phi, *phi_new, *rate; /* m, m, m/s */
     double *kept;                 /* scratch of reinit */
     double *before[26];           /* state at the start of a step: surface_keep_state */
+    int (*near_before)[2];        /* the cells near water that it is of; NULL: all */
     /* Implicit steps: phi at half time, while phi is that at the end of the step. */
     double *half;
     double travelled_before;

@@ -30,6 +30,8 @@ static bool is_wanted(const struct fv *s)
 }
 
 static int rows_of(const struct part *p, int a) { return p->n[a] + 2 * p->g[a]; }
+static int rows_in(const struct part *p) { return rows_of(p, 1) * rows_of(p, 2); }
+static size_t bytes_of(const struct part *p) { return (size_t)rows_in(p) * sizeof *p->near; }
 
 static bool is_near(const struct surface *f, int64_t c)
 {
@@ -57,8 +59,7 @@ static void scan(const struct fv *s, int (*ends)[2])
 /* Each row has what those within GHOSTS of it along axis a have. */
 static void widen(const struct part *p, int a, int (*from)[2], int (*to)[2])
 {
-    const int stride = a == 1 ? 1 : rows_of(p, 1), n = rows_of(p, a),
-              rows = rows_of(p, 1) * rows_of(p, 2);
+    const int stride = a == 1 ? 1 : rows_of(p, 1), n = rows_of(p, a), rows = rows_in(p);
     for (int r = 0; r < rows; r++) {
         const int at = r / stride % n, low = at < GHOSTS ? -at : -GHOSTS,
                   up = n - 1 - at < GHOSTS ? n - 1 - at : GHOSTS;
@@ -85,31 +86,54 @@ static void round_ends(int n, int e[2])
     e[1] = (e[1] > n ? n : e[1]) - e[0];
 }
 
-/* What no one looks after any more: air, farther off than a band is wide. */
+static void leave_shares(struct fraction *f, int64_t c)
+{
+    f->C[c] = f->flux[c] = f->work[c] = f->next[c] = 0.0;
+    f->layer[c] = DEEP;
+}
+
+/* What no one looks after any more: air, farther off than a band is wide. Fields that are cleared
+ * near water alone, and read beside it, too, are 0 there. */
 static void leave(struct fv *s, int64_t c)
 {
     struct surface *f = s->surface;
     const double far = f->least * (BAND_WIDTH - 1);
+    f->layer[c] = DEEP;
     f->phi[c] = fmax(f->phi[c], far);
     f->stress[c] = s->p[c] = s->p_before[c] = 0.0;
     for (int a = 0; a < s->dim; a++)
-        s->u[a][c] = s->U[a][c] = f->open[a][c] = 0.0;
+        s->u[a][c] = s->U[a][c] = s->rhs[a][c] = f->open[a][c] = 0.0;
     for (int k = 0; k < 3; k++)
         if (s->stages.psi[k])
             s->stages.psi[k][c] = 0.0;
+    if (f->fraction)
+        leave_shares(f->fraction, c);
 }
 
 static void leave_row(struct fv *s, int j, int k, const int old[2], const int now[2])
 {
-    for (int i = old[0]; i < old[0] + old[1]; i++)
-        if (i < now[0] || i >= now[0] + now[1])
+    int was[2], is[2];
+    part_with_ghosts(&s->whole, old, was);
+    part_with_ghosts(&s->whole, now, is);
+    for (int i = was[0]; i < was[1]; i++)
+        if (i < is[0] || i >= is[1])
             leave(s, part_at(&s->whole, i, j, k));
 }
 
-static int (*make_rows(const struct part *p, int rows))[2]
+/* From these rows to those, and clears what is in the former alone. */
+static void change(struct fv *s, int (*now)[2])
 {
-    int(*near)[2] = (int(*)[2])NEW(int, 2 * rows);
-    for (int r = 0; r < rows; r++)
+    const struct part *p = &s->whole;
+    for (int k = -p->g[2]; k < p->n[2] + p->g[2]; k++)
+        for (int j = -p->g[1]; j < p->n[1] + p->g[1]; j++)
+            leave_row(s, j, k, p->near[part_row(p, j, k)], now[part_row(p, j, k)]);
+    memcpy(p->near, now, bytes_of(p));
+}
+
+static int (*make_rows(const struct part *p))[2]
+{
+    int(*near)[2] = (int(*)[2])NEW(int, 2 * rows_in(p));
+    for (int r = 0; r < rows_in(p); r++)
         near[r][1] = p->n[0];
     return near;
 }
@@ -119,22 +143,37 @@ void near_water_find(struct fv *s)
     struct part *p = &s->whole;
     if (!is_wanted(s))
         return;
-    const int rows = rows_of(p, 1) * rows_of(p, 2);
-    const size_t bytes = (size_t)rows * sizeof *p->near;
-    int(*now)[2] = make_rows(p, rows), (*work)[2] = make_rows(p, rows);
+    int(*now)[2] = make_rows(p), (*work)[2] = make_rows(p);
     if (!p->near)
-        p->near = mem_own(s, make_rows(p, rows));
+        p->near = mem_own(s, make_rows(p));
     scan(s, now);
     widen(p, 1, now, work);
     if (s->dim == 3)
         widen(p, 2, work, now);
     else
-        memcpy(now, work, bytes);
-    for (int r = 0; r < rows; r++)
+        memcpy(now, work, bytes_of(p));
+    for (int r = 0; r < rows_in(p); r++)
         round_ends(p->n[0], now[r]);
-    for (int k = 0; k < p->n[2]; k++)
-        for (int j = 0; j < p->n[1]; j++)
-            leave_row(s, j, k, p->near[part_row(p, j, k)], now[part_row(p, j, k)]);
-    memcpy(p->near, now, bytes);
+    change(s, now);
     FREE(now, work);
+}
+
+void near_water_keep(struct fv *s)
+{
+    int(**kept)[2] = &s->surface->near_before;
+    if (!s->whole.near) {
+        DROP(*kept);
+        return;
+    }
+    if (!*kept)
+        *kept = mem_own(s->surface, make_rows(&s->whole));
+    memcpy(*kept, s->whole.near, bytes_of(&s->whole));
+}
+
+void near_water_back(struct fv *s)
+{
+    if (s->whole.near && s->surface->near_before)
+        change(s, s->surface->near_before);
+    else
+        DROP(s->whole.near);
 }

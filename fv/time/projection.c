@@ -86,7 +86,7 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
         if (s->nu > 0.0)
             s->ops->viscous(s, a, r);
         else
-            memset(r, 0, (size_t)s->size * sizeof(double));
+            grid_clear_near(&s->grid, r);
         FLOW_NEAR (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] = dt * (ab * (r[i] - g[i] + drive) - gamma * N[i] - zeta * M[i]);
@@ -118,7 +118,7 @@ static void step_convection(struct fv *s)
 static void add_pressure(struct fv *s, const double *restrict psi)
 {
     if (s->surface)
-        memcpy(s->p_before, s->p, (size_t)s->size * sizeof(double));
+        grid_copy_near(&s->grid, s->p, s->p_before);
     double *restrict p = s->p;
     const double keep = s->surface ? 0.0 : 1.0;
     FLOW_NEAR (s, c, n)

@@ -430,8 +430,9 @@ void surface_keep_state(struct fv *s)
     for (int k = 0; k < n; k++) {
         if (!s->surface->before[k])
             s->surface->before[k] = NEW_IN(s->surface, double, s->size);
-        memcpy(s->surface->before[k], f[k], (size_t)s->size * sizeof(double));
+        grid_copy_near(&s->grid, f[k], s->surface->before[k]);
     }
+    near_water_keep(s);
     s->surface->travelled_before = s->surface->travelled;
     levels_keep(s);
     outflow_keep_budget(s);
@@ -443,8 +444,9 @@ void surface_back(struct fv *s)
 {
     double *f[STATE];
     const int n = state(s, f);
+    near_water_back(s);
     for (int k = 0; k < n; k++)
-        memcpy(f[k], s->surface->before[k], (size_t)s->size * sizeof(double));
+        grid_copy_near(&s->grid, s->surface->before[k], f[k]);
     fraction_forget_flows(s);
     outflow_restore(s);
     outflow_budget_back(s);
