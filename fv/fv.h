@@ -213,6 +213,8 @@ struct fv {
     struct fv_output *output;
 };
 
+enum { FV_RESTART_FIELDS = 40 }; /* of what a step starts from (time/fv_keep.c), at most */
+
 /* Rows of all cells of this rank: c is the place of a row's first cell, len its length. */
 #define FLOW_ROWS(s, c, len) FLOW_ROWS_AT (s, its_part_##c, its_row_##c, c, len)
 /* The same for those who want the part (part) and the row's place along y in it (j), too. */

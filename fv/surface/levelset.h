@@ -60,11 +60,11 @@ struct surface {
     /* Not 0: cells that hold nothing, i.e. `closed', or on blocks `out' of mesh_view.h;
      * borrowed. */
     const unsigned char *none;
-    struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
-    double *phi, *phi_new, *rate; /* m, m, m/s */
-    double *kept;                 /* scratch of reinit */
-    double *before[26];           /* state at the start of a step: surface_keep_state */
-    int (*near_before)[2];        /* the cells near water that it is of; NULL: all */
+    struct surface_mesh *mesh;         /* NULL: even cells or layers of unequal height */
+    double *phi, *phi_new, *rate;      /* m, m, m/s */
+    double *kept;                      /* scratch of reinit */
+    double *before[FV_RESTART_FIELDS]; /* at the start of a step: surface_keep_state */
+    int (*near_before)[2];             /* the cells near water that it is of; NULL: all */
     /* Implicit steps: phi at half time, while phi is that at the end of the step. */
     double *half;
     double travelled_before;

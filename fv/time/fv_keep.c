@@ -46,7 +46,7 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
     for (int a = 0; a < 3; a++) {
         double *const all[] = {s->u[a],
                                s->U[a],
-                               s->stages.N[a],
+                               s->prm.integrator == INTEGRATOR_BDF2 ? s->stages.N[a] : NULL,
                                s->stages.u_old[a],
                                viscous_keeps_increment(s) ? s->delta[a] : NULL,
                                s->outflows ? s->outflows->kept[a] : NULL};

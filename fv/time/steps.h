@@ -22,7 +22,6 @@ void measure(struct fv *s);
 
 /* fv_keep.c: lists the fields that a step starts from, with their names in restart files, which are
  * static, and returns their number. */
-enum { FV_RESTART_FIELDS = 40 };
 int fv_restart_fields(const struct fv *s, double **f, const char **names);
 /* A number that a step starts from; one of the three pointers is given, to the state's own. */
 struct kept_number {

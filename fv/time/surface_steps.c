@@ -16,6 +16,7 @@
 #include "../poisson/poisson.h"
 #include "moving.h"
 #include "stages.h"
+#include "steps.h"
 #include "surface_steps.h"
 
 enum { REINIT_STEPS = 10 }; /* of 0.45 h each: more than what the surface has travelled */
@@ -395,38 +396,11 @@ void surface_second_half(struct fv *s, double dt)
     surface_sample(s);
 }
 
-enum { STATE = 26 };
-
-/* Lists the fields of the state, convection's with bdf2, whose steps swap them; their number. */
-static int state(struct fv *s, double **f)
-{
-    int n = 0;
-    f[n++] = s->surface->phi;
-    if (s->surface->fraction) {
-        f[n++] = s->surface->fraction->C;
-        f[n++] = s->surface->fraction->layer;
-    }
-    f[n++] = s->p;
-    f[n++] = s->p_before;
-    for (int a = 0; a < 3; a++) {
-        double *const all[] = {s->stages.psi[a],
-                               s->u[a],
-                               s->U[a],
-                               s->stages.u_old[a],
-                               s->prm.integrator == INTEGRATOR_BDF2 ? s->stages.N[a] : NULL,
-                               s->outflows ? s->outflows->kept[a] : NULL};
-        for (int k = 0; k < (a < s->dim ? 6 : 1); k++) {
-            if (all[k])
-                f[n++] = all[k];
-        }
-    }
-    return n;
-}
-
 void surface_keep_state(struct fv *s)
 {
-    double *f[STATE];
-    const int n = state(s, f);
+    double *f[FV_RESTART_FIELDS];
+    const char *names[FV_RESTART_FIELDS];
+    const int n = fv_restart_fields(s, f, names);
     for (int k = 0; k < n; k++) {
         if (!s->surface->before[k])
             s->surface->before[k] = NEW_IN(s->surface, double, s->size);
@@ -442,8 +416,9 @@ void surface_keep_state(struct fv *s)
 
 void surface_back(struct fv *s)
 {
-    double *f[STATE];
-    const int n = state(s, f);
+    double *f[FV_RESTART_FIELDS];
+    const char *names[FV_RESTART_FIELDS];
+    const int n = fv_restart_fields(s, f, names);
     near_water_back(s);
     for (int k = 0; k < n; k++)
         grid_copy_near(&s->grid, s->surface->before[k], f[k]);
