@@ -24,7 +24,7 @@ static bool by_meshes(const struct sph *s) { return rooms_parted(s) && !(s->prm.
 /* What a step of packing changes: all, or what is that near to a mesh. */
 static bool is_packed(const struct sph *s, int i, double reach)
 {
-    return !(s->p.role[i] & ROLE_EDGE) &&
+    return !(particles_is_guard(&s->p, i) && (s->p.role[i] & ROLE_EDGE)) &&
            (!by_meshes(s) || rooms_are_near(s, prim_line(&s->p, i), reach));
 }
 

@@ -15,9 +15,10 @@ struct sph;
 enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 /* Bits of a particle's role where there are levels (refinement/refinement.h): it is a guard, whose
  * fields are interpolated from particles that flow; it is a parent, i.e. has created children; it
- * is a guard too far from the flow for its slopes to count; its level does not fill its support; it
- * flows within R of the surface; it is a guard to be removed. From bit ROLE_SOURCE on: the finer of
- * a guard's two source levels. Restart files hold these bits: see `meaning' in struct program. */
+ * is a guard too far from the flow for its slopes to count; its level does not fill its support,
+ * or, of what flows, guards do; it flows within R of the surface; it is a guard to be removed. From
+ * bit ROLE_SOURCE on: the finer of a guard's two source levels. Restart files hold these bits: see
+ * `meaning' in struct program. */
 enum sph_role {
     ROLE_GUARD = 1,
     ROLE_PARENT = 2,

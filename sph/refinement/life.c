@@ -74,6 +74,8 @@ static int role_of(const struct regions *g, const struct sph *s, const struct de
         else if (n == s->level + 1 && d > (deep - 1.0) * R && s->guards->own_rates)
             role |= ROLE_EDGE;
     }
+    if (!role && ((is->own && is->own[i] < 3.0 * s->R) || (is->next && is->next[i] > 0.0)))
+        role = ROLE_EDGE;
     return role | source << ROLE_SOURCE;
 }
 

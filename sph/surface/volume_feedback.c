@@ -9,9 +9,14 @@
  * most of all where water lands on a wall: the wall compresses the layer before it from R on, so
  * that it stops half a spacing too high, and hangs there under 1.6 times its weight until the void
  * is filled. What is beyond 1 % so goes within 25 R/c0 besides.
- * Not for ALE, where it does not happen; nor with levels or zones, whose sums are made up of
- * others' particles; nor without shift: a lattice cut by an inclined wall stays uneven, 0.7e-3 c0
- * instead of 0.2e-3. SPDX-License-Identifier: BSD-3-Clause */
+ * Beside edges of levels sums count guards, which have others' volumes: what flows within R of one
+ * keeps to div u, and with levels so does what is nearly at rest, for it is hardly shifted there. A
+ * block that goes through water at 0.25 m/s lost 10 % of its lift with levels, 18 % after it had
+ * gone over an edge; now 2 %. If all followed all the time: 4 to 9 % too much after the edge, and a
+ * tank of 20 x 10 particles, half refined, at 2e-3 c0 after 3e4 steps.
+ * Not for ALE, where it does not happen; nor with zones, whose sums are made up of others'
+ * particles; nor without shift: a lattice cut by an inclined wall stays uneven, 0.7e-3 c0 instead
+ * of 0.2e-3. SPDX-License-Identifier: BSD-3-Clause */
 #include "volume_feedback.h"
 
 #include <math.h>
@@ -25,13 +30,13 @@ static const double voids = 25.0;     /* R/c0: of what no calm water has */
 static const double calm = 0.01;      /* largest deviation in calm water */
 static const double most = 0.1;       /* of the deviation that counts */
 static const double least_room = 0.2; /* of the support: in narrower places sums say nothing */
+static const double rest = 1e-3;      /* of c0: the speed below which levels are taken for calm */
 
 /* Whether this run corrects its volumes at all; see the head of this file for what is left out. */
 static bool wanted(const struct sph *s)
 {
     return s->prm.transport == TRANSPORT_TVS && s->prm.scheme != SCHEME_RIEMANN_ALE &&
-           vec3_length(s->gravity) > 0.0 && !s->packing && !s->zones && !s->mixed && !s->coarser &&
-           !s->finer;
+           vec3_length(s->gravity) > 0.0 && !s->packing && !s->zones && !s->mixed;
 }
 
 void volume_feedback_prepare(struct sph *s)
@@ -70,26 +75,44 @@ void volume_feedback_find(struct sph *s)
     mem_free(room);
 }
 
+/* How much of the law holds for particle i, 0 to 1; see the head of this file. */
+static double share_of(const struct sph *s, int i)
+{
+    const double *u = prim_line(&s->p, i) + s->dim;
+    double u2 = 0.0;
+    for (int a = 0; a < s->dim; a++)
+        u2 += u[a] * u[a];
+    if (!s->coarser && !s->finer)
+        return 1.0;
+    return s->p.role[i] & (ROLE_GUARD | ROLE_EDGE) ? 0.0 : fmin(1.0, u2 / pow(rest * s->c0, 2.0));
+}
+
 void volume_feedback_add(struct sph *s)
 {
     const struct free_surface *f = s->surface;
     const int V = at_volume(s->dim);
     for (int i = 0; i < s->p.n && f->follows; i++)
         state_row(&s->p, s->p.rate, i)[V] +=
-            rate_of(s, f->less[i]) * state_row(&s->p, s->p.y, i)[V];
+            share_of(s, i) * rate_of(s, f->less[i]) * state_row(&s->p, s->p.y, i)[V];
+}
+
+/* Guards, too, for what flows beside them counts on their volumes. */
+static void fill_level(struct sph *s)
+{
+    const bool *beside = s->walls->beside;
+    for (int i = 0; i < s->p.n && beside; i++) {
+        double *y = state_row(&s->p, s->p.y, i);
+        for (int k = s->dim; k < s->p.nstate && beside[i]; k++)
+            y[k] *= 1.0 + s->surface->less[i]; /* momentum, volume, mass */
+    }
+    s->lists.ready = false;
 }
 
 bool volume_feedback_fill(struct sph *s)
 {
-    const struct free_surface *f = s->surface;
-    if (!f || !f->follows || !s->walls)
+    if (!s->surface || !s->surface->follows || !s->walls)
         return false;
-    for (int i = 0; i < s->p.n; i++) {
-        double *y = state_row(&s->p, s->p.y, i);
-        const double factor = 1.0 + f->less[i];
-        for (int k = s->dim; k < s->p.nstate && s->walls->beside && s->walls->beside[i]; k++)
-            y[k] *= factor; /* momentum, volume, mass */
-    }
-    s->lists.ready = false;
+    for (struct sph *q = s; q; q = q->finer)
+        fill_level(q);
     return true;
 }
