@@ -9,6 +9,7 @@
 #include "../../../fv/output/output.h"
 #include "../../../fv/surface/fraction.h"
 #include "../../../fv/surface/near_water.h"
+#include "../../../fv/time/surface_steps.h"
 #include "surface_case.h"
 
 #define FRACTION "fv.volume=\"fraction\""
