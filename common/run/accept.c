@@ -302,13 +302,11 @@ static void check_rows(const struct scene *s, int k, const struct table *t, cons
     const struct accept_series ref =
         series_of(t, table_column(t, column_of(a)), room, a->start, a->unit);
     const double first = ref.n > 0 ? ref.t[0] : NAN, last = ref.n > 0 ? ref.t[ref.n - 1] : NAN;
-    const double from = fmax(a->from, fmax(first, 0.0)),
-                 to = fmin(fmin(a->until, s->time.end), last);
-    if (!(to > from))
+    if (!(fmin(a->until, last) > fmax(a->from, 0.0)) || !(first < s->time.end))
         params_fault(p, f, key_text("accept.[%d].reference", k),
-                     "its rows are those of %g to %g s, and from %g s to the end of the run, %g s, "
-                     "or accept.until nothing is left of them to compare with",
-                     first, last, a->from, s->time.end);
+                     "its rows are those of %g to %g s: the run, from 0 to %g s, meets none of them "
+                     "between accept.from and accept.until, %g to %g s",
+                     first, last, s->time.end, a->from, a->until);
     else if (a->measure == ACCEPT_RMS && !changes(ref))
         params_fault(p, f, key_text("accept.[%d].measure", k),
                      "rms is taken over the range of the reference, which is %g throughout: peak "

@@ -312,7 +312,7 @@ static const struct param accept_rows[] = {
           USED(WITH(reference, "no reference is given to compare with"))),
     PARAM(P, unit,      "-", "(1.0, 1.0)", -1e12, 1e12, "units of the reference: its t times the first is s, its value times the second is the column's",
           USED(WITH(reference, "no reference is given to compare with")), .numbers = 2),
-    PARAM(P, tolerance, "-", NULL, 0, 1e300, "largest value that is accepted"),
+    PARAM(P, tolerance, "-", NULL, -1e300, 1e300, "largest value that is accepted"),
 };
 #undef P
 /* clang-format on */

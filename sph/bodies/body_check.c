@@ -225,7 +225,7 @@ static void check_mass(const struct run *r, int k, const struct body *b, const s
                      "its mass centre%s, (%g, %g, %g) m, lies %.3g m outside of the body, which is "
                      "%.3g m across: with mass goes centre",
                      given ? "" : " is not given and", c[0], c[1], c[2], off, size);
-    else if (!b->is->tank && (gyration < 0.02 * b->reach || gyration > 2.0 * b->reach))
+    else if (!b->is->tank && (gyration < 0.02 * b->reach || gyration > 10.0 * b->reach))
         params_fault(r->params, f, key_text("bodies.[%d].inertia", k),
                      "mass and inertia make a radius of gyration of %.3g m, and the corners are up "
                      "to %.3g m from the centre: inertia is in kg m^2%s, about the centre",

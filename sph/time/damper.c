@@ -9,7 +9,9 @@
  * Sound, faster than T, is damped as before; slow flow by what its density says, which in steady
  * flow is next to nothing. T is the time in which the fluid passes a quarter of R, for then it is
  * beside another part of the wall, but at least 2.5 R/c0: below, the damper follows the density
- * with a delay.
+ * with a delay. In water nearly at rest the trace stays whole: what it sees there are currents that
+ * shifts feed, and it holds them down (late in a 3D tank of 10 rows 0.6e-3 c0, else 1.2e-3). From
+ * 0.002 to 0.012 c0 e counts more and more.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "damper.h"
 
@@ -47,8 +49,8 @@ void damper_learn(struct sph *s, double dt)
     const int dim = s->dim;
     if (!has_damper(s))
         return;
-    const double passed = 0.25 * s->R / fmax(s->step.stray, 1e-300);
-    const double share = fmin(dt / fmax(passed, 2.5 * s->R / s->c0), 1.0);
+    const double M = s->step.stray / s->c0, flows = fmax(0.0, fmin((M - 0.002) / 0.01, 1.0));
+    const double share = fmin(dt * s->c0 / s->R / fmax(0.25 / fmax(M, 1e-300), 2.5), 1.0);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i), *rate = state_row(&s->p, s->p.rate, i);
         const double *gu = slope_line(&s->p, i) + dim;
@@ -61,6 +63,6 @@ void damper_learn(struct sph *s, double dt)
             trace += gu[(dim + 1) * a];
         const double is =
             rate[at_volume(dim)] / y[at_volume(dim)] - rate[at_mass(dim)] / y[at_mass(dim)];
-        *e += share * (trace - is - *e);
+        *e += share * (flows * (trace - is) - *e);
     }
 }
