@@ -303,10 +303,11 @@ static void check_rows(const struct scene *s, int k, const struct table *t, cons
         series_of(t, table_column(t, column_of(a)), room, a->start, a->unit);
     const double first = ref.n > 0 ? ref.t[0] : NAN, last = ref.n > 0 ? ref.t[ref.n - 1] : NAN;
     if (!(fmin(a->until, last) > fmax(a->from, 0.0)) || !(first < s->time.end))
-        params_fault(p, f, key_text("accept.[%d].reference", k),
-                     "its rows are those of %g to %g s: the run, from 0 to %g s, meets none of them "
-                     "between accept.from and accept.until, %g to %g s",
-                     first, last, s->time.end, a->from, a->until);
+        params_fault(
+            p, f, key_text("accept.[%d].reference", k),
+            "its rows are those of %g to %g s: the run, from 0 to %g s, meets none of them "
+            "between accept.from and accept.until, %g to %g s",
+            first, last, s->time.end, a->from, a->until);
     else if (a->measure == ACCEPT_RMS && !changes(ref))
         params_fault(p, f, key_text("accept.[%d].measure", k),
                      "rms is taken over the range of the reference, which is %g throughout: peak "
