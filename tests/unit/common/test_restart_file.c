@@ -54,5 +54,5 @@ void unit_begin(void)
     r = (struct run){.comm = MPI_COMM_WORLD, .name = "toy", .scene = {.time = {.end = 1.0}}};
     MPI_Comm_rank(r.comm, &r.rank);
     MPI_Comm_size(r.comm, &r.size);
-    snprintf(r.dir, sizeof r.dir, "%s", scratch ? scratch : ".");
+    snprintf(r.dir, sizeof r.dir, "%s", scratch ? scratch : P_tmpdir);
 }

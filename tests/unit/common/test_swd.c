@@ -55,7 +55,7 @@ static const char *write_file(int shape, double magic)
 {
     static char path[256];
     const char *dir = getenv("TEST_SCRATCH");
-    snprintf(path, sizeof path, "%s/test_swd_%d.swd", dir ? dir : ".", (int)getpid());
+    snprintf(path, sizeof path, "%s/test_swd_%d.swd", dir ? dir : P_tmpdir, (int)getpid());
     FILE *f = fopen(path, "wb");
     assert_non_null(f);
     put_real(f, magic);
