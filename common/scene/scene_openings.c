@@ -69,26 +69,46 @@ bool openings_are_lower(const struct scene *s, double top)
     return top < fmin(scene_water_top(s), high) - 1e-6 * (high - low);
 }
 
-/* The same along an upright side, just inside it; *area: of the water there, m^(dim-1). */
-static double top_at(const struct scene *s, const struct exact *e, int side, int up, double *area)
+/* Rows of places along an upright side, just inside it: along the height `up', in 3D side by side.
+ */
+static int rows_of(const struct scene *s) { return s->domain.dim == 3 ? ROWS : 1; }
+
+static void go_to_row(const struct scene *s, int side, int up, int row, double *x)
 {
     const struct scene_domain *d = &s->domain;
-    const int a = side / 2, across = 3 - a - up, rows = d->dim == 3 ? ROWS : 1;
-    double top = -INFINITY, x[3] = {0.0, 0.0, 0.0}, wet = 0.0;
+    const int a = side / 2, across = 3 - a - up;
     x[a] = side % 2 ? d->max[a] - 1e-3 * (d->max[a] - d->min[a])
                     : d->min[a] + 1e-3 * (d->max[a] - d->min[a]);
-    for (int k = 0; k < rows; k++) {
-        if (d->dim == 3)
-            x[across] = d->min[across] + (k + 0.5) / ROWS * (d->max[across] - d->min[across]);
+    if (d->dim == 3)
+        x[across] = d->min[across] + (row + 0.5) / ROWS * (d->max[across] - d->min[across]);
+}
+
+/* As top_along, of all rows of a side. */
+static double top_at(const struct scene *s, const struct exact *e, int side, int up)
+{
+    double top = -INFINITY, x[3] = {0.0, 0.0, 0.0};
+    for (int row = 0; row < rows_of(s); row++) {
+        go_to_row(s, side, up, row, x);
         top = fmax(top, top_along(s, e, up, x));
+    }
+    return top;
+}
+
+/* Of the water at a side, m^(dim-1). */
+static double wet_area(const struct scene *s, const struct exact *e, int side, int up)
+{
+    const struct scene_domain *d = &s->domain;
+    const int across = 3 - side / 2 - up;
+    double x[3] = {0.0, 0.0, 0.0}, wet = 0.0;
+    for (int row = 0; row < rows_of(s); row++) {
+        go_to_row(s, side, up, row, x);
         for (int i = 0; i < PLACES; i++) {
             x[up] = d->min[up] + (i + 0.5) / PLACES * (d->max[up] - d->min[up]);
             wet += scene_is_fluid(s, e, x, NULL);
         }
     }
-    *area = wet / PLACES / rows * (d->max[up] - d->min[up]) *
-            (d->dim == 3 ? d->max[across] - d->min[across] : 1.0);
-    return top;
+    return wet / PLACES / rows_of(s) * (d->max[up] - d->min[up]) *
+           (d->dim == 3 ? d->max[across] - d->min[across] : 1.0);
 }
 
 static bool is_upright(const struct scene *s, const struct scene_wall *w, int up)
@@ -104,12 +124,11 @@ void openings_resolve(struct scene *s)
     const int up = scene_still_axis(s);
     for (int k = 0; k < s->nwalls; k++) {
         struct scene_wall *w = s->walls + k;
-        double area;
         w->stands = NAN;
         if (!openings_have_outside(s) || w->kind != WALL_OUTFLOW || !is_upright(s, w, up) ||
             w->has_level || w->has_discharge || w->carried)
             continue;
-        const double top = top_at(s, &e, w->side - SIDE_X_MIN, up, &area);
+        const double top = top_at(s, &e, w->side - SIDE_X_MIN, up);
         w->falls = !isfinite(top);
         w->stands = w->falls ? NAN : top;
         w->lower = !w->falls && openings_are_lower(s, top);
@@ -173,13 +192,13 @@ double openings_discharge_speed(const struct scene *s)
     double speed = 0.0;
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
-        double area, range[2] = {0.0, fabs(w->discharge)};
+        double range[2] = {0.0, fabs(w->discharge)};
         if (!w->has_discharge || w->kind < WALL_INFLOW || !is_upright(s, w, up))
             continue;
         if (w->discharges && w->discharges->n > 0)
             range_of(w->discharges, range);
         const struct exact e = exact_create(s);
-        (void)top_at(s, &e, w->side - SIDE_X_MIN, up, &area);
+        const double area = wet_area(s, &e, w->side - SIDE_X_MIN, up);
         speed = area > 0.0 ? fmax(speed, range[1] / area) : speed;
     }
     return speed;

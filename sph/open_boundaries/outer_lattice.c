@@ -110,6 +110,6 @@ void outer_lattice_move(struct sph *s)
         line[at_volume(dim)] = s->dxD;
         line[at_rho(dim)] = rho;
         if (dim == 2)
-            line[6] = 0.0;
+            line[PRIM_FALSE] = 0.0;
     }
 }

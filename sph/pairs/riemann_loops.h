@@ -122,7 +122,8 @@ INLINE struct riemann_own load_own(const struct riemann_constants *c, const doub
     i.w = vec_all(c->kernel * prim[at_volume(dim)]);
     i.rho = vec_all(prim[at_rho(dim)]);
     i.Z = impedance(&c->eos, i.rho, c->gamma);
-    i.damped = vec_all(c->damper * (divergence - (dim == 2 ? prim[6] : slope[15])));
+    i.damped =
+        vec_all(c->damper * (divergence - (dim == 2 ? prim[PRIM_FALSE] : slope[SLOPE_FALSE])));
     return i;
 }
 
@@ -180,9 +181,9 @@ INLINE void velocities(const struct riemann_constants *c, const struct riemann_o
         load_gu(s->p.slope, j, gu, dim);
         if (dim == 2) {
             vec_columns(s->p.prim, PRIM, j, 2, u, u + 1);
-            vec_columns(s->p.prim, PRIM, j, 6, &false_divergence, &spare);
+            vec_columns(s->p.prim, PRIM, j, PRIM_FALSE, &false_divergence, &spare);
         } else {
-            vec_columns(s->p.slope, 16, j, 14, &spare, &false_divergence);
+            vec_columns(s->p.slope, 16, j, SLOPE_FALSE - 1, &spare, &false_divergence);
             vec_columns(s->p.prim, PRIM, j, 2, &spare, u);
             vec_columns(s->p.prim, PRIM, j, 4, u + 1, u + 2);
         }

@@ -185,7 +185,7 @@ static inline __attribute__((always_inline)) void line(const double *y, double f
     q[at_volume(dim)] = w;
     q[at_rho(dim)] = rho;
     if (dim == 2)
-        q[6] = false_divergence;
+        q[PRIM_FALSE] = false_divergence;
 }
 
 static inline __attribute__((always_inline)) void lines(struct sph *s, const int dim)

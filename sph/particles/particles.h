@@ -29,6 +29,8 @@ enum sph_role {
     ROLE_SOURCE = 6
 };
 enum { PRIM = 8 }; /* doubles of a line of prim */
+/* Where the false divergence (time/damper.h) is: in 2D in a line of prim, in 3D in one of slope. */
+enum { PRIM_FALSE = 6, SLOPE_FALSE = 15 };
 
 /* Particles of one size level. A record of the state (y, y0, rate, sum) is
  *   x[dim], q[dim] = m u, w (volume), m (mass).

@@ -80,10 +80,10 @@ static double share_of(const struct sph *s, int i)
 {
     const double *u = prim_line(&s->p, i) + s->dim;
     double u2 = 0.0;
-    for (int a = 0; a < s->dim; a++)
-        u2 += u[a] * u[a];
     if (!s->coarser && !s->finer)
         return 1.0;
+    for (int a = 0; a < s->dim; a++)
+        u2 += u[a] * u[a];
     return s->p.role[i] & (ROLE_GUARD | ROLE_EDGE) ? 0.0 : fmin(1.0, u2 / pow(rest * s->c0, 2.0));
 }
 

@@ -21,10 +21,9 @@
 #include "../particles/sph_particles.h"
 #include "../surface/sph_surface.h"
 
-/* Mixed sets of particles have a damper of their own (refinement/mixed_pairs.c). */
 static bool has_damper(const struct sph *s)
 {
-    return s->prm.damper > 0.0 && s->prm.scheme <= SCHEME_RIEMANN && !s->mixed;
+    return s->prm.damper > 0.0 && sph_params_is_riemann(s->prm.scheme);
 }
 
 void damper_correct(struct sph *s)
@@ -32,7 +31,7 @@ void damper_correct(struct sph *s)
     if (!has_damper(s))
         return;
     for (int i = 0; s->dim == 3 && i < s->p.n; i++)
-        slope_line(&s->p, i)[15] = s->p.false_divergence[i];
+        slope_line(&s->p, i)[SLOPE_FALSE] = s->p.false_divergence[i];
     if (s->surface)
         surface_calm(s);
 }
@@ -47,7 +46,7 @@ static bool can_learn(const struct sph *s, int i)
 void damper_learn(struct sph *s, double dt)
 {
     const int dim = s->dim;
-    if (!has_damper(s))
+    if (!has_damper(s) || s->mixed) /* mixed sets have a damper of their own: mixed_pairs.c */
         return;
     const double M = s->step.stray / s->c0, flows = fmax(0.0, fmin((M - 0.002) / 0.01, 1.0));
     const double share = fmin(dt * s->c0 / s->R / fmax(0.25 / fmax(M, 1e-300), 2.5), 1.0);

@@ -34,7 +34,7 @@ void ghost_set_line(const struct sph *s, double *line, const double *x, const do
     line[at_volume(dim)] = w;
     line[at_rho(dim)] = rho;
     if (dim == 2)
-        line[6] = 0.0;
+        line[PRIM_FALSE] = 0.0;
 }
 
 int ghost_append(struct sph *s, struct ghost_block *g, int n)

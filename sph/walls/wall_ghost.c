@@ -109,7 +109,7 @@ static void lines(struct sph *s)
         const double rho = ghost_density(s, from[at_rho(dim)], p->sign * s->gravity[p->axis], d);
         ghost_set_line(s, prim_line(&s->p, first + k), x, u, from[at_volume(dim)], rho);
         if (dim == 2)
-            prim_line(&s->p, first + k)[6] = from[6];
+            prim_line(&s->p, first + k)[PRIM_FALSE] = from[PRIM_FALSE];
     }
 }
 
