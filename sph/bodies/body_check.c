@@ -218,8 +218,6 @@ static void check_mass(const struct run *r, int k, const struct body *b, const s
                              ? m->inertia[2][2]
                              : 0.5 * (m->inertia[0][0] + m->inertia[1][1] + m->inertia[2][2]);
     const double gyration = sqrt(polar / m->mass);
-    if (!(b->is->mass > 0.0))
-        return;
     if (off > (given ? size : 0.0))
         params_fault(r->params, f, key_text("bodies.[%d].%s", k, given ? "centre" : "mass"),
                      "its mass centre%s, (%g, %g, %g) m, lies %.3g m outside of the body, which is "
@@ -348,7 +346,8 @@ static void check_free(const struct run *r, const struct sph_params *used, int k
                      key_text("bodies.[%d].%s", k, is->load[2] != 0.0 ? "load" : "torque"),
                      "out of the plane in a case of 2 dimensions");
     const int before = f->n;
-    check_mass(r, k, b, &m, f);
+    if (is->mass > 0.0)
+        check_mass(r, k, b, &m, f);
     check_degrees(r, k, b->dim, f);
     if (f->n > before)
         return;

@@ -146,6 +146,16 @@ TEST(air_beyond_the_band_is_dry)
     fv_free(&c.s);
 }
 
+/* A column in a tank from the origin on, let go under 9.81 m/s^2. */
+static struct fv *start_falling(struct fv_case *c, const char *max, const char *cells,
+                                const struct scene_shape *column)
+{
+    return start(c, MPI_COMM_WORLD,
+                 (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "domain.min=(0,0)", max,
+                                       cells, NULL},
+                 column, WALL_SLIP);
+}
+
 /* A column that collapses in mid-tank and reaches both walls at once pushes to no side: none of its
  * halves is computed first. */
 TEST(column_stays_even)
@@ -154,11 +164,7 @@ TEST(column_stays_even)
     struct diagnosis d = {0};
     double force[FLOW_BODIES_MAX][4], all[4], aside = 0.0, down = 0.0;
     struct fv_case c;
-    struct fv *s =
-        start(&c, MPI_COMM_WORLD,
-              (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "domain.min=(0,0)",
-                                    "domain.max=(2,1)", "fv.cells=(64,32)", NULL},
-              &column, WALL_SLIP);
+    struct fv *s = start_falling(&c, "domain.max=(2,1)", "fv.cells=(64,32)", &column);
     while (s->t < 0.44 && !d.bad) {
         integrate(s, 0.44, &d);
         flow_forces(s, force, all);
@@ -178,11 +184,7 @@ TEST(steps_taken_back_restore_what_is_near)
     const struct scene_shape column = {.form = SHAPE_BOX, .box = {{0, 0, 0}, {0.3, 0.6, 0}}};
     struct diagnosis d = {0};
     struct fv_case c;
-    struct fv *s =
-        start(&c, MPI_COMM_WORLD,
-              (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "domain.min=(0,0)",
-                                    "domain.max=(2,2)", "fv.cells=(48,48)", NULL},
-              &column, WALL_SLIP);
+    struct fv *s = start_falling(&c, "domain.max=(2,2)", "fv.cells=(48,48)", &column);
     while (s->t < 0.2 && !d.bad)
         integrate(s, 0.2, &d);
     assert_false(d.bad);
