@@ -530,7 +530,7 @@ static const char *const others[] = {"sph", "sph_*", "fv", "blocks", "coupler", 
 
 static struct program sph_program = {.name = "sph",
                                      .help = "weakly compressible SPH, 2D and 3D",
-                                     .meaning = 9,
+                                     .meaning = 10,
                                      .groups = sph_groups,
                                      .ngroups = SPH_GROUPS,
                                      .other_groups = others,

@@ -15,6 +15,7 @@
 #include "../../common/files/files.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
+#include "openings.h"
 #include "side_levels.h"
 
 /* What is averaged, and what a bin sums: weight, its place in the bin, each in units of dx. */
@@ -41,7 +42,10 @@ struct sides {
     const struct sph *s; /* borrowed */
     struct opening_side of[6];
     int bins;
-    double fall[6], fall_t;     /* Pa/m: the pressure's slope into the domain; s: up to when */
+    double t;                   /* s: of the last look inside */
+    double fall[6];             /* Pa/m: the pressure's slope into the domain */
+    double mean[6];             /* Pa: slow mean of the pressure inside a given inflow */
+    double surge[6];            /* Pa: what it exceeds that by now */
     double *table;              /* [bins][BIN] sums, then means */
     struct side_plane *planes;  /* [bins]: velocity and pressure of the flow inside */
     struct side_levels *levels; /* of the water outside; NULL: no free surface */
@@ -196,11 +200,9 @@ static void add_to_lines(const struct sph *s, const struct sides *d, double line
  * sound takes through the domain: at once it would answer its own change. Least squares over the
  * particles up to R into the free zone; a slope is taken only where they spread over more than
  * dx/10 in depth. */
-static void follow_slope(struct sph *s, struct sides *d)
+static void follow_slope(struct sph *s, struct sides *d, double dt)
 {
     double lines[6][LINE] = {{0.0}};
-    const double dt = s->t - d->fall_t;
-    d->fall_t = s->t;
     if (dt <= 0.0)
         return;
     add_to_lines(s, d, lines);
@@ -228,6 +230,34 @@ static void find_shares(struct sides *d)
             both[out > 0.0] += fabs(out);
         }
         of->leaves = both[1] / fmax(both[0] + both[1], 1e-300);
+    }
+}
+
+/* From sums over the bins: a side whose velocity is given lets sound out, p' = -rho c u', while the
+ * slow mean of the velocity stays as given. Held at every moment it is a wall for sound, an
+ * outlet's pressure is one of the other kind, and the blow of a sudden start goes to and fro
+ * between them for a hundred transits. The mean follows over two transits: over six what a start
+ * keeps back comes in three times as late, over one a quarter of the wave of a duct and a
+ * contraction goes on. */
+static void find_surges(struct sides *d, double dt)
+{
+    static const double memory = 2.0; /* transits */
+    const struct sph *s = d->s;
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const struct opening_side *of = d->of + side;
+        const int n = of->is && of->is->kind == WALL_INFLOW ? of->bins[0] * of->bins[1] : 0;
+        const double transit = (s->hi[side / 2] - s->lo[side / 2]) / s->c0;
+        double W = 0.0, now = 0.0;
+        for (int k = of->first; k < of->first + n; k++) {
+            W += d->table[(size_t)BIN * k + WEIGHT];
+            now += d->table[(size_t)BIN * k + MEAN + PRESSURE];
+        }
+        if (W == 0.0)
+            continue;
+        now /= W;
+        d->mean[side] = isnan(d->mean[side]) ? now : d->mean[side];
+        d->mean[side] += -expm1(-dt / (memory * transit)) * (now - d->mean[side]);
+        d->surge[side] = now - d->mean[side];
     }
 }
 
@@ -287,10 +317,12 @@ static void look_inside(struct sph *s)
         if (s->dim == 2 && d->of[side].is && d->of[side].is->profile == PROFILE_PARABOLIC &&
             !d->of[side].cut)
             find_cuts(s, side, d->of + side);
+    const double dt = s->t - d->t;
+    d->t = s->t;
     if (d->levels)
         side_levels_update(s, d->levels);
     else
-        follow_slope(s, d);
+        follow_slope(s, d, dt);
     const struct zones *z = s->zones;
     const int dim = s->dim;
     memset(d->table, 0, (size_t)BIN * d->bins * sizeof *d->table);
@@ -312,6 +344,8 @@ static void look_inside(struct sph *s)
     }
     MPI_Allreduce(MPI_IN_PLACE, d->table, BIN * d->bins, MPI_DOUBLE, MPI_SUM, s->run->comm);
     find_shares(d);
+    if (!d->levels)
+        find_surges(d, fmax(dt, 0.0));
     find_planes(d);
 }
 
@@ -409,6 +443,7 @@ static void eval_side(const struct sides *d, int side, const double *x, double *
     *p = of->is->kind != WALL_OUTFLOW ? in[PRESSURE] : outlet_pressure(d, side, x, in);
     for (int a = 0; a < s->dim; a++)
         u[a] = of->is->kind == WALL_OUTFLOW ? in[VELOCITY + a] : f * of->is->velocity[a];
+    u[side / 2] -= openings_inward(side) * f * d->surge[side] / (s->rho0 * s->c0);
 }
 
 static void eval_sides(void *ctx, double t, int n, const double *x, double *u, double *p,
@@ -439,7 +474,7 @@ void sides_create(struct sph *s, struct zones *z)
 {
     struct sides *d = NEW_IN(z, struct sides, 1);
     d->s = s;
-    d->fall_t = s->t;
+    d->t = s->t;
     d->levels = mem_own(d, side_levels_create(s));
     for (int side = 0; side < 2 * s->dim; side++) {
         struct opening_side *of = d->of + side;
@@ -447,6 +482,7 @@ void sides_create(struct sph *s, struct zones *z)
         if (!s->open[side])
             continue;
         of->is = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+        d->mean[side] = NAN;
         of->pressure = scene_reference_left(&s->run->scene, &s->reference, of->is);
         z->own_u[side] =
             d->levels ? side_levels_given(d->levels, side) : of->is->kind == WALL_OUTFLOW;
@@ -479,6 +515,7 @@ void sides_save(const struct sph *s, struct h5 *f)
 {
     const struct sides *d = s->zones->ctx;
     h5_write_real(f, "sides_slope", "Pa/m", 6, 1, d->fall, false);
+    h5_write_real(f, "sides_mean", "Pa", 6, 1, d->mean, false);
     if (d->levels)
         side_levels_save(d->levels, f);
 }
@@ -486,7 +523,8 @@ void sides_save(const struct sph *s, struct h5 *f)
 bool sides_load(struct sph *s, struct h5 *f)
 {
     struct sides *d = s->zones->ctx;
-    d->fall_t = s->t;
+    d->t = s->t;
     return h5_read_same(f, "sides_slope", 6, d->fall) &&
+           h5_read_same(f, "sides_mean", 6, d->mean) &&
            (!d->levels || side_levels_load(d->levels, f));
 }

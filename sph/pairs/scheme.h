@@ -46,6 +46,15 @@ static inline double scheme_shift_speed(const struct sph *s, int i)
     return given && most > s->step.shift_speed ? most : s->step.shift_speed;
 }
 
+/* How much the water streams, 0 to 1: 0 below 0.002 c0 of relative velocity, where it is nearly at
+ * rest and what holds its particles in order counts, 1 from 0.012 c0 on, where what that errs by,
+ * some per cent of c0 times the velocities of neighbours, exceeds the pressures of the stream. */
+static inline double scheme_streams(const struct sph *s)
+{
+    const double M = s->step.stray / s->c0, share = (M - 0.002) / 0.01;
+    return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
+}
+
 /* P_min = max(0, -min P) over all particles of all ranks, Pa [2.105]; 0 if it is off. Collective
  * over s->run->comm. */
 double scheme_background(const struct sph *s);

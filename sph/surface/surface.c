@@ -226,11 +226,10 @@ void surface_detect(struct sph *s)
     for (int i = 0; i < s->p.n; i++)
         classify(s, f, i);
     f->known = true;
-    if (s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO) {
-        find_near(s, f); /* else nobody asks */
-        if (s->walls && f->reach == s->R)
-            s->walls->near_surface = f->is;
-    }
+    find_near(s, f);
+    if ((s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO) && s->walls &&
+        f->reach == s->R)
+        s->walls->near_surface = f->is;
 }
 
 /* Next to a surface div u is an error of the gradients, not sound. The damper would take it for
@@ -241,7 +240,7 @@ void surface_calm(struct sph *s)
     const int dim = s->dim;
     for (int i = 0; i < s->p.n; i++) {
         const double lambda = s->surface->lambda[i];
-        if (lambda >= 1.0)
+        if (lambda >= 1.0 || s->surface->is[i] == SURFACE_INNER)
             continue;
         const double out = (lambda < inside ? 1.0 : (1.0 - lambda) / (1.0 - inside)) / dim;
         double *g = slope_line(&s->p, i) + dim, divergence = 0.0;

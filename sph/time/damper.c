@@ -40,7 +40,7 @@ void damper_correct(struct sph *s)
 static bool can_learn(const struct sph *s, int i)
 {
     return s->p.zone[i] == ZONE_FREE && !particles_is_guard(&s->p, i) &&
-           !(s->surface && s->surface->lambda[i] < 1.0);
+           !(s->surface && s->surface->is[i] != SURFACE_INNER);
 }
 
 void damper_learn(struct sph *s, double dt)
@@ -48,7 +48,7 @@ void damper_learn(struct sph *s, double dt)
     const int dim = s->dim;
     if (!has_damper(s) || s->mixed) /* mixed sets have a damper of their own: mixed_pairs.c */
         return;
-    const double M = s->step.stray / s->c0, flows = fmax(0.0, fmin((M - 0.002) / 0.01, 1.0));
+    const double M = s->step.stray / s->c0, flows = scheme_streams(s);
     const double share = fmin(dt * s->c0 / s->R / fmax(0.25 / fmax(M, 1e-300), 2.5), 1.0);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i), *rate = state_row(&s->p, s->p.rate, i);
