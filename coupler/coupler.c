@@ -7,12 +7,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "server/coupler.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "../common/base/base.h"
 #include "../common/run/run.h"
 #include "transport/transport.h"
 

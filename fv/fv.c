@@ -1,10 +1,6 @@
 /* fv.c - main program of the finite-volume solver. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../common/base/base.h"
 #include "../coupler/cpl_partner.h"
 #include "boundary/fv_boundary.h"
 #include "case/fv_case.h"

@@ -4,10 +4,6 @@
 #ifndef FV_FV_H
 #define FV_FV_H
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "../common/run/run.h"
 #include "../common/scene/scene.h"
 #include "grid/fv_grid.h"

@@ -1,9 +1,6 @@
 /* sph.c - main program of the SPH solver. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph.h"
 
-#include <math.h>
-#include <stdio.h>
-
 #include "../coupler/cpl_partner.h"
 #include "bodies/sph_bodies.h"
 #include "case/sph_case.h"

@@ -7,9 +7,6 @@
 #ifndef SPH_SPH_H
 #define SPH_SPH_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "../common/base/base.h"
 #include "../common/run/run.h"
 #include "../common/scene/scene.h"

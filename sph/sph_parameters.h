@@ -4,8 +4,6 @@
 #ifndef SPH_PARAMETERS_H
 #define SPH_PARAMETERS_H
 
-#include <stdbool.h>
-
 #include "../common/scene/scene.h"
 
 /* Riemann-ALE: Vila [2.86-2.89]. Riemann, no mass flux: Leduc [2.96-2.99]. Delta-SPH: Antuono

@@ -1,9 +1,19 @@
 /* base.h - the door of this folder, the one header of it that others include: what everything
- * stands on: memory, the log, exit codes, timers, small vectors, sums over ranks and the text of
- * figures.
+ * stands on: memory, the log, exit codes, timers, small vectors, sums over ranks, the text of
+ * figures, and the C library that every source may use. State and doors bring it: a source names
+ * it where nothing else does.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_BASE_DOOR_H
 #define COMMON_BASE_DOOR_H
+
+#include <math.h>
+#include <mpi.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "digits.h"
 #include "exit.h"

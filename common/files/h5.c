@@ -8,8 +8,6 @@
 
 #include <errno.h>
 #include <hdf5.h>
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "../base/base.h"

@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "disk.h"
 

@@ -3,11 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "table.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 static int count_fields(const char *line)

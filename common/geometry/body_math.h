@@ -5,8 +5,6 @@
 #ifndef COMMON_BODY_MATH_H
 #define COMMON_BODY_MATH_H
 
-#include <math.h>
-
 #include "../base/base.h"
 
 /* to = Q v; `to' may be v. */

@@ -7,9 +7,6 @@
 #include "outline.h"
 
 #include <ctype.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../base/base.h"
 

@@ -2,10 +2,6 @@
  * triangles a leaf; see tree.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "tree.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 enum { LEAF = 4, DEPTH = 96 };

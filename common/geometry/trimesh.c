@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "trimesh.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 void trimesh_free(struct trimesh *m)

@@ -3,8 +3,6 @@
 #include "trimesh_check.h"
 
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 

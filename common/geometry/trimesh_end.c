@@ -3,8 +3,6 @@
  * that then have one triangle each, is filled: a loop that runs round the other way is a hole, and
  * joined to the loop around it by a bridge, so that one polygon is left to be cut into ears
  * (Meisters, Amer. Math. Monthly 82, 1975). SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "trimesh.h"

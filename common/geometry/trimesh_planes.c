@@ -4,8 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "trimesh.h"
 
-#include <string.h>
-
 #include "../base/base.h"
 
 /* Against the first of its plane, so that a fine round surface is none. */

@@ -4,9 +4,6 @@
 #include "trimesh_read.h"
 
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #ifdef HAVE_ASSIMP
 #include <assimp/cimport.h>
 #include <assimp/config.h>

@@ -3,9 +3,6 @@
  * the scene's reader, with trimesh_connect before the last. Results do not depend on the number of
  * ranks: each does the same.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "trimesh.h"

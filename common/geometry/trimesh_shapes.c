@@ -1,8 +1,6 @@
 /* trimesh_shapes.c - meshes of simple solids, normals out, for bodies of simple form, and for
  * tests, which know their volumes, inertias and distances. Each ends connected (trimesh_connect).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "trimesh.h"

@@ -5,9 +5,6 @@
 #include <ctype.h>
 #include <libconfig.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "params_hints.h"

@@ -2,8 +2,6 @@
 #include "params_hints.h"
 
 #include <ctype.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "../base/base.h"
 

@@ -4,10 +4,7 @@
 #include "params_let.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <muParserDLL.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "params_hints.h"

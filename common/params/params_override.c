@@ -2,9 +2,6 @@
  * its tree. SPDX-License-Identifier: BSD-3-Clause */
 #include "params_override.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "params_hints.h"
 

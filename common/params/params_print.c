@@ -1,8 +1,5 @@
 /* params_print.c - what the parameter table says of itself: --help, the manual, values with units.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "params_hints.h"

@@ -2,9 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "params_use.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 /* What a walk over the rows of a group, or of a list in one, carries along. */

@@ -2,10 +2,6 @@
  * struct. SPDX-License-Identifier: BSD-3-Clause */
 #include "params_value.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "params_hints.h"
 #include "params_let.h"

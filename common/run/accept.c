@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "accept.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../base/base.h"
 #include "../files/files.h"
 
 static const char *const measures[] = {"rms", "peak", "impulse", "arrival"};

@@ -4,8 +4,6 @@
 #ifndef COMMON_ACCEPT_H
 #define COMMON_ACCEPT_H
 
-#include <stdbool.h>
-
 #include "../params/params.h"
 #include "../scene/scene.h"
 

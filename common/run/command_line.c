@@ -4,13 +4,8 @@
  * code to end with.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <getopt.h>
-#include <mpi.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "../base/base.h"
 #include "../params/params.h"
 #include "program.h"
 

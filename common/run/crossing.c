@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "crossing.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../scene/scene.h"
 
 bool crossing_box(const struct run *r, const char *group, double box[2][3])

@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "discharge_gauges.h"
 
-#include <math.h>
-
-#include "../base/base.h"
-
 /* Volume of both signs between two rows, linear between them. Of a change of sign between rates a
  * and b after the share a/(a - b) of the interval, each side of it is a triangle. volume[0] is what
  * went forward, volume[1] what came back, both positive. */

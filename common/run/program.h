@@ -5,11 +5,6 @@
 #ifndef COMMON_PROGRAM_H
 #define COMMON_PROGRAM_H
 
-#include <mpi.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
 #include "../base/base.h"
 #include "../files/files.h"
 #include "../params/params.h"

@@ -7,12 +7,8 @@
 #include "program.h"
 
 #include <hdf5.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
-#include "../base/base.h"
 #include "../files/files.h"
 #include "../scene/scene.h"
 #include "accept.h"

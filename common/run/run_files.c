@@ -9,13 +9,9 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../base/base.h"
 #include "../files/files.h"
 
 void files_path(const struct run *r, const char *what, char *path, size_t size)

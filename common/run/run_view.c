@@ -1,10 +1,7 @@
 /* run_view.c - view.py beside a run's output: a script for ParaView that shows all programs of the
  * run; what it knows of the scene stands here, the rest is common/run/view.py.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "../base/base.h"
 #include "program.h"
 #include "run_files.h"
 

@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "solids.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "crossing.h"
 
 /* Box around a body or wall as the case has it; false: a side of the domain. Points of polygons lie

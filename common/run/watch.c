@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "watch.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "../files/files.h"
 #include "program.h"
 

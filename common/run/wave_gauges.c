@@ -6,11 +6,7 @@
 #include "wave_gauges.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../base/base.h"
 #include "../waves/waves.h"
 
 /* Of the normal equations: below 0.15 errors of the places and the waves grow threefold, below

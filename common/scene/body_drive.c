@@ -2,11 +2,6 @@
  * the exact derivatives of the places. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_drive.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../geometry/geometry.h"
 
 static double file_step(const struct body_term *b, int columns);

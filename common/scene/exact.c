@@ -3,9 +3,6 @@
 #include "exact.h"
 
 #include <complex.h>
-#include <math.h>
-
-#include "../base/base.h"
 
 static void set_mode(struct exact *e, int m, double kx, double ky, double A, double s)
 {

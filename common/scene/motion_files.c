@@ -1,11 +1,6 @@
 /* motion_files.c - see motion_files.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "motion_files.h"
 
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "../params/params.h"
 

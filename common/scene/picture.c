@@ -1,12 +1,6 @@
 /* picture.c - a scene as SVG. SPDX-License-Identifier: BSD-3-Clause */
 #include "picture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../base/base.h"
 #include "../files/files.h"
 #include "picture_section.h"
 #include "scene_lines.h"

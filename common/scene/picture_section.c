@@ -1,10 +1,6 @@
 /* picture_section.c - see picture_section.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "picture_section.h"
 
-#include <math.h>
-
-#include "../base/base.h"
-
 double picture_water_middle(const struct scene *s, int axis)
 {
     enum { N = 16 };

@@ -2,10 +2,6 @@
  */
 #include "scene_groups.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "exact.h"
 #include "scene_check.h"
 #include "scene_facts.h"

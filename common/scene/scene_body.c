@@ -1,9 +1,6 @@
 /* scene_body.c - keys of bodies. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_body.h"
 
-#include <stddef.h>
-#include <string.h>
-
 #include "../geometry/geometry.h"
 #include "scene_facts.h"
 #include "scene_forms.h"

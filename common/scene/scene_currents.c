@@ -1,10 +1,6 @@
 /* scene_currents.c - see scene_currents.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_currents.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"
 #include "wave_maker.h"

@@ -1,10 +1,6 @@
 /* scene_cut.c - see scene_cut.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_cut.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../base/base.h"
 #include "scene_geometry.h"
 
 /* Where an outline crosses a wall: between its corner i and the next, in a segment of the wall. */

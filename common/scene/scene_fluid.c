@@ -1,10 +1,6 @@
 /* scene_fluid.c - see scene_fluid.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_fluid.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../base/base.h"
 #include "scene_cut.h"
 #include "scene_geometry.h"
 #include "scene_lines.h"

@@ -1,9 +1,6 @@
 /* scene_forms.c - see scene_forms.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_forms.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../geometry/geometry.h"
 #include "scene_geometry.h"
 #include "scene_outlines.h"

@@ -2,9 +2,6 @@
  * it holds for millimetres and kilometres alike. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_geometry.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../geometry/geometry.h"
 
 /* Lengths below this part of a line's size are rounding. */

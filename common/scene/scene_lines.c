@@ -1,9 +1,6 @@
 /* scene_lines.c - see scene_lines.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_lines.h"
 
-#include <math.h>
-
-#include "../base/base.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"
 

@@ -2,10 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_mesh.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "../files/files.h"
 #include "exact.h"
 #include "scene_fluid.h"

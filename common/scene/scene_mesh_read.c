@@ -1,11 +1,7 @@
 /* scene_mesh_read.c - meshes of a scene from their files: placed, mended, turned to the side of the
  * fluid. Rank 0 reads and mends, all ranks get the result. SPDX-License-Identifier: BSD-3-Clause */
 #include <ctype.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../base/base.h"
 #include "../geometry/geometry.h"
 #include "exact.h"
 #include "scene_cut.h"

@@ -1,10 +1,6 @@
 /* scene_openings.c - see scene_openings.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_openings.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "scene_fluid.h"
 #include "scene_speed.h"
 

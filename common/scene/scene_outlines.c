@@ -1,10 +1,6 @@
 /* scene_outlines.c - see scene_outlines.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_outlines.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "../geometry/geometry.h"
 #include "scene_forms.h"
 #include "scene_lines.h"

@@ -1,8 +1,6 @@
 /* scene_reference.c - see scene_reference.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_reference.h"
 
-#include <math.h>
-
 #include "scene_fluid.h"
 
 /* Middle of an opening. */

@@ -1,10 +1,7 @@
 /* scene_sense.c - what is wrong with a scene whose keys are each in order: surfaces that its
  * dimensions do not have, lines that are none, walls that pump, water outside the domain.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
-#include "../base/base.h"
 #include "scene_check.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"

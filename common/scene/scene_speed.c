@@ -2,10 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_speed.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../base/base.h"
 #include "exact.h"
 #include "scene_fluid.h"
 #include "scene_geometry.h"

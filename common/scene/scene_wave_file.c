@@ -1,8 +1,6 @@
 /* scene_wave_file.c - see scene_wave_file.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_wave_file.h"
 
-#include <stdio.h>
-
 #include "../waves/waves.h"
 #include "scene_waves.h"
 #include "wave_maker.h"

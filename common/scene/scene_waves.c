@@ -1,10 +1,6 @@
 /* scene_waves.c - see scene_waves.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_waves.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "scene_currents.h"
 #include "scene_fluid.h"
 #include "scene_mesh.h"

@@ -2,9 +2,7 @@
 #include "wave_absorber.h"
 
 #include <complex.h>
-#include <math.h>
 
-#include "../base/base.h"
 #include "../waves/waves.h"
 #include "scene_fluid.h"
 #include "scene_waves.h"

@@ -1,10 +1,6 @@
 /* wave_maker.c - see wave_maker.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_maker.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "scene_fluid.h"
 #include "scene_mesh.h"
 #include "scene_waves.h"

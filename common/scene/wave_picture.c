@@ -1,10 +1,6 @@
 /* wave_picture.c - see wave_picture.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_picture.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../base/base.h"
 #include "../files/files.h"
 #include "../waves/waves.h"
 #include "scene_waves.h"

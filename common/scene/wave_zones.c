@@ -1,9 +1,6 @@
 /* wave_zones.c - see wave_zones.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_zones.h"
 
-#include <math.h>
-
-#include "../base/base.h"
 #include "../waves/waves.h"
 #include "scene_currents.h"
 #include "scene_fluid.h"

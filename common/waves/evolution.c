@@ -7,9 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "evolution.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 enum { FIELDS = 4 }; /* eta + i phi_s, their x- and y-derivatives, linear W */

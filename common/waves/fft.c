@@ -3,10 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fft.h"
 
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 enum { FACTORS = 32, RADIX = 5 };

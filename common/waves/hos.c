@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "hos.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 enum { TERMS = HOS_ORDERS + 1 };

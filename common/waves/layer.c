@@ -6,9 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "layer.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "layer_solver.h"
 

@@ -6,8 +6,6 @@
 #include "layer_solver.h"
 
 #include <lapacke.h>
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "layer.h"

@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sea.h"
 
-#include <math.h>
-
 #include "../base/base.h"
 
 static const double lowest = 0.5, highest = 3.0; /* of the peak's frequency */

@@ -7,8 +7,6 @@
 #include "sea.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "sea_gains.h"

@@ -5,7 +5,6 @@
 #include "sea_gains.h"
 
 #include <complex.h>
-#include <math.h>
 
 #include "../base/base.h"
 #include "zone_gain.h"

@@ -4,9 +4,6 @@
 #include "second_order.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "imposed_waves.h"

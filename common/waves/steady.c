@@ -7,8 +7,6 @@
 
 #include <complex.h>
 #include <lapacke.h>
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 

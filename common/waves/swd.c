@@ -5,11 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "swd.h"
 
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 enum { FORMAT = 100, TEXTS = 30 + 20, MODES_MAX = 1000000 };

@@ -7,8 +7,6 @@
 #include "wave_field.h"
 
 #include <complex.h>
-#include <math.h>
-#include <string.h>
 
 #include "../base/base.h"
 #include "sea.h"

@@ -2,10 +2,6 @@
  * that it need not evolve again from its start. SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_field_save.h"
 
-#include <string.h>
-
-#include "../base/base.h"
-
 /* Of the waves themselves: files of other ones do not fit. */
 static double mark_of(const struct wave_field *f)
 {

@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_field_start.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "sea.h"
 #include "second_order.h"

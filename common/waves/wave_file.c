@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_file.h"
 
-#include <math.h>
-#include <stdio.h>
-
 #include "../base/base.h"
 
 static const double least = 1e-6; /* of the largest amplitude: no component */

@@ -1,9 +1,6 @@
 /* wave_grid.c - see wave_grid.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_grid.h"
 
-#include <math.h>
-#include <stddef.h>
-
 #include "../base/base.h"
 
 /* k has n/2 set to 0, for the first derivative of that mode is no real field; size keeps it, for

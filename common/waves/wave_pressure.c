@@ -1,9 +1,6 @@
 /* wave_pressure.c - see wave_pressure.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_pressure.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 void waves_need_pressure(struct waves *w)

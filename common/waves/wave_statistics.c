@@ -5,8 +5,6 @@
 #include "wave_statistics.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdlib.h>
 
 #include "../base/base.h"
 

@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_table.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../base/base.h"
 
 struct wave_table wave_table_create(void *owner, int n, int rows, double gap, double reach,

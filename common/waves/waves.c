@@ -5,8 +5,6 @@
 #include "imposed_waves.h"
 
 #include <complex.h>
-#include <math.h>
-#include <stdio.h>
 
 #include "../base/base.h"
 #include "sea.h"

@@ -5,7 +5,6 @@
 
 #include <complex.h>
 #include <lapacke.h>
-#include <math.h>
 
 #include "../base/base.h"
 

@@ -1,8 +1,6 @@
 /* map_deal.c - the conservative direction: sources deal out what they have. Every rank of the
  * coupler goes through all sources in the order of their gid and keeps what falls to its own
  * targets: the same bits on any number of ranks. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../../common/base/base.h"
 #include "near.h"

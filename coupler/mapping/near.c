@@ -3,8 +3,6 @@
 #include "near.h"
 
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
 #include "../../common/base/base.h"
 

@@ -2,11 +2,7 @@
  * program has its file of the same coupling step on disk. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
-
-#include "../../common/base/base.h"
 
 /* Two points stay on disk, as for a program that runs alone. */
 static void prune(struct coupler *c, const struct save *s)

@@ -6,10 +6,6 @@
 #ifndef COUPLER_COUPLER_H
 #define COUPLER_COUPLER_H
 
-#include <mpi.h>
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "../../common/run/run.h"
 #include "../cpl.h"
 #include "../mapping/map.h"

@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "job.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 
 /* clang-format off */

@@ -6,9 +6,6 @@
 #ifndef COUPLER_JOB_H
 #define COUPLER_JOB_H
 
-#include <mpi.h>
-#include <stdbool.h>
-
 #include "../../common/params/params.h"
 #include "../../common/scene/scene.h"
 #include "../transport/transport.h"

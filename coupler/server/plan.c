@@ -5,13 +5,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 
 void problem(char *text, const char *fmt, ...)

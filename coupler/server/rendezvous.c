@@ -4,11 +4,6 @@
  * window. SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 static _Noreturn void not_planned(const struct solver *s, const struct message *m)
 {
     abort_run("%s rank %d names a field (number %d) that is not in the plan", s->name, m->rank,

@@ -3,11 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 
 enum { LINE = 2048, NORMS = 16 };

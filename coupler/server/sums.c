@@ -3,11 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 
 enum { KINETIC, POTENTIAL, ENSTROPHY, SIGNAL, WATER, SUMS }; /* WATER: where both have a surface */

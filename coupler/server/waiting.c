@@ -3,8 +3,6 @@
  */
 #include "coupler.h"
 
-#include "../../common/base/base.h"
-
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
 {
     const int64_t n = take_int(&c->wire, m);

@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupler.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 
 static const double same_time = 1e-9; /* relative */

@@ -8,10 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bc.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "blocked.h"
 #include "carried.h"
 #include "ghosts.h"

@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blocked.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
-
 /* Number of the box in which a cell of the whole grid lies, from 1; 0: none. Behind closed sides as
  * before them. */
 static unsigned char box_of(const struct block *b, const int (*cells)[2][3], int n,

@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "carried.h"
 
-#include "../../common/base/base.h"
-
 enum outflow_kind carried_kind(const struct scene_wall *w)
 {
     if (w->kind == WALL_INFLOW)

@@ -8,10 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "bc.h"
 #include "blocked.h"
 #include "fv_sides.h"

@@ -7,7 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 #include "bc.h"
 #include "blocked.h"

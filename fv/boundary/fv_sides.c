@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fv_sides.h"
 
-#include <math.h>
-
 #include "blocked.h"
 #include "carried.h"
 #include "mesh_bc.h"

@@ -5,9 +5,6 @@
  * such gradient is one list of weights. SPDX-License-Identifier: BSD-3-Clause */
 #include "forcing.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 #include "mesh_bc.h"
 

@@ -11,10 +11,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levels.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "carried.h"
 #include "still.h"

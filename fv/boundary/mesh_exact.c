@@ -1,6 +1,5 @@
 /* mesh_exact.c - the exact solution in cells, on blocks with a ring among its fields.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
 #include "forcing.h"
 #include "mesh_bc.h"

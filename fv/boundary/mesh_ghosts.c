@@ -6,7 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
-#include "../../common/base/base.h"
 #include "ghosts.h"
 
 /* Ghosts behind a slip side: the component along S is antisymmetric about the wall's own flux wS,

@@ -3,10 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
-
 /* Of walls the flux of the moving grid, or 0; other sides keep what was interpolated from
  * ghosts. */
 void mesh_bc_fluxes(const struct fv *s, double *const U[3])

@@ -3,10 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "carried.h"
 #include "levels.h"
 

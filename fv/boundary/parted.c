@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "parted.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "bc.h"
 
 /* How many cells of each layer across axis a are computed, of all ranks. */

@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_sides.h"
 
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 
 enum { POINTS = 64, POINTS_3D = 8, DEPTHS = 3 };

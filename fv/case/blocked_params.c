@@ -2,12 +2,8 @@
  * them. SPDX-License-Identifier: BSD-3-Clause */
 #include "fv_case.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 
 #define P struct blocked_params

@@ -1,10 +1,6 @@
 /* body_boxes.c - see body_boxes.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_boxes.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "fv_case.h"
 

@@ -1,10 +1,6 @@
 /* fv_params.c - parameters of group fv. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"

@@ -2,10 +2,6 @@
  * before anything runs. Blocks: mesh_scene.c. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

@@ -6,10 +6,7 @@
 #include "../fv.h"
 
 #include <HYPRE_utilities.h>
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../coupling/fv_coupling.h"

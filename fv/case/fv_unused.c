@@ -3,10 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../output/fv_output.h"

@@ -7,8 +7,6 @@
 #include "fv_case.h"
 #include "fv_facts.h"
 
-#include <math.h>
-
 #define SIDES "overlap|joined|periodic|wall|slip|inflow|outflow|exact"
 #define P struct mesh_block_params
 /* clang-format off */

@@ -1,7 +1,5 @@
 /* mesh_scene.c - what contradicts itself in a scene on blocks: refused with the reason before
  * anything runs. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"

@@ -7,10 +7,6 @@
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../coupling/fv_coupling.h"
 #include "../time/fv_time.h"
 #include "../watch/fv_watch.h"

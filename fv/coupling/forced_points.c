@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_points.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 
 enum { MOST = 8 }; /* points of a cell along an axis */

@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "forced_restart.h"
 
-#include <stdlib.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

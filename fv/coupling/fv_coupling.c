@@ -2,11 +2,7 @@
  * patches of velocity and pressure with their course in time. In window_begin FV tells what it
  * expects of the coupling step (fv_course.h), then waits for the forced velocities at its end.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/run/run.h"
 #include "../../coupler/cpl_partner.h"

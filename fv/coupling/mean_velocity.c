@@ -9,10 +9,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mean_velocity.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 
 /* Of what is missing, a coupling step: errors of the particles' density, by which the flow through

@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "moved_box.h"
 
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../operators/fv_operators.h"

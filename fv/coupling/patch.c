@@ -5,11 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "patch.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 enum { MARGIN = 4 }; /* cells around the box: a cubic's and one for rounding */
 
 /* Boxes of partners, as patch_create gets them. */

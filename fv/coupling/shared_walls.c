@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "shared_walls.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../grid/fv_grid.h"
 

@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "water_budget.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

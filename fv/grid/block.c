@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "block.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 /* Whether every rank gets at least LEAST cells along an axis that is cut. */

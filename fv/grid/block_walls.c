@@ -5,11 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "block_walls.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 struct face {
     double x[3], n[3]; /* m: centre; into the fluid, of length 1 */
     int cell[3];

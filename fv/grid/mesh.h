@@ -6,10 +6,6 @@
 #ifndef FV_MESH_H
 #define FV_MESH_H
 
-#include <mpi.h>
-#include <stdbool.h>
-#include <stdint.h>
-
 #include "../../common/run/run.h"
 #include "mesh_blocks.h"
 #include "part.h"

@@ -3,9 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_blocks.h"
 
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 
 /* Adds a fault at the key of block b, with its name in the text. */
 void mesh_fault(const struct run *r, struct faults *f, const struct mesh_block_params *b,

@@ -3,8 +3,6 @@
 #ifndef FV_MESH_BLOCKS_H
 #define FV_MESH_BLOCKS_H
 
-#include <stdbool.h>
-
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "side_kinds.h"

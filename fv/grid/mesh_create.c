@@ -8,10 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "mesh_motion.h"
 #include "overset.h"
 

@@ -7,12 +7,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <hdf5.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include "../../common/base/base.h"
 
 /* Dataset "x" of shape [nk][nj][ni][dim]; NULL without errors printed if the file has no such
  * thing. */

@@ -2,7 +2,6 @@
  * mesh. Marked before blocks are cut, for they can give values as computed ones can; cells of the
  * fringe that find no computed donors beside them join them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
 #include "mesh.h"
 

@@ -4,9 +4,7 @@
  * (mesh_exchange_create). After that each use is one message to and from each peer (mesh_exchange),
  * fields interleaved. With weights the sender interpolates, so that only results travel.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "mesh.h"
 
 /* Number of weights of a value. */

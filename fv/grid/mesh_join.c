@@ -3,8 +3,6 @@
  * cell i: 2 i + 1), so that one map serves cells and vertices. Every rank does it for all blocks:
  * 27 shifts by periods, 8 orientations and all pairs of sides are tried.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "mesh.h"
 

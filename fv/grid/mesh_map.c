@@ -3,10 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "mesh_file.h"
 
 /* x(s) = c + K sinh(B (s - s0)) from min to max, finest at c: s in [0, 1]. B < 0: by a tanh, finest

@@ -5,10 +5,7 @@
  * (mesh_map_point), fourth order. Of blocks that move they are made where the case puts the block,
  * and turned afterwards (mesh_motion.c).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "mesh.h"
 
 static const double gauss2[2] = {0.2113248654051871, 0.7886751345948129};

@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_motion.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/geometry/geometry.h"
 
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to)

@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_outside.h"
 
-#include <math.h>
-
 #include "../../common/scene/scene.h"
 
 /* A tenth of the first cell inside the middle of a face of a side. p, q: the face's indices along

@@ -3,7 +3,6 @@
  * mesh_recut_wanted is asked once a coupling step, and only if the set of cells in the boxes has
  * changed is everything cut anew. The caller then renews what depends on it (matrix, forcing).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <string.h>
 
 #include "overset_inside.h"
 

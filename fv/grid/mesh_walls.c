@@ -1,6 +1,5 @@
 /* mesh_walls.c - walls and openings of the scene on the sides of blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
 #include "../../common/geometry/geometry.h"
 #include "mesh.h"

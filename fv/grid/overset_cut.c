@@ -9,9 +9,7 @@
  * make_fringe for all, and with imposed cells hand_over until nothing changes. Every rank does all
  * cells of all blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "mesh_motion.h"
 #include "overset_inside.h"
 

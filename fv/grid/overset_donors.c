@@ -4,11 +4,7 @@
  * then takes its own. After a move each rank finds those of its own cells only (overset_find).
  * Weights are averages over Gauss points of the receiving cell, so that averages become averages.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "mesh_motion.h"
 #include "overset_inside.h"
 

@@ -1,10 +1,7 @@
 /* overset_search.c - which cell of a block holds a place: bisection in boxes, bins of bounding
  * boxes elsewhere, then Newton in the smooth map of a cell.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "mesh_motion.h"
 #include "overset_inside.h"
 

@@ -1,8 +1,6 @@
 /* overset_stencil.c - interpolation: tensor products of cubics through four averages in the
  * giving cells' indices, or linear ones, averaged over Gauss points of the receiving cell: averages
  * to averages, fourth order. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "mesh_motion.h"
 #include "overset_inside.h"

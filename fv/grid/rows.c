@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "rows.h"
 
-#include <math.h>
-
 #include "../../common/base/base.h"
 
 /* From 1 at x = 0 to 0 at x = 1, with two smooth derivatives. */

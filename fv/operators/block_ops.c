@@ -4,7 +4,6 @@
  * that each operator needs: halo and fringe (mesh_fill), sides (mesh_bc_*), imposed cells (given_*,
  * forcing_*) and the surface. In 2D and 3D alike; every function that fills ghosts is collective.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

@@ -7,8 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "blocked_cells.h"
 
-#include <math.h>
-
 #include "../surface/fv_surface.h"
 
 /* The ghosts' rule below and above a cell near boxes, for component q along axis a. */

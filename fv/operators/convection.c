@@ -12,8 +12,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-
 #include "../boundary/fv_boundary.h"
 #include "blocked_cells.h"
 #include "operators.h"

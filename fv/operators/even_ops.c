@@ -4,8 +4,6 @@
  * psi itself, and averages over volumes are those over indices. Loops go over the cells near water
  * alone (BLOCK_NEAR).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

@@ -4,7 +4,6 @@
  * series and, for the power, by the watch of the energy.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <assert.h>
-#include <string.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

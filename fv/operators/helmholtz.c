@@ -7,10 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "helmholtz.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "viscous_solver.h"
 
 /* fv.tol_viscous if given; else `most', falling as 1/n^2 beyond 32 cells a side. */

@@ -1,6 +1,5 @@
 /* mesh_forces.c - force of the flow on a face of a wall of blocks, and the work that comes in
  * through one of a side. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

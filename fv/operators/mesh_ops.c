@@ -11,9 +11,6 @@
 #include "../surface/fv_surface.h"
 #include "operators.h"
 
-#include <math.h>
-#include <string.h>
-
 /* Layers for loops over lower faces along a: one more on the upper side, `t' layers of tangents. */
 static void layers(int dim, int a, int t, int down[3], int up[3])
 {

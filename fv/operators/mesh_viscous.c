@@ -3,7 +3,6 @@
  * takes few steps; else, and should the bounds fail, BiCGStab scaled by the diagonal, which cells
  * of very different size want; between joins of like cells conjugate gradients.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
 #include "../grid/fv_grid.h"
@@ -11,9 +10,6 @@
 #include "helmholtz.h"
 #include "mesh_ops.h"
 #include "viscous_solver.h"
-
-#include <math.h>
-#include <string.h>
 
 /* out = (1 - c L) x over the diagonal, in computed cells; x's ghosts and fringe are set. Scaling by
  * the diagonal makes cells of very different size alike for BiCGStab. */

@@ -4,9 +4,6 @@
  * there, and with a surface BiCGStab. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 #include "blocked_cells.h"

@@ -7,9 +7,7 @@
 #include "viscous_single.h"
 
 #include <float.h>
-#include <math.h>
 
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 #include "helmholtz.h"
 #include "operators.h"

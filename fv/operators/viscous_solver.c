@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "viscous_solver.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "mesh_ops.h"

@@ -2,8 +2,6 @@
  * cells around it, linear between their centres. Beside a box that is cut out the water ends at the
  * box: columns with other boxes than the place's own say nothing of it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

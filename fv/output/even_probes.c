@@ -2,7 +2,6 @@
  * and under a surface pressures, and what else has no room for them, linear between the centres of
  * cells and beyond them at a wall; past boxes that are cut out.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

@@ -4,8 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "even_value.h"
 
-#include <math.h>
-
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 

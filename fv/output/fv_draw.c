@@ -2,7 +2,6 @@
  * blocks by what they are. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"

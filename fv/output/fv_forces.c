@@ -1,10 +1,6 @@
 /* fv_forces.c - forces of the flow on walls and bodies, in the series and in the summary.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"
 #include "output.h"

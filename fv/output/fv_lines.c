@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 #include "mesh_output.h"
 #include "output.h"

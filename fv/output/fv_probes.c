@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

@@ -2,9 +2,7 @@
  * their ghosts (so that the same ranks go on bit for bit; others gather them by layout.h), numbers
  * by name (fv_restart_numbers), then what watches, moving blocks, zones of waves and the coupling
  * keep of their own. SPDX-License-Identifier: BSD-3-Clause */
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"

@@ -6,11 +6,6 @@
 #include "mesh_output.h"
 #include "report.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "../surface/fv_surface.h"

@@ -4,8 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
-#include <math.h>
-
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"

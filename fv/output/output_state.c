@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "output.h"
 
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 
 struct fv_output *output_create(const struct fv *s)

@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "probe_flow.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 
 enum { ALONG_LINE = 400, ALONG_SIDE = 100 };

@@ -2,9 +2,7 @@
  * (common/steady.h): a solitary wave's crest and place, and what it has left behind; of regular
  * waves mean, first and second harmonic, by least squares, as a partner may hold some columns.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
 
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

@@ -1,10 +1,6 @@
 /* surface_errors.c - what the water does as a whole: energy, reach, period and damping of a
  * standing wave. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"
 #include "../surface/fv_surface.h"

@@ -4,9 +4,6 @@
  * preconditioner. SPDX-License-Identifier: BSD-3-Clause */
 #include "gcr.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 void gcr_create(void *owner, struct gcr *g, MPI_Comm comm, int n, void *of,

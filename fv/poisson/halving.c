@@ -8,11 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "halving.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 enum {
     MARGIN = 2, /* ghosts of coarse grids: what the transfers reach */
     MOST_LEVELS = 64

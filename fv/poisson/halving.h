@@ -3,8 +3,6 @@
 #ifndef FV_HALVING_H
 #define FV_HALVING_H
 
-#include <stdbool.h>
-
 #include "../grid/fv_grid.h"
 
 /* Whether the grid has no period, and so few ranks share it that each may have all coarser levels.

@@ -15,10 +15,7 @@
 #include <HYPRE_IJ_mv.h>
 #include <HYPRE_krylov.h>
 #include <HYPRE_parcsr_ls.h>
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "backend.h"
 #include "gcr.h"
 #include "ij_rows.h"

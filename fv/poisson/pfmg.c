@@ -6,10 +6,7 @@
 #include "pfmg.h"
 
 #include <HYPRE_struct_ls.h>
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "hypre_call.h"
 
 struct pfmg {

@@ -7,10 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "poisson.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../operators/fv_operators.h"

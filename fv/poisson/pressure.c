@@ -5,10 +5,6 @@
  */
 #include "../fv.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"
 #include "../surface/fv_surface.h"

@@ -11,12 +11,6 @@
 #include "gcr.h"
 #include "pfmg.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 enum { TRIAL = 20 }; /* cycles that the rough right side may take: as dear as 4 of BoomerAMG */
 
 /* A block's doubled indices X (vertex i: 2 i, cell i: 2 i + 1) are sign[a] X[a] + shift[a] along

@@ -6,9 +6,7 @@
 #include "wet_boxes.h"
 
 #include <limits.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../surface/fv_surface.h"
 
 enum { TILE = 8, SPARE = 2 }; /* cells; how many times what is needed boxes may have */

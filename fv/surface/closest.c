@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 enum {
     REACH = 3,             /* cells around that are read: the ghosts of a rank */
     NODES = 2 * REACH + 1, /* centres along an axis */

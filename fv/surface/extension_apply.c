@@ -2,10 +2,6 @@
  * layer. SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "fraction.h"
 
 enum { STENCIL = 128 };

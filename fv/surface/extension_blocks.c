@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "extension_window.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "levelset.h"
 #include "mesh_view.h"
 

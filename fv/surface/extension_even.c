@@ -2,8 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "extension_window.h"
 
-#include <math.h>
-
 #include "../boundary/fv_boundary.h"
 #include "levelset.h"
 

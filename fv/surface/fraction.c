@@ -5,10 +5,6 @@
  * cells full. SPDX-License-Identifier: BSD-3-Clause */
 #include "fraction.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "mesh_view.h"
 #include "plane.h"

@@ -3,9 +3,6 @@
  * at once, so that ranks make no difference. SPDX-License-Identifier: BSD-3-Clause */
 #include "fraction.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "levelset.h"
 #include "mesh_view.h"
 

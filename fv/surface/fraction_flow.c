@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fraction.h"
 
-#include "../../common/base/base.h"
 #include "levelset.h"
 #include "mesh_view.h"
 

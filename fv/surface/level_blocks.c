@@ -2,8 +2,6 @@
  * the steps of blocks that move. SPDX-License-Identifier: BSD-3-Clause */
 #include "level_ops.h"
 
-#include <string.h>
-
 #include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "mesh_view.h"

@@ -2,8 +2,6 @@
  * WENO5 along the axes, boxes that are cut out. SPDX-License-Identifier: BSD-3-Clause */
 #include "level_ops.h"
 
-#include <string.h>
-
 #include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "weno.h"

@@ -3,8 +3,6 @@
 #ifndef FV_LEVEL_OPS_H
 #define FV_LEVEL_OPS_H
 
-#include <math.h>
-
 #include "../fv.h"
 
 enum { BAND = 5 }; /* cells on either side of the surface that are advected */

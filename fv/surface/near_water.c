@@ -6,10 +6,7 @@
 #include "near_water.h"
 
 #include <limits.h>
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "fraction.h"

@@ -2,9 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "patterns.h"
 
-#include <stdbool.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 enum { ROOM = 1024 };

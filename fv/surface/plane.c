@@ -3,8 +3,6 @@
  * the two cubic pieces of the inverse in 3D are iterated. SPDX-License-Identifier: BSD-3-Clause */
 #include "plane.h"
 
-#include <math.h>
-
 #include "../../common/base/base.h"
 
 /* Sorts the sizes of the components, smallest first, and divides them by their sum, which it

@@ -7,10 +7,6 @@
  * alone, which pins it better still. WENO5 elsewhere. SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "level_ops.h"
 #include "reinit_band.h"

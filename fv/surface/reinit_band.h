@@ -3,8 +3,6 @@
 #ifndef FV_REINIT_BAND_H
 #define FV_REINIT_BAND_H
 
-#include <math.h>
-
 #include "../fv.h"
 
 /* A run of cells of the band along x. */

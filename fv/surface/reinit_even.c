@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "reinit_band.h"
 
-#include <string.h>
-
 #include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "weno.h"

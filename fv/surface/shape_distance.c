@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

@@ -10,9 +10,6 @@
 #include "levelset.h"
 #include "mesh_view.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 
 enum { AROUND = 12 }; /* two cells, and the four around each along two tangents */

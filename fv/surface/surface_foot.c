@@ -9,8 +9,6 @@
 #include "levelset.h"
 #include "mesh_view.h"
 
-#include <math.h>
-
 /* Cells along an index line: from the first on the step to the foot is less than whole, from the
  * second on none. */
 static const double WHOLE = 1.5, NONE = 3.0;

@@ -1,11 +1,6 @@
 /* surface_forced.c - see surface_forced.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "surface_forced.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/waves/waves.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

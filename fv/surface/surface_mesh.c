@@ -2,10 +2,6 @@
 #include "levelset.h"
 #include "mesh_view.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 

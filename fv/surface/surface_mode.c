@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "mesh_view.h"
 
 /* cos and sin of k x over the local cells along an axis, x from 0. */

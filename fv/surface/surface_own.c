@@ -5,10 +5,6 @@
 #include "levelset.h"
 #include "mesh_view.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../grid/fv_grid.h"
 
 /* --- polygons: convex, counter-clockwise --- */

@@ -9,10 +9,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "level_ops.h"
 #include "mesh_view.h"

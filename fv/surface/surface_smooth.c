@@ -9,8 +9,6 @@
  * half a cell a step, which has other losses. SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
 
-#include <math.h>
-
 #include "../boundary/fv_boundary.h"
 #include "level_ops.h"
 #include "mesh_view.h"

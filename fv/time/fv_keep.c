@@ -1,9 +1,6 @@
 /* fv_keep.c - a copy of all that a step starts from, so that steps can be taken back: what a
  * restart file holds, in memory. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
 #include "../operators/fv_operators.h"

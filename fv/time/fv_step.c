@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stages.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"

@@ -16,10 +16,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "moving.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../grid/fv_grid.h"
 #include "../operators/fv_operators.h"

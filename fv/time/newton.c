@@ -5,12 +5,8 @@
 #include "newton.h"
 
 #include <kinsol/kinsol.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "moving.h"
 #include "stages.h"

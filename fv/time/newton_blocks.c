@@ -2,8 +2,6 @@
  * indices. Where no side gives the pressure, the mean of the divergence is taken out of the
  * continuity: interpolated fluxes do not sum to zero. A free surface stands still within a step, as
  * on even cells (newton_even.c). SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"

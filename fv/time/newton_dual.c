@@ -14,10 +14,7 @@
 #include "newton.h"
 
 #include <kinsol/kinsol.h>
-#include <math.h>
-#include <stdio.h>
 
-#include "../../common/base/base.h"
 #include "../surface/fv_surface.h"
 
 enum { STAGES = 2 };

@@ -2,8 +2,6 @@
  * derivative along a variation, written out. A free surface stands still within a step: dry cells
  * are no unknowns, what they carry on and the normal stress belong to the velocity of the end; the
  * derivative is then made of difference quotients. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"

@@ -7,9 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "newton.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../boundary/fv_boundary.h"
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"

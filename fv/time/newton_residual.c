@@ -9,8 +9,6 @@
  * h/(3 d). SPDX-License-Identifier: BSD-3-Clause */
 #include "newton.h"
 
-#include <string.h>
-
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 

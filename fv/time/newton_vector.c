@@ -2,7 +2,6 @@
  * it takes many vectors: in lanes, for SUNDIALS' own are compiled to add one number after the
  * other, and with one reduction for all products of a vector. SPDX-License-Identifier: BSD-3-Clause
  */
-#include "../../common/base/base.h"
 #include "newton.h"
 
 enum { PART = 1024 };

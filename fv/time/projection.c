@@ -3,8 +3,6 @@
  * viscosity implicit, the gradient of the step's first pressure in all stages; its pressure stands
  * at t - dt/6. bdf2: two-step backward differences with extrapolated convection, for slow flows.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <string.h>
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"

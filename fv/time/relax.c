@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "relax.h"
 
-#include <math.h>
-
 #include "../../common/scene/scene.h"
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"

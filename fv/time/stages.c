@@ -5,13 +5,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "stages.h"
 
-#include "../../common/base/base.h"
 #include "../poisson/poisson.h"
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
 #include "moving.h"
-
-#include <math.h>
 
 void stage_fields_create(struct fv *s)
 {

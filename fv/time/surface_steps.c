@@ -8,10 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../surface/fv_surface.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../boundary/fv_boundary.h"
 #include "../poisson/poisson.h"
 #include "moving.h"

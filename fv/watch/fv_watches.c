@@ -7,10 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "watches.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../operators/fv_operators.h"

@@ -10,10 +10,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "limits.h"
 
-#include <math.h>
-#include <stdio.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"

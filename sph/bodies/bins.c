@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bins.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 /* Boxes of this width that hold everything up to hi; their number along each axis. */

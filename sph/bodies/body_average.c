@@ -7,10 +7,6 @@
 #include "bodies.h"
 #include "body_seal.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 

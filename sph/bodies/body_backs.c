@@ -1,9 +1,6 @@
 /* body_backs.c - see body_backs.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_backs.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
 

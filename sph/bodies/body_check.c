@@ -1,9 +1,6 @@
 /* body_check.c - see body_check.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_check.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "bodies.h"

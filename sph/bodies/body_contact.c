@@ -10,9 +10,7 @@
  * rubs there is gathered step by step (hold), so that what friction can hold comes to rest, as by
  * the tangential spring of Cundall & Strack (Geotechnique 29, 1979), and does not creep.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "bodies.h"
 #include "body_touch.h"
 

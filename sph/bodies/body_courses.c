@@ -4,10 +4,6 @@
  * for within the step, to third order of it. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_courses.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../walls/sph_walls.h"
 

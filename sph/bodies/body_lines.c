@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bodies.h"
 
-#include <string.h>
-
 int body_line_other(const struct scene *c, const struct scene_line *l)
 {
     for (int k = 0; k < c->nbodies && *l->body; k++)

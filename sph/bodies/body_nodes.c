@@ -4,13 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "body_nodes.h"
 
-#include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 static struct average_node *add_node(struct nodes *to)
 {
     ROOM_IN(NULL, to->node, to->n + 1);

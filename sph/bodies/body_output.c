@@ -1,9 +1,6 @@
 /* body_output.c - what moving bodies show: columns of the series, the summary, the restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "bodies.h"
 

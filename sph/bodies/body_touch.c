@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "body_touch.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 struct touch_box {
     double lo[2], hi[2];
 };

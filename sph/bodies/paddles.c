@@ -5,11 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "paddles.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../surface/sph_surface.h"

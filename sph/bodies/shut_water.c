@@ -5,10 +5,6 @@
  * density. SPDX-License-Identifier: BSD-3-Clause */
 #include "shut_water.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "body_touch.h"
 

@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "amount.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../sph.h"
 #include "first_lattice.h"

@@ -7,11 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "basins.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 #include "basin_runs.h"

@@ -2,10 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "basins_shut.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "basin_runs.h"

@@ -3,10 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fill.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../parallel/domain.h"

@@ -1,9 +1,6 @@
 /* first_water.c - see first_water.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "first_water.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "sph_params.h"

@@ -1,11 +1,6 @@
 /* lattice.c - see lattice.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "lattice.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 int64_t lattice_cells(const struct lattice *l) { return (int64_t)l->n[0] * l->n[1] * l->n[2]; }
 
 void lattice_indices(const struct lattice *l, int64_t cell, int *ic)

@@ -6,9 +6,6 @@
  * the work, later ones melt the lattice. SPDX-License-Identifier: BSD-3-Clause */
 #include "pack.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../pairs/sph_pairs.h"
 #include "../sph.h"

@@ -1,9 +1,6 @@
 /* rims.c - see rims.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "rims.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 #include "rooms.h"

@@ -1,11 +1,7 @@
 /* sph_body_paths.c - bodies and walls of a scene as particles meet them: gaps that none can enter,
  * bodies that overlap, pierce walls or leave the domain, now or later, files of motion that a run
  * cannot follow. SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"

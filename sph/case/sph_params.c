@@ -1,11 +1,6 @@
 /* sph_params.c - parameter table of group sph. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_params.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../bodies/sph_bodies.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../refinement/sph_refinement.h"

@@ -4,11 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_state.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../open_boundaries/sph_open_boundaries.h"

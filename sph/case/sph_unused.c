@@ -3,9 +3,6 @@
  * partner's. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_unused.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../refinement/sph_refinement.h"
 #include "../sph_facts.h"

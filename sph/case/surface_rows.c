@@ -11,9 +11,6 @@
  * filled. A surface on faces of the lattice keeps its rows. */
 #include "surface_rows.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"
 #include "../refinement/sph_refinement.h"

@@ -7,11 +7,6 @@
  */
 #include "body_coupling.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/params/params.h"
 #include "../../coupler/cpl_partner.h"
 #include "../bodies/sph_bodies.h"

@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "coupling_solids.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"

@@ -8,11 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_link.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../coupler/cpl_partner.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"

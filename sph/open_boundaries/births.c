@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "births.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"

@@ -5,11 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "box_motion.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"

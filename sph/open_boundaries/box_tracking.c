@@ -8,9 +8,6 @@
  * crest v decays. SPDX-License-Identifier: BSD-3-Clause */
 #include "box_tracking.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "zones.h"
 
 static const double share = 0.25; /* of the time in which the fastest box goes its length: tau */

@@ -3,11 +3,6 @@
  * high they stand. SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gap.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/waves/waves.h"
 #include "../pairs/sph_pairs.h"

@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "openings.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
 #include "zones.h"

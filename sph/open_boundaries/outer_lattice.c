@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "outer_lattice.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
 #include "openings.h"

@@ -7,11 +7,6 @@
  * walls.) SPDX-License-Identifier: BSD-3-Clause */
 #include "sides.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"

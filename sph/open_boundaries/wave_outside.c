@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wave_outside.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../../common/waves/waves.h"
 

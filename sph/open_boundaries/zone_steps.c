@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zone_steps.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"

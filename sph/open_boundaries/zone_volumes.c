@@ -11,9 +11,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zone_volumes.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../walls/sph_walls.h"
 #include "zones.h"

@@ -4,11 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zones.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "../surface/sph_surface.h"
 

@@ -12,9 +12,6 @@
  * Called once per row of the series. SPDX-License-Identifier: BSD-3-Clause */
 #include "discharge_gauge.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 

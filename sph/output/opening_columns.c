@@ -6,9 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "opening_columns.h"
 
-#include <math.h>
-#include <stdio.h>
-
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
 

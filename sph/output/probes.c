@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "probes.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../pairs/sph_pairs.h"

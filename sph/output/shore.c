@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "shore.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
-
 static const double half = 2.0;  /* dx: half width of a column's hat function */
 static const double least = 0.5; /* dx: depth of the thinnest water */
 

@@ -5,12 +5,7 @@
  * (h5_read_parts), then whatever each module writes of its own. What is saved in sph_checkpoint is
  * read in sph_restore in the same order, on any number of ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"

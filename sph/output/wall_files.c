@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_files.h"
 
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"

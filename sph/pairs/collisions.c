@@ -10,8 +10,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "collisions.h"
 
-#include <math.h>
-
 #include "neighbours.h"
 
 /* Below `touching' particles collide, below `tight' they are moved apart as well, by a tenth of

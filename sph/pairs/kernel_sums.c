@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "kernel_sums.h"
 
-#include <math.h>
-
 #include "kernel.h"
 #include "neighbours.h"
 

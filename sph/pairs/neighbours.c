@@ -8,10 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "neighbours.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "vec.h"
 
 /* Cells [0, cells) along each axis, the outermost for ghosts only. */

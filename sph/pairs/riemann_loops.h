@@ -6,8 +6,6 @@
 #ifndef SPH_RIEMANN_LOOPS_H
 #define SPH_RIEMANN_LOOPS_H
 
-#include <string.h>
-
 #include "../sph.h"
 #include "kernel.h"
 #include "kernel_sums.h"

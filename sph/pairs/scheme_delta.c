@@ -16,8 +16,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
-#include <string.h>
-
 #include "../sph.h"
 #include "kernel.h"
 #include "kernel_sums.h"

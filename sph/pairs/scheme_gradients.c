@@ -14,8 +14,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
-#include <math.h>
-
 #include "../surface/sph_surface.h"
 #include "eigenvalue.h"
 #include "kernel.h"

@@ -20,9 +20,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "scheme.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "riemann_rows.h"
 

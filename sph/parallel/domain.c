@@ -8,10 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "domain.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../pairs/sph_pairs.h"
 

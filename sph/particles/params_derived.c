@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "params_derived.h"
 
-#include <math.h>
-
 /* Whether the region reaches a side of the domain (2a low, 2a+1 high), to 1e-6 dx; a periodic
  * direction is reached only if the region spans all of it. */
 bool sph_params_reaches(const struct scene_domain *d, const struct sph_params *prm, int side)

@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../sph.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "eos.h"
 
 /* The line that pads neighbour rows: outside every support and without volume, yet harmless in any

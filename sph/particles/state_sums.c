@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "state_sums.h"
 
-#include <math.h>
-
 #include "../sph.h"
 
 /* Elastic energy per mass: integral of p/rho^2 from rho0, with r = rho/rho0. With gamma = 7 it is

@@ -6,7 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "volume.h"
 
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../sph.h"
 

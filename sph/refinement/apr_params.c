@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "apr_params.h"
 
-#include <string.h>
-
 #include "../../common/run/run.h"
 #include "../sph_facts.h"
 

@@ -6,10 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "ball.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 #include "box_union.h"
 

@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "box_union.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 /* Cells between the coordinates of faces: cell i of an axis from at[i] to at[i + 1]. */

@@ -3,10 +3,6 @@
  * force is theirs. SPDX-License-Identifier: BSD-3-Clause */
 #include "refinement.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../walls/sph_walls.h"
 
 enum { LOOK_EVERY = 20, VERTICES = 500, PARTS = 8 }; /* of a side of a polygon */

@@ -8,11 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "criteria.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "regions_parts.h"
 

@@ -6,9 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 

@@ -11,11 +11,6 @@
 #include "guards.h"
 #include "refinement.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
 

@@ -5,9 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "marks.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 /* The number of cells along an axis is the largest at which they are at least `width' wide; 1e-12

@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/params/params.h"
 #include "../pairs/sph_pairs.h"

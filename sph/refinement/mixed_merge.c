@@ -5,11 +5,6 @@
  * [5.6-5.11]. SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "refinement.h"
 

@@ -6,9 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../pairs/riemann_loops.h"
 #include "../pairs/sph_pairs.h"
 #include "../surface/sph_surface.h"

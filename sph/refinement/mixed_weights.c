@@ -6,8 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
-#include <math.h>
-
 #include "refinement.h"
 
 static const double hysteresis = 0.5; /* coarser dx */

@@ -7,10 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "regions.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"

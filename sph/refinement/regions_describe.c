@@ -1,11 +1,7 @@
 /* regions_describe.c - what --check says and draws of refinement. All of it makes the regions anew
  * from the parameters and frees them again, for --check has no state.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "regions.h"
 #include "regions_check.h"

@@ -3,10 +3,6 @@
  * of the start and positions are brought into it. SPDX-License-Identifier: BSD-3-Clause */
 #include "shell.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/geometry/geometry.h"
 
 enum { RUN = 16 }; /* segments that follow each other share a box */

@@ -5,9 +5,7 @@
  * sliders and locked degrees of freedom are reduced equations, so that nothing drifts from them.
  * The angular acceleration of a body that rotates freely in 3D is Q I^-1 Q^T (T - omega x L).
  * SPDX-License-Identifier: BSD-3-Clause */
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 #include "body.h"

@@ -3,10 +3,7 @@
  * it), so the body's velocity falls at the eigenvalues of M^-1 Z, Z = int rho c [n; r x n][n; r x
  * n]^T dS; the largest bounds an explicit step. SPDX-License-Identifier: BSD-3-Clause */
 #include <lapacke.h>
-#include <math.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "body_impedance.h"
 
 /* One piece of surface with the impedances `along' its normal and `across' it, rho c dS, kg/s: adds

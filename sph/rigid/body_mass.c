@@ -3,11 +3,7 @@
  * that about z.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <lapacke.h>
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "../../common/base/base.h"
 #include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 #include "body.h"

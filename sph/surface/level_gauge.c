@@ -8,9 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gauge.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 #include "level_window.h"

@@ -8,9 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "surface.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
 #include "../walls/sph_walls.h"

@@ -5,8 +5,6 @@
 #ifndef SPH_SURFACE_H
 #define SPH_SURFACE_H
 
-#include <math.h>
-
 #include "../sph.h"
 
 /* Inside; within reach of a particle on the surface; on it. */

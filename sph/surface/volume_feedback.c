@@ -19,9 +19,6 @@
  * of 0.2e-3. SPDX-License-Identifier: BSD-3-Clause */
 #include "volume_feedback.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../walls/sph_walls.h"
 

@@ -15,8 +15,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "damper.h"
 
-#include <math.h>
-
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "../surface/sph_surface.h"

@@ -6,9 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "extremes.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../particles/sph_particles.h"
 
 /* A NaN never replaces anything: faults are found by sph_fault_of instead. */

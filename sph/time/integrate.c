@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "integrate.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../bodies/sph_bodies.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../pairs/sph_pairs.h"

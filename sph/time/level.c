@@ -7,10 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "level.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../pairs/sph_pairs.h"

@@ -7,9 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "local_steps.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../bodies/sph_bodies.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"

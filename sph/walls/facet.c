@@ -4,10 +4,6 @@
  * into some over its edges. SPDX-License-Identifier: BSD-3-Clause */
 #include "facet.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "vec_math.h"
 

@@ -6,11 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fixed_layers.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 /* Two segments that turn by less go on in one layer; else one ends and the other begins. */
 static const double smooth = 0.7; /* cosine */
 

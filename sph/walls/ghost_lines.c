@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "ghost_lines.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "walls.h"

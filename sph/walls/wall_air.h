@@ -4,8 +4,6 @@
 #ifndef SPH_WALL_AIR_H
 #define SPH_WALL_AIR_H
 
-#include <math.h>
-
 #include "../sph.h"
 #include "wall_list.h"
 

@@ -3,10 +3,6 @@
  * walls that look into it are left out. SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_cover.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 /* A line that parts the plane: a segment of a wall, or an open side of the domain. */

@@ -2,11 +2,6 @@
  * small; those that are alike again are put together. SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_cover3.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 enum state { SEEN, HIDDEN, MIXED };
 
 struct cover {

@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_ends.h"
 
-#include <math.h>
-
 /* Ends of segment k of a wall: of its points, or of the side of the domain that it is. */
 static bool segment_of(const struct scene *c, const struct scene_wall *w, int k, double a[2],
                        double b[2])

@@ -19,8 +19,6 @@
  * particles that stands on the floor gets 2 to 5 % less than p A. */
 #include "wall_gap.h"
 
-#include <math.h>
-
 #include "forces.h"
 
 static const double least_gamma = 0.15, least_turn = 0.5;

@@ -6,9 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "ghost_lines.h"
 
 struct mirror {

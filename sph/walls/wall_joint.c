@@ -3,11 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_joint.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 enum { JOINT_RAYS = 16 };
 
 static const double least_angle = 0.02; /* rad: less is no fluid but a face on a face */

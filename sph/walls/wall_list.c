@@ -1,10 +1,6 @@
 /* wall_list.c - see wall_list.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_list.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "wall_moments.h"
 #include "wall_points.h"

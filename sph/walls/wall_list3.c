@@ -2,10 +2,6 @@
  * its own frame, once a step; see wall_list.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_list.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "wall_share.h"
 
 /* What is known of a mesh: frames of the triangles that some particle has seen. */

@@ -2,10 +2,6 @@
  * walls.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"

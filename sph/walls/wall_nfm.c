@@ -11,10 +11,6 @@
  * the height being at least dx/2. SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "forces.h"

@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_rims.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../pairs/sph_pairs.h"
 
 static const double least = 1e-3, whole = 0.1; /* -: R times the integral, from which it counts */

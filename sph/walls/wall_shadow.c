@@ -4,9 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_shadow.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../../common/base/base.h"
 
 enum { CORNERS = 12 };

@@ -1,9 +1,6 @@
 /* wall_share.c - see wall_share.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_share.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "facet.h"
 #include "wall_moments.h"
 

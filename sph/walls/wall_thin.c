@@ -2,12 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_thin.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
-
 /* A segment with the fluid on its left. */
 struct thin_face {
     double a[2], t[2], n[2], length; /* n out of the fluid */

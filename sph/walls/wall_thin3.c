@@ -5,10 +5,6 @@
  * shadow's sides). SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_list.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "wall_shadow.h"
 
 /* Whether some mesh is thin. */

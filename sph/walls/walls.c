@@ -7,11 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "forces.h"

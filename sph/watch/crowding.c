@@ -5,9 +5,6 @@
  * which nobody takes anything from, do not count. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "../pairs/sph_pairs.h"
 #include "../sph.h"
 

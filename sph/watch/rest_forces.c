@@ -5,10 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "../bodies/sph_bodies.h"
 #include "../sph.h"
 #include "../walls/sph_walls.h"

@@ -23,11 +23,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../../common/files/files.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"

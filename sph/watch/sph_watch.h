@@ -5,9 +5,6 @@
 #ifndef SPH_SPH_WATCH_H
 #define SPH_SPH_WATCH_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 

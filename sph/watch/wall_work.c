@@ -4,10 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include <math.h>
-#include <string.h>
-
-#include "../../common/base/base.h"
 #include "../sph.h"
 #include "../walls/sph_walls.h"
 

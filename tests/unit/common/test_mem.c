@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include <stdint.h>
-#include <string.h>
-
 #include "../../../common/base/base.h"
 
 static int closed[4]; /* numbers of the blocks that were closed, in their order */

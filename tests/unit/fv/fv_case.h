@@ -4,10 +4,6 @@
 #ifndef TESTS_FV_CASE_H
 #define TESTS_FV_CASE_H
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "../../../common/base/mem.h"

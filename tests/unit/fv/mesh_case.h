@@ -3,11 +3,6 @@
 #ifndef TESTS_MESH_CASE_H
 #define TESTS_MESH_CASE_H
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "../../../common/base/mem.h"

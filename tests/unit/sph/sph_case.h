@@ -3,9 +3,6 @@
 #ifndef TESTS_SPH_CASE_H
 #define TESTS_SPH_CASE_H
 
-#include <math.h>
-#include <string.h>
-
 #include "../../../common/base/mem.h"
 #include "../../../common/scene/exact.h"
 #include "../../../sph/bodies/body_check.h"
