@@ -285,6 +285,12 @@ static void warn_of_pressures(double c0, const struct scene_speed *v)
             return;
         }
     }
+    const double room = 6.0 * v->across * v->rate;
+    asked = fmax(asked, 0.1 * room);
+    if (c0 < 0.6 * room)
+        log_warn("sph.c0 = %g m/s: bodies swing in %.3g s, and a wave of sound that stands in the "
+                 "fluid in %.3g s, so it answers them with compression; raise it to %.3g m/s",
+                 c0, 1.0 / v->rate, 2.0 * v->across / c0, room);
     if (c0 > 100.0 * asked)
         log_warn("sph.c0 = %g m/s takes %.2g times the steps of %.3g m/s, which keep the density "
                  "within 1 %%: that of real water is not needed; leave sph.c0 out",
@@ -344,8 +350,10 @@ static void describe(const struct run *r)
             prm->c0, 1e-6 * all * bytes_per_particle(r));
     regions_describe(r, prm);
     const struct scene_speed v = prm->speed;
-    log_say("expected speed %.3g m/s: %s; c0 is %.3g times that", v.speed, v.from,
-            prm->c0 / v.speed);
+    log_say("expected speed %.3g m/s: %s; c0 is %.3g times that%s", v.speed, v.from,
+            prm->c0 / v.speed,
+            prm->c0 == 6.0 * v.across * v.rate ? ": sound crosses the fluid in a sixth of a swing"
+                                               : "");
     const double of_bodies = bodies_describe(r, &fine, dt);
     limit = of_bodies < dt ? "body" : limit;
     dt = fmin(dt, of_bodies);

@@ -209,8 +209,8 @@ static const char *const words[] = {
     "newton_residual", "norm", "not_accepted", "overlap", "pairs_per_s", "particles",
     "particles_lost", "particles_returned", "period", "poisson_iterations",
     "poisson_iterations_start", "poisson_retries", "program", "ranks", "reflection",
-    "reinitialisations", "spacing", "start_s", "status", "steps", "steps_repeated", "sum", "t",
-    "t_end", "through", "time_s", "us_per_cell_step_outside_hypre", "v_cycles", "version",
+    "reinitialisations", "sound", "spacing", "start_s", "status", "steps", "steps_repeated", "sum",
+    "t", "t_end", "through", "time_s", "us_per_cell_step_outside_hypre", "v_cycles", "version",
     "viscous_iterations", "volume_gained", "volume_lost", "volume_moved", "volume_returned",
     "wall_s", "watch",
 };

@@ -251,6 +251,17 @@ double body_drive_acceleration(const struct body_drive *v, double reach)
     return sum;
 }
 
+double body_drive_rate(const struct body_drive *v)
+{
+    double most = 0.0;
+    for (int k = 0; k < v->nterms; k++) {
+        const struct scene_motion *m = v->term[k].is;
+        if (m->kind == MOTION_HARMONIC && m->amplitude != 0.0 && m->period > 0.0)
+            most = fmax(most, 1.0 / m->period);
+    }
+    return most;
+}
+
 /* --- steps --- */
 
 #define PERIOD_STEPS 40.0 /* the phase of a step is 9 degrees */

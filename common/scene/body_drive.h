@@ -95,5 +95,7 @@ double body_drive_speed(const struct body_drive *v, double reach, double end);
 /* Largest acceleration, m/s^2, that the harmonic terms give such a point in the end. A jump of the
  * velocity, as polynomials and files may have, makes sound, rho c u, whatever c is. */
 double body_drive_acceleration(const struct body_drive *v, double reach);
+/* 1/s: frequency of the quickest harmonic term; 0: none. */
+double body_drive_rate(const struct body_drive *v);
 
 #endif

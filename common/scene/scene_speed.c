@@ -424,6 +424,25 @@ static void take_still(const struct scene *s, struct scene_speed *v)
          "the domain's length over time.end: nothing moves");
 }
 
+/* See struct scene_speed. Across an absorbing side sound leaves. */
+static double sound_across(const struct scene *s, double depth)
+{
+    double lo[3], hi[3], across = 0.0;
+    bool tank = false;
+    for (int k = 0; k < s->nbodies; k++)
+        tank = tank || s->bodies[k].tank;
+    if (scene_has_surface(s) && (depth > 0.0 || !tank))
+        return 2.0 * depth;
+    memcpy(lo, s->domain.min, sizeof lo);
+    memcpy(hi, s->domain.max, sizeof hi);
+    room_of(s, lo, hi);
+    for (int a = 0; a < s->domain.dim; a++)
+        across = fmax(across, (s->domain.periodic[a] ? 0.5 : 1.0) * (hi[a] - lo[a]));
+    for (int k = 0; k < s->nwalls; k++)
+        across = s->walls[k].kind == WALL_ABSORBING ? 0.0 : across;
+    return across;
+}
+
 struct scene_speed scene_speed_of(const struct scene *s, double file, double spacing)
 {
     struct scene_speed v = {.from = ""};
@@ -443,6 +462,7 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
     take(&v, outlet_speed(s, &pressure), "the pressures of the outlets");
     take(&v, s->fluid.central * sqrt(central), "the central force");
     v.pressure = fmax(size * depth, pressure);
+    v.across = sound_across(s, depth);
     v.viscous = viscous_pressure(s, v.speed, spacing); /* a fall makes no more than its weight */
     if (fall > 0.0)
         take(&v, sqrt(2.0 * size * fall + v.speed * v.speed), "the fall of the water");

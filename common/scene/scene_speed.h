@@ -12,6 +12,11 @@ struct scene_speed {
     double pressure; /* m^2/s^2: largest static p/rho: hydrostatic, or given at an outflow */
     double viscous;  /* m^2/s^2: largest p/rho that friction makes in slow flow */
     double pushed; /* m^2/s^2: largest p/rho that bodies make by their acceleration: the caller's */
+    /* m: half of the longest wave of sound that stands in the fluid: its length between walls, half
+     * of a period, twice its depth under a surface; 0: sound leaves it, or its depth is not known.
+     */
+    double across;
+    double rate;      /* 1/s: of the quickest motion that the room must follow: the caller's */
     const char *from; /* what sets the speed: "the fall of the water" */
     /* false: nothing in the scene moves, and speed is sqrt(pressure), or the domain's length over
      * the run's time. */

@@ -4,6 +4,7 @@
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "bodies.h"
+#include "body_pace.h"
 
 /* --- motion --- */
 
@@ -276,43 +277,11 @@ static void check_line(const struct run *r, int k, int i, const struct body *b, 
     check_spring(r, key, isfinite(M) ? M : b->free->mass, dt, l->stiffness, l->damping, "N/m", f);
 }
 
-/* --- speeds --- */
-
-/* Fall through the air above the water, and what weight and buoyancy make of a body in it. */
-static double fall_of(const struct scene *c, const struct body *b)
-{
-    double still[3], low, high;
-    const double g = scene_still_gravity(c, still);
-    if (!b->free || g == 0.0)
-        return 0.0;
-    scene_heights(c, &low, &high);
-    const double base = fmax(scene_height(c, b->centre) - b->reach - low, 0.0);
-    double air = c->nshapes > 0 ? base : 0.0; /* above the highest water below a level */
-    for (int k = 0; k < c->nshapes; k++)
-        if (scene_is_level(c, c->shapes + k))
-            air = fmin(
-                air,
-                fmax(scene_height(c, b->centre) - b->reach - scene_level(c, c->shapes + k), 0.0));
-    const double size = b->dim == 2 ? b->free->mass / (c->fluid.rho * b->reach)
-                                    : b->free->mass / (c->fluid.rho * b->reach * b->reach);
-    const double in_water = fmin(fmax(2.0 * b->reach, size), fmax(base, 2.0 * b->reach));
-    return sqrt(2.0 * g * (air + 0.5 * in_water));
-}
-
-/* m/s: the largest speed of a point of a body to expect, of its own motion and fall. */
-static double speed_of(const struct scene *c, const struct body *b)
-{
-    const double told = body_drive_speed(&b->drive, b->reach, c->time.end);
-    const double start =
-        b->free ? vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega) : 0.0;
-    return hypot(fmax(told, start), fall_of(c, b));
-}
-
 /* A body must not come through what its contact leaves before a wall. */
 static void check_gap(const struct run *r, const struct sph_params *used, int k,
                       const struct body *b, double dt, struct faults *f)
 {
-    const double v = speed_of(&r->scene, b), depth = body_contact_depth(v, dt);
+    const double v = body_speed_of(&r->scene, b), depth = body_contact_depth(v, dt);
     if (depth > b->contact.gap * used->dx)
         params_fault(r->params, f, key_text("bodies.[%d].contact", k),
                      "contact.gap of %g sph.dx is %.3g m, and a body that falls at %.3g m/s goes "
@@ -432,21 +401,4 @@ double bodies_describe(const struct run *r, const struct sph_params *used, doubl
         body_destroy(&b);
     }
     return least;
-}
-
-double body_speeds(const struct scene *c, struct motion_files *files, double *pressure)
-{
-    double most = 0.0;
-    *pressure = 0.0;
-    for (int k = 0; k < c->nbodies; k++) {
-        struct body b;
-        if (!scene_body_moves(c->bodies + k))
-            continue;
-        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
-        const double length = (b.is->tank ? 2.0 : 1.0) * b.reach;
-        most = fmax(most, speed_of(c, &b));
-        *pressure = fmax(*pressure, length * body_drive_acceleration(&b.drive, b.reach));
-        body_destroy(&b);
-    }
-    return most;
 }

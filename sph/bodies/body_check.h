@@ -8,10 +8,6 @@
 /* Adds faults for motion that jumps, masses that no body has, degrees of freedom locked in vain,
  * and lines that a step cannot follow. Call on all ranks alike. */
 void body_check(const struct run *r, const struct sph_params *used, struct faults *f);
-/* Largest speed of a body, m/s, that its prescribed motion and its fall let expect. *pressure: the
- * largest p/rho, m^2/s^2, of the fluid that harmonic motion accelerates: that times the length of
- * a tank, or times half of the length of a body with fluid around. */
-double body_speeds(const struct scene *c, struct motion_files *files, double *pressure);
 /* Logs where prescribed motion begins elsewhere than in the body's place, and warns of what a run
  * will not see and of steps much shorter than dt, s, those of the fluid. Returns the largest step
  * that all bodies allow, s. */

@@ -7,6 +7,7 @@
 #include "body_backs.h"
 #include "body_check.h"
 #include "body_courses.h"
+#include "body_pace.h"
 #include "paddles.h"
 #include "shut_water.h"
 

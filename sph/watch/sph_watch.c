@@ -136,6 +136,7 @@ void sph_watch_create(struct sph *s)
         .warn = 0.05,
         .stop = INFINITY,
         .unsound = INFINITY};
+    sph_sound_create(s);
 }
 
 /* Nothing is computed in steps that take no sample. */
@@ -304,6 +305,8 @@ static void judge_sample(struct sph *s, double t, struct diagnosis *d)
         judge_energy(s, t, sums, d);
     if (step % SPH_WATCH_FORCES_EVERY == 0 && is_judged(s, SPH_WATCH_FORCES))
         sph_watch_rest_forces(s, t, d);
+    if (w->sound.on)
+        sph_sound_judge(s);
     if (step % SPH_WATCH_PAIRS != 0)
         return;
     watch_judge(w->of + SPH_WATCH_PAIRED, sums[PAIRED] / all, t, step, d);
@@ -355,6 +358,8 @@ void sph_watch_summarise(const struct sph *s)
     for (int k = 0; k < SPH_WATCHES; k++)
         if (is_judged(s, k))
             watch_summary(s->watch.of + k, s->run->summary);
+    if (s->watch.sound.on)
+        sph_sound_summarise(s);
 }
 
 /* What a restart needs to judge as if nothing had been; the same on all ranks but for energy

@@ -49,6 +49,16 @@ struct rest_forces {
     double share;          /* -: the first over the second */
 };
 
+/* sound.c: the mean velocity of the fluid, m/s, within the period of a sound wave from inflow to
+ * outflow and back, twice. */
+struct sph_sound {
+    bool on;
+    double period, from;      /* s: its length, its start */
+    double least[3], most[3]; /* m/s */
+    double swing;             /* m/s: half of the largest range of the last whole period; 0: none */
+    int n;                    /* samples in it */
+};
+
 /* All watches of a run. The coarsest level has it. */
 struct sph_watch {
     struct watch of[SPH_WATCHES];
@@ -57,6 +67,7 @@ struct sph_watch {
     char crowd_place[256];                /* where that was, in words */
     struct rest_forces still[BODIES_MAX]; /* of bodies that are at rest */
     char still_place[400];                /* which of them is off most, in words */
+    struct sph_sound sound;
     bool budget_closed; /* all work done on the flow is known, so that its energy is judged */
     double reference;   /* m/s: largest speed that the scene lets expect */
     double rest;        /* -: static pressure over rho0 c0^2, the compression at rest */
@@ -97,6 +108,13 @@ void sph_watch_say_crowd(const struct sph *s, char *text, size_t size);
 bool sph_watch_has_forces(const struct run *r, const struct sph_params *prm);
 /* Takes a sample of that at t, s, and judges it. Collective. */
 void sph_watch_rest_forces(struct sph *s, double t, struct diagnosis *d);
+/* sound.c: sets whether the run has an inflow and an outflow between which sound may stay, and the
+ * period; restarts measure anew. */
+void sph_sound_create(struct sph *s);
+/* Takes a sample of the state. Collective. */
+void sph_sound_judge(struct sph *s);
+/* Writes the pressure of that sound, Pa, and warns of one that is as large as the flow's. */
+void sph_sound_summarise(const struct sph *s);
 /* Local particle i is about to be removed: its energy leaves the budget. */
 void sph_watch_removed(struct sph *s, int i);
 /* After the step: judges all watches that are due and fills d; the same on all ranks.

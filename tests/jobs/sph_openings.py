@@ -87,4 +87,19 @@ refused('sph', parabola, r'walls.\[0\].profile: parabolic in 3D spans the whole 
 lib.write('uniform.cfg', lib.varied(parabola, 'profile = "parabolic";', ''))
 if start('sph', 'uniform.cfg', '--check', log='uniform.txt') != 0:
     bad('a uniform inlet that a mesh cuts is refused', 'uniform.txt')
+
+# A duct that narrows: the flow starts with sound, which inflow and outflow return to each other; one that absorbs lets it out.
+duct = '''format = 1;
+time:    { end = 2.0; };
+domain:  { max = (4, 1); };
+initial: { field = "uniform"; velocity = (0.5, 0); };
+walls:   ( { side = "x_min"; kind = "inflow"; velocity = (0.5, 0); }, { side = "x_max"; kind = "outflow"; }, { side = "y_max"; },
+           { points = ((0, 0), (2, 0), (2.5, 0.4), (4, 0.4)); } );
+sph:     { dx = 0.1; };
+output:  { snapshots = false; };
+'''
+for folder, text in (('rings', duct), ('fades', lib.varied(duct, '"outflow"', '"absorbing"; velocity = (0.83, 0)'))):
+    alone('sph', folder, text)
+    if says('sound still runs to and fro', folder + '.txt') != (folder == 'rings'):
+        bad(folder + ': sound between inflow and outflow is not told', folder + '.txt')
 lib.end('%d faults' % lib.failed)

@@ -235,3 +235,19 @@ TEST(slow_flows_have_the_pressure_of_friction)
     s.fluid.nu = 5.0;
     assert_true(scene_speed_of(&s, 0.0, 0.1).viscous == 0.0);
 }
+
+/* Half of the longest wave that stands there: a length between walls, half of a period, twice a
+ * depth under a surface. */
+TEST(longest_wave_of_sound)
+{
+    struct scene s = box();
+    assert_close(scene_speed_of(&s, 0.0, 0.0).across, 2.0, 1e-12);
+    s.domain.periodic[0] = true;
+    assert_close(scene_speed_of(&s, 0.0, 0.0).across, 1.0, 1e-12);
+    s = column(0.6);
+    assert_close(scene_speed_of(&s, 0.0, 0.0).across, 1.2, 1e-12);
+    s = box();
+    s.nwalls = 1;
+    s.walls[0] = (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_ABSORBING};
+    assert_true(scene_speed_of(&s, 0.0, 0.0).across == 0.0);
+}

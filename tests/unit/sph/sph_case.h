@@ -5,7 +5,7 @@
 
 #include "../../../common/base/mem.h"
 #include "../../../common/scene/exact.h"
-#include "../../../sph/bodies/body_check.h"
+#include "../../../sph/bodies/body_pace.h"
 #include "../../../sph/case/sph_params.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/sph.h"
@@ -69,9 +69,8 @@ static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
     memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);
     memcpy(c->prm.box[1], c->run.scene.domain.max, sizeof c->prm.box[1]);
     c->run.motions = motion_files_create(c->run.case_dir);
-    double pushed;
-    const double most = body_speeds(&c->run.scene, c->run.motions, &pushed);
-    c->prm.speed = scene_speed_of(&c->run.scene, most, 0.0);
+    const struct body_pace pace = bodies_pace(&c->run.scene, c->run.motions);
+    c->prm.speed = scene_speed_of(&c->run.scene, pace.speed, 0.0);
     c->s = sph_create(&c->run, &c->prm, f);
     return c->s;
 }

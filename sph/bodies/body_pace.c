@@ -1,0 +1,123 @@
+/* body_pace.c - how fast and how quickly bodies will move: the scale of sound speeds.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#include "body_pace.h"
+
+#include "../../common/scene/scene.h"
+
+#include <math.h>
+
+/* Fall through the air above the water, and what weight and buoyancy make of a body in it. */
+static double fall_of(const struct scene *c, const struct body *b)
+{
+    double still[3], low, high;
+    const double g = scene_still_gravity(c, still);
+    if (!b->free || g == 0.0)
+        return 0.0;
+    scene_heights(c, &low, &high);
+    const double base = fmax(scene_height(c, b->centre) - b->reach - low, 0.0);
+    double air = c->nshapes > 0 ? base : 0.0; /* above the highest water below a level */
+    for (int k = 0; k < c->nshapes; k++)
+        if (scene_is_level(c, c->shapes + k))
+            air = fmin(
+                air,
+                fmax(scene_height(c, b->centre) - b->reach - scene_level(c, c->shapes + k), 0.0));
+    const double size = b->dim == 2 ? b->free->mass / (c->fluid.rho * b->reach)
+                                    : b->free->mass / (c->fluid.rho * b->reach * b->reach);
+    const double in_water = fmin(fmax(2.0 * b->reach, size), fmax(base, 2.0 * b->reach));
+    return sqrt(2.0 * g * (air + 0.5 * in_water));
+}
+
+/* What loads and springs make of a body at rest. */
+struct forced {
+    /* m/s, m/s^2 of its farthest point; 1/s: at which it swings on its springs, as if all of them
+     * were along one line */
+    double speed, acceleration, rate;
+};
+
+/* A spring of stiffness k, N/m, that yields to a mass M, kg, stretched by e, m, and started at v,
+ * m/s. About a hinge: N m, kg m^2 and angles, arm the distance that one of 1 moves by, m; else 1.
+ */
+static void add_spring(struct forced *f, double k, double M, double e, double v, double arm)
+{
+    if (!(k > 0.0 && M < INFINITY))
+        return;
+    const double omega = sqrt(k / M), speed = fabs(e) * omega;
+    f->speed += speed * arm;
+    f->acceleration += (speed + fabs(v)) * omega * arm;
+    if (speed + fabs(v) > 0.0)
+        f->rate = hypot(f->rate, omega / (2.0 * M_PI));
+}
+
+/* A steady force F, N, that accelerates by a, m/s^2, for a time, s, until the drag on an area of
+ * the body's size, m^2, bears it. */
+static void add_load(struct forced *f, double F, double a, double time, double rho, double area)
+{
+    f->speed += fmin(a * time, sqrt(2.0 * F / (rho * area)));
+    f->acceleration += a;
+}
+
+/* Water of the body's own volume goes along. Under weight springs have no rate: those that moor a
+ * float are stiff, and what rules is its slow swing on the water. */
+static struct forced forced_by(const struct scene *c, const struct body *b)
+{
+    struct forced f = {0.0, 0.0, 0.0};
+    double still[3];
+    const struct body_free *is = b->free;
+    if (!is)
+        return f;
+    const double wet = 1.0 + c->fluid.rho * b->volume / is->mass, rho = c->fluid.rho;
+    const double area = b->dim == 2 ? 2.0 * b->reach : 4.0 * b->reach * b->reach;
+    const double time = fmax(c->time.end - b->is->release, 0.0), start = vec3_length(b->now.u);
+    const double load = vec3_length(b->is->load), torque = vec3_length(b->is->torque);
+    const double J = is->rotation == TURNS_AXIS ? is->J : is->mass * b->reach * b->reach;
+    for (int i = 0; i < b->is->lines.n; i++) {
+        const struct scene_line *l = b->is->lines.of + i;
+        double arm[3], e[3];
+        for (int a = 0; a < 3; a++) {
+            arm[a] = l->from[a] - b->centre[a];
+            e[a] = l->to[a] - l->from[a];
+        }
+        const double length = vec3_length(e), slack = l->length >= 0.0 ? l->length : length;
+        for (int a = 0; a < 3; a++)
+            e[a] /= length > 0.0 ? length : 1.0;
+        add_spring(&f, l->stiffness, wet * body_effective_mass(b, arm, e),
+                   l->pull_only ? fmax(length - slack, 0.0) : length - slack, start, 1.0);
+    }
+    if (b->is->hinge.n > 0)
+        add_spring(&f, b->is->hinge.of[0].stiffness, wet * J, b->is->hinge.of[0].at_rest,
+                   vec3_length(b->now.omega), b->reach);
+    if (load > 0.0)
+        add_load(&f, load, load / (wet * is->mass), time, rho, area);
+    if (torque > 0.0)
+        add_load(&f, torque / b->reach, torque * b->reach / (wet * J), time, rho, area);
+    if (scene_still_gravity(c, still) > 0.0)
+        f.rate = 0.0;
+    return f;
+}
+
+double body_speed_of(const struct scene *c, const struct body *b)
+{
+    const double told = body_drive_speed(&b->drive, b->reach, c->time.end);
+    const double start =
+        b->free ? vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega) : 0.0;
+    return hypot(fmax(told, start) + forced_by(c, b).speed, fall_of(c, b));
+}
+
+struct body_pace bodies_pace(const struct scene *c, struct motion_files *files)
+{
+    struct body_pace most = {0.0, 0.0, 0.0};
+    for (int k = 0; k < c->nbodies; k++) {
+        struct body b;
+        if (!scene_body_moves(c->bodies + k))
+            continue;
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
+        const struct forced f = forced_by(c, &b);
+        const double length = (b.is->tank ? 2.0 : 1.0) * b.reach;
+        most.speed = fmax(most.speed, body_speed_of(c, &b));
+        most.pressure = fmax(
+            most.pressure, length * (f.acceleration + body_drive_acceleration(&b.drive, b.reach)));
+        most.rate = fmax(most.rate, fmax(f.rate, body_drive_rate(&b.drive)));
+        body_destroy(&b);
+    }
+    return most;
+}

@@ -1,0 +1,21 @@
+/* body_pace.h - how fast and how quickly bodies will move: the scale of sound speeds.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_BODY_PACE_H
+#define SPH_BODY_PACE_H
+
+#include "bodies.h"
+
+/* The largest of all bodies. */
+struct body_pace {
+    double speed; /* m/s: of prescribed motion, fall, loads and springs */
+    /* m^2/s^2: p/rho of the fluid that harmonic motion, loads and springs accelerate: that times
+     * the length of a tank, or times half of the length of a body with fluid around. */
+    double pressure;
+    double rate; /* 1/s: of harmonic motion, and of springs that a body swings on */
+};
+
+struct body_pace bodies_pace(const struct scene *c, struct motion_files *files);
+/* m/s: the largest speed of a point of one body. */
+double body_speed_of(const struct scene *c, const struct body *b);
+
+#endif
