@@ -239,25 +239,68 @@ double body_drive_speed(const struct body_drive *v, double reach, double end)
     return most;
 }
 
+/* A column of a file: half of its range, and how often a second it falls from the upper quarter of
+ * that into the lower one, from the first time to the last: the frequency of an oscillation, 0 of a
+ * motion that ends. */
+static void find_swing(const struct body_term *b, int columns, int c, double *half, double *rate)
+{
+    const double *first = b->rows, *last = first + (ptrdiff_t)columns * (b->n - 1);
+    double lo = INFINITY, hi = -INFINITY, begin = 0.0, end = 0.0;
+    int falls = 0, side = 0;
+    for (const double *p = first; p <= last; p += columns) {
+        lo = fmin(lo, p[c]);
+        hi = fmax(hi, p[c]);
+    }
+    for (const double *p = first; p <= last; p += columns) {
+        const double x = p[c] - 0.5 * (lo + hi);
+        const int now = x > 0.25 * (hi - lo) ? 1 : x < -0.25 * (hi - lo) ? -1 : side;
+        if (now < 0 && side > 0) {
+            begin = falls > 0 ? begin : p[0];
+            end = p[0];
+            falls++;
+        }
+        side = now;
+    }
+    *half = 0.5 * (hi - lo);
+    *rate = falls > 1 && hi > lo ? (falls - 1) / (end - begin) : 0.0;
+}
+
+/* Acceleration of a point at `reach' and frequency of a term that oscillates. */
+static void term_swing(const struct body_drive *v, int k, double reach, double *acceleration,
+                       double *rate)
+{
+    const struct body_term *b = v->term + k;
+    const struct scene_motion *m = b->is;
+    *acceleration = *rate = 0.0;
+    if (m->kind == MOTION_HARMONIC && m->period > 0.0 && m->amplitude != 0.0) {
+        *rate = 1.0 / m->period;
+        *acceleration =
+            fabs(m->amplitude) * pow(2.0 * M_PI * *rate, 2.0) * (m->axis >= AXIS_RX ? reach : 1.0);
+    }
+    for (int c = 1; m->kind == MOTION_FILE && b->n > 1 && c < v->columns; c++) {
+        double half, f;
+        find_swing(b, v->columns, c, &half, &f);
+        *rate = fmax(*rate, f);
+        *acceleration += half * pow(2.0 * M_PI * f, 2.0) * (c > v->dim ? reach : 1.0);
+    }
+}
+
 double body_drive_acceleration(const struct body_drive *v, double reach)
 {
-    double sum = 0.0;
+    double sum = 0.0, a, rate;
     for (int k = 0; k < v->nterms; k++) {
-        const struct scene_motion *m = v->term[k].is;
-        if (m->kind == MOTION_HARMONIC && m->period > 0.0)
-            sum += fabs(m->amplitude) * pow(2.0 * M_PI / m->period, 2.0) *
-                   (m->axis >= AXIS_RX ? reach : 1.0);
+        term_swing(v, k, reach, &a, &rate);
+        sum += a;
     }
     return sum;
 }
 
 double body_drive_rate(const struct body_drive *v)
 {
-    double most = 0.0;
+    double most = 0.0, a, rate;
     for (int k = 0; k < v->nterms; k++) {
-        const struct scene_motion *m = v->term[k].is;
-        if (m->kind == MOTION_HARMONIC && m->amplitude != 0.0 && m->period > 0.0)
-            most = fmax(most, 1.0 / m->period);
+        term_swing(v, k, 0.0, &a, &rate);
+        most = fmax(most, rate);
     }
     return most;
 }

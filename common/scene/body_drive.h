@@ -92,10 +92,10 @@ double body_drive_event(const struct body_drive *v, double t);
 /* Largest speed, m/s, until the time `end' of a point at the distance `reach', m, from the centre;
  * found by sampling. */
 double body_drive_speed(const struct body_drive *v, double reach, double end);
-/* Largest acceleration, m/s^2, that the harmonic terms give such a point in the end. A jump of the
- * velocity, as polynomials and files may have, makes sound, rho c u, whatever c is. */
+/* Largest acceleration, m/s^2, of such a point by harmonic terms and files that oscillate. A jump
+ * of the velocity, as polynomials and files may have, makes sound, rho c u, whatever c is. */
 double body_drive_acceleration(const struct body_drive *v, double reach);
-/* 1/s: frequency of the quickest harmonic term; 0: none. */
+/* 1/s: frequency of the quickest of these; 0: none. */
 double body_drive_rate(const struct body_drive *v);
 
 #endif
