@@ -586,6 +586,8 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
         if (check_places(r, used, all, n, t, f))
             break;
     }
+    if (plane)
+        place_bodies(c, bodies, 0.0, now);
     if (f->n == before && plane)
         check_contacts(r, used, all, n, f);
     check_backs(r, used, all, n, f);

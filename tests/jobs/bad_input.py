@@ -464,6 +464,7 @@ faulty('tank', 's/"b"/' + free + '; density = 500.0; release = -1.0/', 'bodies.r
 faulty('tank', 's/"b"/' + free + '; density = 500.0/; s/c0 = 30.0/c0 = 30.0; walls = "ghosts"/', 'sph.walls: ', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1.7, 0.3); }/; s/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1.59, 0.2), (1.59, 0.4), (1.99, 0.4), (1.99, 0.2)/', r'bodies.\[0\]: .*starts in contact with wall .*move it away', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.3); }/; s/^bodies:  (/bodies: ( { name = "c"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/', 'starts in contact with body 1 (c)', 'sph')
+faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.3); }/; s/^bodies:  (/bodies: ( { name = "c"; velocity = (0.1, 0); points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/', 'starts in contact with body 1 (c)', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0/; s/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/', 'body 1 (b) cuts wall 1', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/', r'motion.\[0\]: a harmonic term needs an amplitude and a period', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "polynomial"; axis = "x"; } )/', r'motion.\[0\]: a polynomial term needs coefficients', 'sph')

@@ -55,6 +55,10 @@ check(abs(pushes[0][1]) < 0.25 * pushes[1][0], 'a disc that swings is late by a 
 write('swing.csv', ''.join('%g, %.9g, 0, 0\n' % (0.02 * k, 0.01 * math.sin(0.04 * math.pi * k)) for k in range(151)))
 run_case('disc', re.sub(r'motion = \(.*?\);', 'motion = "swing.csv";', disc), '--check', words='c0 6 m/s')  # the same told by a file
 
+# A flap that a driven block comes to later does not start in contact with it.
+run_case('lifted', changed(TANK, bodies='''{ name = "flap"; box = ((0.2, 0.45), (0.9, 0.6)); free = true; density = 2500; hinge = { at = (0.25, 0.525); }; },
+    { name = "lift"; box = ((0.7, 0.15), (0.85, 0.35)); motion = ( { kind = "polynomial"; axis = "y"; coefficients = (0.0, 0.2); } ); }'''), '--check')
+
 # A drum that turns at 1 rad/s ends with its fluid as one body, of the energy rho pi/4, whichever form the viscous term has.
 drum = changed(TANK, time='end = 4.0;', fluid='rho = 1.0; nu = 0.1;', domain='min = (-1.2, -1.2); max = (1.2, 1.2);', walls='',
                bodies='{ name = "drum"; radius = 1.0; spin = 1.0; kind = "no_slip"; }', shapes='{ form = "disc"; radius = 1.0; }')
