@@ -55,6 +55,14 @@ check(abs(pushes[0][1]) < 0.25 * pushes[1][0], 'a disc that swings is late by a 
 write('swing.csv', ''.join('%g, %.9g, 0, 0\n' % (0.02 * k, 0.01 * math.sin(0.04 * math.pi * k)) for k in range(151)))
 run_case('disc', re.sub(r'motion = \(.*?\);', 'motion = "swing.csv";', disc), '--check', words='c0 6 m/s')  # the same told by a file
 
+# A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
+run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
+within('water around a block that begins elsewhere', column('begins', 'mass')[0], 460, 0.01)
+within('lift of a block that begins elsewhere', number('begins', 'force.y'), 392.4, 0.03)
+run_case('begins_tank', changed(TANK, time='end = 0.02;', domain='min = (-1, -1); max = (2, 1);', walls='', shapes='{ box = ((0, 0), (1, 0.4)); }',
+                                bodies='{ name = "t"; box = ((0, 0), (1, 0.8)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.2); } ); }'))
+within('water in a tank that begins elsewhere', column('begins_tank', 'mass')[0], 400, 0.01)
+
 # A flap that a driven block comes to later does not start in contact with it.
 run_case('lifted', changed(TANK, bodies='''{ name = "flap"; box = ((0.2, 0.45), (0.9, 0.6)); free = true; density = 2500; hinge = { at = (0.25, 0.525); }; },
     { name = "lift"; box = ((0.7, 0.15), (0.85, 0.35)); motion = ( { kind = "polynomial"; axis = "y"; coefficients = (0.0, 0.2); } ); }'''), '--check')
