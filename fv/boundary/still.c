@@ -67,14 +67,12 @@ double fv_still_in_exact(const struct fv *s, const double *x)
     return scene_has_wave(&s->run->scene) ? fv_still_pressure(s, x) : 0.0;
 }
 
-/* rk3's pressure belongs to t - dt/6, on blocks with a surface to the middle of the step: carried
- * on along the last step's change, if the cell had a pressure then. Without the hydrostatic
- * part. */
+/* rk3's pressure belongs to t - dt/6, with a surface to the middle of the step: carried on along
+ * the last step's change, if the cell had a pressure then. Without the hydrostatic part. */
 double fv_pressure(const struct fv *s, int64_t c)
 {
-    const bool wet = s->surface && s->m;
     double on = s->prm.integrator == INTEGRATOR_RK3 && s->step.dt > 0.0 ? 1.0 / 6.0 : 0.0;
-    if (wet && on > 0.0)
+    if (s->surface && on > 0.0)
         on = s->p_before[c] == 0.0 ? 0.0 : 0.5;
     return s->run->scene.fluid.rho * (s->p[c] + on * (s->p[c] - s->p_before[c]));
 }

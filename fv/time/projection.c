@@ -124,8 +124,9 @@ static void add_pressure(struct fv *s, const double *restrict psi)
             p[i] = keep * p[i] + psi[i];
 }
 
-/* On blocks with a surface: the mean over the stages, which belongs to the middle of the step, as
- * the surface does in all of them. The last one alone balances walls' accelerations of t - dt/6. */
+/* With a surface: the mean over the stages, which belongs to the middle of the step, as the surface
+ * does in all of them: its force is the momentum that the step's projections give. The last one
+ * alone balances walls' accelerations of t - dt/6, but has the depth of t - dt/2. */
 static void add_mean_pressure(struct fv *s)
 {
     add_pressure(s, s->stages.psi[2]);
@@ -173,7 +174,7 @@ static bool step_rk3(struct fv *s, double dt)
         projection(s, t_stage, k, ab * dt, k == 2 ? last : first);
     }
     s->stages.implicit = 0.0;
-    if (s->surface && s->m)
+    if (s->surface)
         add_mean_pressure(s);
     else
         add_pressure(s, s->stages.psi[2]);
