@@ -95,9 +95,73 @@ static bool on_side(const struct fv *s, const double *a, const double *b)
     return false;
 }
 
-/* Of edges that end where one on a side begins, the whole line counts. */
+/* Whether the point y lies on a straight side q of a block, whose water is where `out' points away
+ * from. Of a block in 3D its lowest layer is asked. */
+static bool is_on_straight(const struct mesh_block *b, int q, const double *y, const double *out)
+{
+    const int a = q / 2, n = b->n[1 - a];
+    int at[2] = {q % 2 ? b->n[0] : 0, q % 2 ? b->n[1] : 0};
+    at[1 - a] = 0;
+    const double *p = b->x[mesh_vertex(b, at[0], at[1], 0)];
+    at[1 - a] = n;
+    const double *r = b->x[mesh_vertex(b, at[0], at[1], 0)];
+    const double e[2] = {r[0] - p[0], r[1] - p[1]}, d[2] = {y[0] - p[0], y[1] - p[1]};
+    const double ee = e[0] * e[0] + e[1] * e[1], along = (d[0] * e[0] + d[1] * e[1]) / ee;
+    if (fabs(d[0] * e[1] - d[1] * e[0]) > 1e-6 * ee || along < -1e-6 || along > 1.0 + 1e-6)
+        return false;
+    for (at[1 - a] = 0; at[1 - a] <= n; at[1 - a]++) {
+        const double *v = b->x[mesh_vertex(b, at[0], at[1], 0)];
+        if (fabs((v[0] - p[0]) * e[1] - (v[1] - p[1]) * e[0]) > 1e-6 * ee)
+            return false;
+    }
+    at[a] = q % 2 ? b->n[a] - 1 : 1; /* a line of vertices within */
+    at[1 - a] = n / 2;
+    const double *in = b->x[mesh_vertex(b, at[0], at[1], 0)];
+    return (in[0] - p[0]) * out[0] + (in[1] - p[1]) * out[1] < 0.0;
+}
+
+/* Whether the edge of a polygon from a to b is, seen from x, a closed side of a block or the face
+ * of a box that is cut out; out: across it, away from the water. */
+static bool is_edge_closed(const struct fv *s, const double *a, const double *b, const double *x,
+                           const double *out)
+{
+    const double e[2] = {b[0] - a[0], b[1] - a[1]}, ee = e[0] * e[0] + e[1] * e[1];
+    const double m = ((x[0] - a[0]) * e[0] + (x[1] - a[1]) * e[1]) / ee;
+    const double w = fmax(0.0, fmin(1.0, m)), y[2] = {a[0] + w * e[0], a[1] + w * e[1]};
+    for (int t = 0; t < 2; t++)
+        if (fabs(e[t]) < 1e-9 * sqrt(ee) && is_wall(s, x, t, a[t], out[t] > 0.0 ? 1.0 : -1.0))
+            return true;
+    if ((x[0] - a[0]) * out[0] + (x[1] - a[1]) * out[1] > 0.0)
+        return false;
+    for (int k = 0; s->m && k < s->m->nblocks; k++)
+        for (int q = 0; q < 4; q++)
+            if (side_is_wall(s->m->block[k].side[q]) && is_on_straight(s->m->block + k, q, y, out))
+                return true;
+    return false;
+}
+
+/* Twice the area within, > 0 if the corners go round to the left. */
+static double twice_area(const struct param_points *p)
+{
+    double sum = 0.0;
+    for (int k = 0, l = p->n - 1; k < p->n; l = k++)
+        sum += p->x[l][0] * p->x[k][1] - p->x[k][0] * p->x[l][1];
+    return sum;
+}
+
+/* Whether the edge to corner k is, seen from x, a wall. */
+static bool edge_is_wall(const struct fv *s, const struct param_points *p, int k, double turn,
+                         const double *x)
+{
+    const double *a = p->x[(k + p->n - 1) % p->n], *b = p->x[k % p->n];
+    const double out[2] = {turn * (b[1] - a[1]), turn * (a[0] - b[0])};
+    return on_side(s, a, b) || is_edge_closed(s, a, b, x, out);
+}
+
+/* Of edges that end where one on a wall begins, the whole line counts. */
 static double polygon(const struct fv *s, const struct param_points *p, const double *x)
 {
+    const double turn = twice_area(p) < 0.0 ? -1.0 : 1.0;
     double least = INFINITY;
     bool in = false;
     for (int k = 0, l = p->n - 1; k < p->n; l = k++) {
@@ -108,10 +172,10 @@ static double polygon(const struct fv *s, const struct param_points *p, const do
         if ((a[1] > x[1]) != (b[1] > x[1]) &&
             x[0] < a[0] + (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]))
             in = !in;
-        if (on_side(s, a, b))
+        if (edge_is_wall(s, p, k, turn, x))
             continue;
-        m = m < 0.0 && !on_side(s, a, p->x[(k + 1) % p->n]) ? 0.0 : m;
-        m = m > 1.0 && !on_side(s, b, p->x[(l + p->n - 1) % p->n]) ? 1.0 : m;
+        m = m < 0.0 && !edge_is_wall(s, p, k + 1, turn, x) ? 0.0 : m;
+        m = m > 1.0 && !edge_is_wall(s, p, l, turn, x) ? 1.0 : m;
         least = fmin(least, hypot(r[0] - m * e[0], r[1] - m * e[1]));
     }
     return in ? -least : least;
