@@ -192,8 +192,9 @@ static void look_at_shares(const struct fv *s, const struct flow_samples *f, con
 }
 
 /* This rank's samples; those in boxes are dry. */
-static double discharge_of(struct fv *s, const struct scene_probe *g)
+static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
 {
+    (void)gauge;
     struct flow_samples f = flow_samples_create(s, g);
     const struct fraction *fraction = s->surface ? s->surface->fraction : NULL;
     const bool shares = fraction && fraction->carries > 0.0 && fraction->has_passed;
@@ -213,7 +214,11 @@ static double discharge_of(struct fv *s, const struct scene_probe *g)
     return sum;
 }
 
-static double level_of(struct fv *s, const double *x) { return surface_level(s, x); }
+static double level_of(struct fv *s, int gauge, const double *x)
+{
+    (void)gauge;
+    return surface_level(s, x);
+}
 
 const struct probe_reader even_reader = {
     .point = point_of, .level = level_of, .discharge = discharge_of};

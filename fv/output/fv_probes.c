@@ -39,7 +39,7 @@ static struct scene_probe placed(const struct fv *s, const struct scene_probe *p
 
 /* A gauge's share of this rank; returns how many numbers there are. A point has its values and the
  * level set's sign, -1 for water. */
-static int share_of(struct fv *s, const struct scene_probe *g, double *here)
+static int share_of(struct fv *s, int gauge, const struct scene_probe *g, double *here)
 {
     const struct probe_reader *of = s->m ? &mesh_reader : &even_reader;
     if (probe_is_point(g)) {
@@ -47,7 +47,7 @@ static int share_of(struct fv *s, const struct scene_probe *g, double *here)
         of->point(s, g->at, nq, g->kind == PROBE_VELOCITY ? s->u : (double *[]){NULL}, here);
         return nq + 1;
     }
-    *here = g->kind == PROBE_LEVEL ? of->level(s, g->at) : of->discharge(s, g);
+    *here = g->kind == PROBE_LEVEL ? of->level(s, gauge, g->at) : of->discharge(s, gauge, g);
     return 1;
 }
 
@@ -86,7 +86,7 @@ void fv_probe(struct fv *s, double *values)
     int n = 0;
     for (int k = 0; k < scene->nprobes; k++) {
         const struct scene_probe g = placed(s, scene->probes + k);
-        n += !s->run->gauge_elsewhere[k] ? share_of(s, &g, here + n) : 0;
+        n += !s->run->gauge_elsewhere[k] ? share_of(s, k, &g, here + n) : 0;
     }
     MPI_Allreduce(MPI_IN_PLACE, here, n, MPI_DOUBLE, MPI_SUM, s->comm);
     const double *from = here;

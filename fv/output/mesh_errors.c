@@ -1,4 +1,4 @@
-/* mesh_errors.c - what runs on blocks alone show: where they are, overlaps; values at a place.
+/* mesh_errors.c - what runs on blocks alone show: where they are, overlaps.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
@@ -24,72 +24,6 @@ bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, c
             return true;
     }
     return false;
-}
-
-/* What is read: a field, NULL: the pressure; with heights what it is more than these, to which that
- * of the place is added: exact for a level surface, whatever the cells. */
-struct block_reading {
-    const double *field, *heights;
-    double height;
-};
-
-static double term(const struct fv *s, const struct block_reading *of, int64_t place)
-{
-    const double q = of->field ? of->field[place] : fv_pressure(s, place);
-    return of->heights ? q - of->heights[place] + of->height : q;
-}
-
-/* This rank's share of the value at x by the block with the smallest cell there; wanted: width of
- * the stencil, 0: 4 cells, or 2 where these are not computed. The sum over ranks is the value, 0 if
- * no block has it. */
-static double read_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
-                      const struct block_reading *of)
-{
-    const struct mesh *m = s->m;
-    double value = 0.0, finest = INFINITY;
-    for (int k = 0; k < m->nblocks; k++) {
-        int cell[3], from[3], width = wanted > 0 ? wanted : 4;
-        double xi[3], w[64], sum = 0.0;
-        if (!overset_locate(m, o, k, x, cell, xi))
-            continue;
-        const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
-        bool good = v < finest && overset_weights(m, k, cell, xi, 1, width, from, w);
-        if (!good && wanted == 0) {
-            width = 2;
-            good = v < finest && overset_weights(m, k, cell, xi, 1, width, from, w);
-        }
-        if (!good)
-            continue;
-        for (int n = 0; n < (m->dim == 3 ? width : 1) * width * width; n++) {
-            int at[3] = {from[0] + n % width, from[1] + n / width % width,
-                         from[2] + n / width / width};
-            int block = k, rank;
-            double move[3] = {0.0, 0.0, 0.0};
-            int64_t place;
-            if (!mesh_resolve(m, &block, at, move))
-                continue;
-            mesh_owner(m, block, at, &rank, &place);
-            if (rank == m->rank)
-                sum += w[n] * term(s, of, place);
-        }
-        finest = v;
-        value = sum;
-    }
-    return value;
-}
-
-double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
-                     const double *q)
-{
-    return read_at(s, o, x, wanted, &(struct block_reading){.field = q});
-}
-
-double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x)
-{
-    const bool falls = s->surface->g > 0.0;
-    const struct block_reading phi = {s->surface->phi, falls ? s->surface->mesh->height : NULL,
-                                      scene_height(&s->run->scene, x)};
-    return read_at(s, o, x, 2, &phi);
 }
 
 /* Position of the centre of rotation and angles of each block with a motion of its own. */

@@ -7,15 +7,29 @@
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 
-/* mesh_errors.c: this rank's share of the value at a place, of the finest block there; q NULL:
+/* block_samples.c: this rank's share of the value at a place, of the finest block there; q NULL:
  * pressure. width 2: linear, 4: cubic from averages, 0: that where it can, else linear. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int width,
                      const double *q);
 /* The same of the distance to the surface, linear in what it is more than the height. */
 double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x);
+/* Cells of this rank and their weights in the values at many places, linear under a surface: of
+ * place k from first[k] to first[k + 1]. */
+struct block_samples {
+    int n, *first;
+    int64_t *cell;
+    double *weight;
+};
+/* Those of gauge number so and so at x[n], kept for the next time if mesh_stays. */
+const struct block_samples *block_samples_of(struct fv *s, int gauge, int n, double (*x)[3]);
+/* This rank's share of a field at place k; and of the distance to the surface there, at x. */
+double block_sample(const struct fv *s, const struct block_samples *of, int k, const double *q);
+double block_sample_phi(const struct fv *s, const struct block_samples *of, int k, const double *x);
+/* Whether what FV computes stays where it is. */
+bool mesh_stays(const struct fv *s);
 
-/* Lines of --check and the banner about the blocks: cells, ranks, overlaps. Makes the mesh and
- * leaves it for the run (mesh_leave). */
+/* mesh_errors.c: lines of --check and the banner about the blocks: cells, ranks, overlaps. Makes
+ * the mesh and leaves it for the run (mesh_leave). */
 void mesh_describe(const struct run *r, const struct fv_params *prm);
 /* Columns of the series with the positions of blocks that move, x y [z] of the centre, m, the angle
  * or the rotation vector, rad: sets their names, which are static, and returns their number. */

@@ -28,15 +28,19 @@ enum { ALONG = 400 };
 
 /* Values of phi at ALONG + 1 positions along gravity over x, from the top of the domain down; 0, as
  * on a surface, where no cells are. Collective. */
-static void levels_along(struct fv *s, const double *at, int up, bool down, double *phi)
+static void levels_along(struct fv *s, int gauge, const double *at, int up, bool down, double *phi)
 {
     const struct scene_domain *d = &s->run->scene.domain;
     const double L = d->max[up] - d->min[up];
+    double x[ALONG + 1][3];
     for (int n = 0; n <= ALONG; n++) {
-        double x[3] = {at[0], at[1], at[2]};
-        x[up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
-        phi[n] = mesh_phi_at(s, s->output->search, x);
+        for (int a = 0; a < 3; a++)
+            x[n][a] = at[a];
+        x[n][up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
     }
+    const struct block_samples *of = block_samples_of(s, gauge, ALONG + 1, x);
+    for (int n = 0; n <= ALONG; n++)
+        phi[n] = block_sample_phi(s, of, n, x[n]);
     MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
@@ -73,7 +77,7 @@ static double ground_at(const struct fv *s, const double *at, int up, double top
 
 /* Height against gravity, as keys of levels are, of the highest water over x, linear between
  * samples; of the ground if there is none, NAN where FV does not compute. */
-static double level_at(struct fv *s, const double *x)
+static double level_at(struct fv *s, int gauge, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
     const int up = still_upright(&s->run->scene);
@@ -82,12 +86,12 @@ static double level_at(struct fv *s, const double *x)
     const double most = 1.5 * (top - end) / ALONG;
     const double sign = down ? -1.0 : 1.0;
     double phi[ALONG + 1], ground = NAN;
-    if (s->m->moves || s->partners.past[0][0]) {
+    if (!mesh_stays(s)) {
         ground = ground_at(s, x, up, sign * top, sign * end);
         if (isnan(ground))
             return NAN;
     }
-    levels_along(s, x, up, down, phi);
+    levels_along(s, gauge, x, up, down, phi);
     for (int n = 0; n <= ALONG; n++) {
         if (!(phi[n] < 0.0))
             continue;
@@ -103,17 +107,9 @@ static double level_at(struct fv *s, const double *x)
     return sign * (isnan(ground) ? ground_at(s, x, up, sign * top, sign * end) : ground);
 }
 
-/* Velocity and distance to the surface at a position: this rank's share. */
-static void share_at(const struct fv *s, const double *x, double here[FLOW_VALUES])
-{
-    for (int a = 0; a < s->dim; a++)
-        here[a] = mesh_value_at(s, s->output->search, x, s->surface ? 2 : 0, s->u[a]);
-    here[3] = s->surface ? mesh_phi_at(s, s->output->search, x) : 0.0;
-}
-
 bool mesh_is_out(const struct fv *s, const double *x)
 {
-    return (s->m->moves || s->partners.past[0][0]) && !mesh_covers(s, s->output->search, x);
+    return !mesh_stays(s) && !mesh_covers(s, s->output->search, x);
 }
 
 static void point_of(const struct fv *s, const double *x, int nq, double *const *q, double *here)
@@ -125,11 +121,15 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
 }
 
 /* The samples are summed over ranks here, so that only rank 0 returns the result. */
-static double discharge_of(struct fv *s, const struct scene_probe *g)
+static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
 {
     struct flow_samples f = flow_samples_create(s, g);
-    for (int k = 0; k < f.n; k++)
-        share_at(s, f.x[k], f.value[k]);
+    const struct block_samples *of = block_samples_of(s, gauge, f.n, f.x);
+    for (int k = 0; k < f.n; k++) {
+        for (int a = 0; a < s->dim; a++)
+            f.value[k][a] = block_sample(s, of, k, s->u[a]);
+        f.value[k][3] = s->surface ? block_sample_phi(s, of, k, f.x[k]) : 0.0;
+    }
     MPI_Allreduce(MPI_IN_PLACE, f.value, FLOW_VALUES * f.n, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < f.n && !s->surface; k++)
         f.value[k][3] = -f.step;
@@ -138,9 +138,9 @@ static double discharge_of(struct fv *s, const struct scene_probe *g)
     return s->m->rank == 0 ? sum : 0.0; /* all know it */
 }
 
-static double level_of(struct fv *s, const double *x)
+static double level_of(struct fv *s, int gauge, const double *x)
 {
-    const double level = level_at(s, x);
+    const double level = level_at(s, gauge, x);
     return s->m->rank == 0 ? level : 0.0;
 }
 

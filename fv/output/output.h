@@ -7,7 +7,8 @@
 
 /* What outputs keep from row to row. */
 struct fv_output {
-    struct overset *search; /* blocks: of the gauges; NULL: none */
+    struct overset *search;        /* blocks: of the gauges; NULL: none */
+    struct block_samples *samples; /* blocks: of each gauge of a level or discharge */
     int nhistory;
     double (*history)[3]; /* blocks: s, N: t, force x, force y of each row of the series */
 };

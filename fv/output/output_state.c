@@ -4,11 +4,14 @@
 #include "output.h"
 
 #include "../grid/fv_grid.h"
+#include "mesh_output.h"
 
 struct fv_output *output_create(const struct fv *s)
 {
     struct fv_output *o = NEW(struct fv_output, 1);
-    if (s->m && s->run->scene.nprobes > 0)
+    if (s->m && s->run->scene.nprobes > 0) {
         o->search = mem_own(o, overset_search(s->run, s->m));
+        o->samples = NEW_IN(o, struct block_samples, s->run->scene.nprobes);
+    }
     return o;
 }

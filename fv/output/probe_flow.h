@@ -19,13 +19,13 @@ void flow_samples_free(struct flow_samples *f);
 /* m^dim/s: of samples that are filled. */
 double flow_samples_sum(const struct flow_samples *f, int dim);
 
-/* How gauges read on a kind of cells: this rank's shares, which add up. */
+/* How gauges read on a kind of cells: this rank's shares, which add up; gauge: its number. */
 struct probe_reader {
     /* Values of nq fields at x, NULL: the pressure, and then a number below 0 where water is. */
     void (*point)(const struct fv *s, const double *x, int nq, double *const *q, double *here);
     /* Height of the water over x; NAN where FV does not compute. */
-    double (*level)(struct fv *s, const double *x);
-    double (*discharge)(struct fv *s, const struct scene_probe *g); /* m^dim/s */
+    double (*level)(struct fv *s, int gauge, const double *x);
+    double (*discharge)(struct fv *s, int gauge, const struct scene_probe *g); /* m^dim/s */
 };
 extern const struct probe_reader even_reader, mesh_reader;
 /* Whether a body or a partner is there, whose cells are not computed. */

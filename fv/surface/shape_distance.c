@@ -53,15 +53,22 @@ static bool is_block_wall(const struct fv *s, const struct scene_shape *h, const
     return false;
 }
 
+/* Whether a side of the shape's box is, seen from x, a wall for its water: for that within, of a
+ * hole for that around it. */
 static bool is_closed(const struct fv *s, const struct scene_shape *h, const double *x, int a,
                       int upper)
 {
-    const double side = h->box[upper][a], out = upper ? 1.0 : -1.0;
-    return is_wall(s, x, a, side, out) || is_block_wall(s, h, x, a, side, out);
+    const double side = h->box[upper][a], out = (upper ? 1.0 : -1.0) * (h->hole ? -1.0 : 1.0);
+    double y[3] = {x[0], x[1], x[2]};
+    for (int t = 0; h->hole && t < s->dim;
+         t++) /* beside a corner the face that ends there counts */
+        if (t != a && h->box[1][t] > h->box[0][t])
+            y[t] = fmax(h->box[0][t] + 0.5 * s->b.h[t], fmin(h->box[1][t] - 0.5 * s->b.h[t], x[t]));
+    return is_wall(s, y, a, side, out) || is_block_wall(s, h, x, a, side, out);
 }
 
-/* Sides of the box that lie on or beyond the domain's, on a wall of a block, or beside a box that
- * is cut out, are walls, not surface. */
+/* Sides of the box that lie on or beyond the domain's, on a wall of a block, or on a box that is
+ * cut out, are walls, not surface. What lies beyond such a side of a hole is far from it. */
 static double box(const struct fv *s, const struct scene_shape *h, const double *x)
 {
     const struct scene_domain *domain = &s->run->scene.domain;
@@ -72,10 +79,16 @@ static double box(const struct fv *s, const struct scene_shape *h, const double 
         if (a == 2 && !(h->box[1][a] > h->box[0][a]))
             continue; /* a plane box in 3D goes through */
         double d = -INFINITY;
-        if (h->box[0][a] > low + eps && !is_closed(s, h, x, a, 0))
-            d = h->box[0][a] - x[a];
-        if (h->box[1][a] < high - eps && !is_closed(s, h, x, a, 1))
-            d = fmax(d, x[a] - h->box[1][a]);
+        for (int upper = 0; upper < 2; upper++) {
+            const double side = h->box[upper][a], beyond = upper ? x[a] - side : side - x[a];
+            if (upper ? side >= high - eps : side <= low + eps)
+                continue;
+            const bool closed = is_closed(s, h, x, a, upper);
+            if (closed && h->hole && beyond > 0.0)
+                return INFINITY;
+            if (!closed || h->hole)
+                d = fmax(d, beyond);
+        }
         in = fmax(in, d);
         out2 += d > 0.0 ? d * d : 0.0;
     }
@@ -128,9 +141,13 @@ static bool is_edge_closed(const struct fv *s, const double *a, const double *b,
     const double e[2] = {b[0] - a[0], b[1] - a[1]}, ee = e[0] * e[0] + e[1] * e[1];
     const double m = ((x[0] - a[0]) * e[0] + (x[1] - a[1]) * e[1]) / ee;
     const double w = fmax(0.0, fmin(1.0, m)), y[2] = {a[0] + w * e[0], a[1] + w * e[1]};
-    for (int t = 0; t < 2; t++)
-        if (fabs(e[t]) < 1e-9 * sqrt(ee) && is_wall(s, x, t, a[t], out[t] > 0.0 ? 1.0 : -1.0))
+    for (int t = 0; t < 2; t++) {
+        const double inset = fmin(0.5, 0.5 * s->b.h[1 - t] / sqrt(ee)), z = 1.0 - inset;
+        const double v = fmax(inset, fmin(z, m)),
+                     at[3] = {t ? a[0] + v * e[0] : x[0], t ? x[1] : a[1] + v * e[1], x[2]};
+        if (fabs(e[t]) < 1e-9 * sqrt(ee) && is_wall(s, at, t, a[t], out[t] > 0.0 ? 1.0 : -1.0))
             return true;
+    }
     if ((x[0] - a[0]) * out[0] + (x[1] - a[1]) * out[1] > 0.0)
         return false;
     for (int k = 0; s->m && k < s->m->nblocks; k++)
@@ -159,9 +176,10 @@ static bool edge_is_wall(const struct fv *s, const struct param_points *p, int k
 }
 
 /* Of edges that end where one on a wall begins, the whole line counts. */
-static double polygon(const struct fv *s, const struct param_points *p, const double *x)
+static double polygon(const struct fv *s, const struct scene_shape *h, const double *x)
 {
-    const double turn = twice_area(p) < 0.0 ? -1.0 : 1.0;
+    const struct param_points *p = &h->points;
+    const double turn = (twice_area(p) < 0.0) != h->hole ? -1.0 : 1.0;
     double least = INFINITY;
     bool in = false;
     for (int k = 0, l = p->n - 1; k < p->n; l = k++) {
@@ -181,16 +199,46 @@ static double polygon(const struct fv *s, const struct param_points *p, const do
     return in ? -least : least;
 }
 
+/* Whether the circle of a disc is a round closed side of a block for its water: for that within, of
+ * a hole for that around it. */
+static bool is_round_wall(const struct fv *s, const struct scene_shape *h)
+{
+    for (int k = 0; s->m && s->dim == 2 && k < s->m->nblocks; k++) {
+        const struct mesh_block *b = s->m->block + k;
+        for (int q = 0; q < 4; q++) {
+            bool on = side_is_wall(b->side[q]);
+            int at[2];
+            for (int l = 0; on && l <= b->n[1 - q / 2]; l++) {
+                at[q / 2] = q % 2 ? b->n[q / 2] : 0;
+                at[1 - q / 2] = l;
+                const double *v = b->x[mesh_vertex(b, at[0], at[1], 0)];
+                on = fabs(sqrt(vec_distance2(2, v, h->centre)) - h->radius) < 1e-6 * h->radius;
+            }
+            at[q / 2] = q % 2 ? b->n[q / 2] - 1 : 1;
+            const double *v = b->x[mesh_vertex(b, at[0], at[1], 0)];
+            if (on && (vec_distance2(2, v, h->centre) < h->radius * h->radius) != h->hole)
+                return true;
+        }
+    }
+    return false;
+}
+
+static double disc(const struct fv *s, const struct scene_shape *h, const double *x)
+{
+    const double d = sqrt(vec_distance2(s->dim, x, h->centre)) - h->radius;
+    const bool of_water = (d < 0.0) != h->hole;
+    return of_water && is_round_wall(s, h) ? (h->hole ? INFINITY : -INFINITY) : d;
+}
+
 static double shape(const struct fv *s, const struct scene_shape *h, const double *x)
 {
-    const double r2 = vec_distance2(s->dim, x, h->centre);
     switch (h->form) {
     case SHAPE_BOX:
         return box(s, h, x);
     case SHAPE_POLYGON:
-        return polygon(s, &h->points, x);
+        return polygon(s, h, x);
     case SHAPE_DISC:
-        return sqrt(r2) - h->radius;
+        return disc(s, h, x);
     default:
         return scene_height(&s->run->scene, x) - h->level;
     }

@@ -302,7 +302,7 @@ static const double LOST = 1e-5;
 static bool loses(const struct fv *s, double before)
 {
     const struct surface *f = s->surface;
-    return s->prm.integrator == INTEGRATOR_RK3 && f->largest <= 2.0 * f->least &&
+    return s->prm.integrator == INTEGRATOR_RK3 && f->largest <= 2.001 * f->least &&
            fabs(f->returned - before) > LOST * surface_volume_scale(s);
 }
 
