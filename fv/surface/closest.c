@@ -5,6 +5,7 @@
  * fourth order; what reinit.c does beside it moves it by h^3 at best.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "levelset.h"
+#include "mesh_view.h"
 
 enum {
     REACH = 3,             /* cells around that are read: the ghosts of a rank */
@@ -23,8 +24,8 @@ static const double EXACT = 1e-7;
 
 /* What is around a cell. */
 struct around {
-    const double *phi;  /* at the cell */
-    const bool *closed; /* the same: nothing is known there */
+    const double *phi;         /* at the cell */
+    const unsigned char *none; /* the same: nothing is known there */
     int dim;
     int64_t stride[3];
     double x[3][NODES]; /* m: centres along each axis, from the cell's */
@@ -175,7 +176,7 @@ static bool is_resolved(const struct around *w, const struct cubic q[3])
                 const int at[3] = {i, j, k};
                 const int64_t at_cell = corner + i + j * w->stride[1] + k * w->stride[2];
                 const double *c = w->phi + at_cell;
-                if (w->closed[at_cell])
+                if (w->none[at_cell])
                     return false;
                 for (int a = 0; a < w->dim; a++)
                     if (at[a] > 0 && at[a] < q[a].n - 1 &&
@@ -210,43 +211,57 @@ static double move(const struct around *w, struct cubic q[3], double *x, bool fi
 }
 
 /* Cells that follow one along the step d, before a side or a box, at most REACH. */
-static int free_along(const bool *closed, int64_t d)
+static int free_along(const unsigned char *none, int64_t d)
 {
     int n = 0;
-    while (n < REACH && !closed[(n + 1) * d])
+    while (n < REACH && !none[(n + 1) * d])
         n++;
     return n;
 }
 
+/* Distances of the centres along axis a from that of cell i of them, m. */
+static void set_places(const struct fv *s, const struct part *p, int a, int i, struct around *w)
+{
+    const double *line = s->m                  ? s->surface->mesh->line[p - s->grid.part][a]
+                         : a == 1 && s->b.rows ? s->b.rows->y
+                                               : NULL;
+    const double h = s->m ? s->surface->mesh->size[p - s->grid.part][a] : s->b.h[a];
+    double least = h;
+    for (int k = -REACH; k <= REACH; k++)
+        w->x[a][k + REACH] = line ? line[i + k] - line[i] : k * h;
+    w->per[a] = line ? 0.0 : 1.0 / h;
+    if (line)
+        least = s->m ? 0.5 * (line[i + 1] - line[i - 1]) : block_size(&s->b, a, i);
+    w->h = lesser(w->h, least);
+}
+
 /* Nothing behind a side or a box is read: what is mirrored there has a kink, but where the surface
  * meets it upright. */
-static bool look_around(const struct fv *s, const double *phi, int64_t c, struct around *w)
+static bool look_around(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                        struct around *w)
 {
-    const struct block *b = &s->b;
-    const int row = block_row(b, c);
-    *w = (struct around){
-        .phi = phi + c, .closed = s->surface->closed + c, .dim = s->dim, .h = INFINITY};
+    int at[3];
+    *w =
+        (struct around){.phi = phi + c, .none = s->surface->none + c, .dim = s->dim, .h = INFINITY};
+    part_index(p, c, at);
     for (int a = 0; a < s->dim; a++) {
-        w->stride[a] = b->stride[a];
-        w->lo[a] = REACH - free_along(w->closed, -b->stride[a]);
-        w->hi[a] = REACH + free_along(w->closed, b->stride[a]);
+        w->stride[a] = p->stride[a];
+        w->lo[a] = REACH - free_along(w->none, -p->stride[a]);
+        w->hi[a] = REACH + free_along(w->none, p->stride[a]);
         if (w->hi[a] - w->lo[a] < 3)
             return false;
-        for (int k = -REACH; k <= REACH; k++)
-            w->x[a][k + REACH] =
-                a == 1 && b->rows ? b->rows->y[row + k] - b->rows->y[row] : k * b->h[a];
-        w->per[a] = a == 1 && b->rows ? 0.0 : 1.0 / b->h[a];
-        w->h = lesser(w->h, block_size(b, a, row));
+        set_places(s, p, a, at[a], w);
     }
     return true;
 }
 
-bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *distance)
+bool surface_closest(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                     double *distance)
 {
     struct around w;
     struct cubic q[3] = {{.n = 1}, {.n = 1}, {.n = 1, .value = {1.0}}}; /* beyond dim 1 */
     double x[3] = {0.0, 0.0, 0.0}, moved = INFINITY, square = 0.0;
-    if (fabs(phi[c]) > 3.0 * s->surface->largest || !look_around(s, phi, c, &w))
+    if (fabs(phi[c]) > 3.0 * s->surface->largest || !look_around(s, p, phi, c, &w))
         return false;
     for (int k = 0; k < PASSES && (k < 2 || moved > EXACT * w.h * w.h); k++) {
         moved = move(&w, q, x, k == 0);

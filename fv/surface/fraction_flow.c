@@ -43,15 +43,13 @@ static struct air_cell look(const struct fv *s, const struct part *p, int64_t c)
     double sum = 0.0;
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
-        double both = 0.0;
         x.step[a] = d;
         x.out += f->flow[a][c + d] - f->flow[a][c];
         for (int up = 0; up < 2; up++) {
             const int64_t face = c + up * d;
-            if (is_free(s, face, d))
-                both += x.share[a][up] = conductance(s, face, d, a);
+            x.share[a][up] = is_free(s, face, d) ? conductance(s, face, d, a) : 0.0;
         }
-        sum += both;
+        sum += x.share[a][0] + x.share[a][1];
     }
     const double per = sum > 0.0 ? 1.0 / sum : 0.0;
     x.out *= per;

@@ -5,6 +5,7 @@
 #include "../boundary/fv_boundary.h"
 #include "levelset.h"
 #include "mesh_view.h"
+#include "reinit_band.h"
 #include "weno.h"
 
 /* --- ghosts --- */
@@ -189,6 +190,7 @@ static void start(const struct fv *s, struct surface *f)
 {
     const struct surface_mesh *w = f->mesh = mem_own(f, surface_mesh_create(s, f));
     f->none = w->out;
+    f->reinit = w->boxes ? &box_reinit : &block_reinit;
     for (int64_t c = 0; c < s->size; c++)
         f->phi[c] = surface_distance(s, (double[]){w->x[0][c], w->x[1][c], w->x[2][c]});
 }

@@ -207,7 +207,7 @@ void surface_keep_volume(struct fv *s)
     struct surface *f = s->surface;
     const double h = f->largest, most = (f->forced ? 0.02 : 0.1) * h;
     double area, d = INFINITY;
-    for (int it = 0; it < 5 && fabs(d) > 1e-4 * f->least; it++) {
+    for (int it = 0; it < 5 && fabs(d) > 1e-5 * f->least; it++) {
         const double volume = surface_level_volume(s, &area);
         if (!(area < 0.0))
             return;
@@ -228,7 +228,7 @@ struct surface *levelset_create(const struct fv *s)
     double **const fields[] = {&f->phi, &f->phi_new, &f->rate, &f->kept, &f->stress};
     const double *g = s->gravity.hydrostatic;
     f->ops = s->m ? &block_level : &even_level;
-    f->reinit = s->m ? &block_reinit : &even_reinit;
+    f->reinit = &even_reinit;
     f->window = s->m ? &block_window : &even_window;
     for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
         *fields[k] = NEW_IN(f, double, s->size);

@@ -156,9 +156,10 @@ double surface_distance(const struct fv *s, const double *x);
 /* The shape that the water at x belongs to; NULL: none. */
 const struct scene_shape *surface_shape(const struct fv *s, const double *x);
 
-/* closest.c: signed distance of cell c from phi = 0, m; false: the cells around do not resolve the
- * surface, or it is more than two cells away. phi: with ghosts. */
-bool surface_closest(const struct fv *s, const double *phi, int64_t c, double *distance);
+/* closest.c: signed distance of cell c of a part from phi = 0, m; false: the cells around do not
+ * resolve the surface, or it is more than two cells away. phi: with ghosts. */
+bool surface_closest(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                     double *distance);
 
 /* reinit.c: makes phi a distance again within BAND_WIDTH cells, by so many pseudo-time steps.
  * Collective. */

@@ -37,11 +37,14 @@ struct shared_cell {
 struct surface_mesh {
     double size[MESH_BLOCKS_MAX][3]; /* m: mean spacing of a part's cells along its indices */
     double *x[3];                    /* m: centres, with ghosts */
-    double *K[3][3];                 /* -: grad xi_a . grad xi_b, times the two sizes; a <= b */
-    double *slopes[3][2];            /* scratch: of a row, from below and from above */
-    double *speed[3];                /* m/s: rate along each index, times the size */
-    double *count;                   /* m^dim: volume that counts */
-    int64_t nshared;                 /* cells of which some counts, 2D */
+    bool boxes; /* lines of cells are straight and at right angles, in all parts of all ranks */
+    double *line[MESH_BLOCKS_MAX][3]; /* m: of boxes, places of centres along an index, from the
+                                         first ghost on; NULL: `size' apart */
+    double *K[3][3];                  /* -: grad xi_a . grad xi_b, times the two sizes; a <= b */
+    double *slopes[3][2];             /* scratch: of a row, from below and from above */
+    double *speed[3];                 /* m/s: rate along each index, times the size */
+    double *count;                    /* m^dim: volume that counts */
+    int64_t nshared;                  /* cells of which some counts, 2D */
     struct shared_cell *shared;
     int64_t npieces;
     struct polygon *piece;

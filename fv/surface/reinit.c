@@ -154,8 +154,8 @@ static void list_band(struct fv *s, int width, struct band *w)
 {
     double *phi = s->surface->phi, *mark = s->surface->phi_new, *exact = s->surface->rate;
     const double far = s->surface->least * (width - 1);
-    bool (*const is_known)(const struct fv *, const double *, int64_t, bool, double *) =
-        s->surface->reinit->is_known;
+    bool (*const is_known)(const struct fv *, const struct part *, const double *, int64_t, bool,
+                           double *) = s->surface->reinit->is_known;
     int64_t cells = 0;
     mark_band(s, width, mark);
     FLOW_NEAR (s, c, len)
@@ -179,7 +179,7 @@ static void list_band(struct fv *s, int width, struct band *w)
                                    .dtau = s->surface->reinit->strip_step(s, j)};
             w->strips[w->nstrips - 1].n++;
             exact[i] = phi[i];
-            if (is_known && is_known(s, phi, i, width == NARROW, exact + i))
+            if (is_known && is_known(s, part, phi, i, width == NARROW, exact + i))
                 w->spots[w->nspots++] = (struct spot){.part = part, .cell = i};
             else if (beside_surface(s, part, phi, i))
                 w->spots[w->nspots++] = look(s, part, phi, i, j);

@@ -40,7 +40,8 @@ struct reinit_ops {
     double (*strip_step)(const struct fv *s, int j);
     /* Whether the distance of a cell is known or held, as *exact; narrow: of a step's small change.
      * NULL: it never is. */
-    bool (*is_known)(const struct fv *s, const double *phi, int64_t c, bool narrow, double *exact);
+    bool (*is_known)(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                     bool narrow, double *exact);
     /* Change of phi over a pseudo step in the strips; old: phi at its start, which has the sign. */
     void (*rates)(const struct fv *s, const double *phi, const double *old, const struct band *w,
                   double *rate);
@@ -48,8 +49,12 @@ struct reinit_ops {
     double (*size_beside)(const struct fv *s, const double *phi, const struct spot *x);
 };
 
-/* Of uniform cells and layers of unequal height; of blocks. */
-extern const struct reinit_ops even_reinit, block_reinit;
+/* Of uniform cells and layers of unequal height; of blocks; of blocks whose lines of cells are all
+ * straight and at right angles. */
+extern const struct reinit_ops even_reinit, block_reinit, box_reinit;
+/* reinit_even.c: is_known of those of them that have one. */
+bool reinit_is_known(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                     bool narrow, double *exact);
 
 /* The pseudo step over the least size of a cell, -. */
 static inline double reinit_cfl(const struct fv *s) { return s->dim == 3 ? 0.3 : 0.45; }

@@ -105,3 +105,10 @@ const struct reinit_ops block_reinit = {.height = height,
                                         .strip_step = strip_step,
                                         .rates = rates,
                                         .size_beside = size_beside};
+
+const struct reinit_ops box_reinit = {.height = height,
+                                      .step = step,
+                                      .strip_step = strip_step,
+                                      .is_known = reinit_is_known,
+                                      .rates = rates,
+                                      .size_beside = size_beside};

@@ -31,19 +31,20 @@ static double least_size(const struct block *b, int j)
 static double strip_step(const struct fv *s, int j) { return reinit_cfl(s) * least_size(&s->b, j); }
 
 /* Whether differences around c end at a closed side or a box. */
-static bool near_side(const struct fv *s, int64_t c)
+static bool near_side(const struct fv *s, const struct part *p, int64_t c)
 {
     for (int a = 0; a < s->dim; a++)
         for (int m = 1; m <= GHOSTS; m++)
-            if (surface_holds_none(s, c + m * s->b.stride[a]) ||
-                surface_holds_none(s, c - m * s->b.stride[a]))
+            if (surface_holds_none(s, c + m * p->stride[a]) ||
+                surface_holds_none(s, c - m * p->stride[a]))
                 return true;
     return false;
 }
 
-static bool is_known(const struct fv *s, const double *phi, int64_t c, bool narrow, double *exact)
+bool reinit_is_known(const struct fv *s, const struct part *p, const double *phi, int64_t c,
+                     bool narrow, double *exact)
 {
-    return surface_closest(s, phi, c, exact) || (narrow && near_side(s, c));
+    return surface_closest(s, p, phi, c, exact) || (narrow && near_side(s, p, c));
 }
 
 /* Second derivative along axis a at a cell in row j, whose neighbours stand d away in q, 1/m. */
@@ -126,6 +127,6 @@ static void rates(const struct fv *s, const double *phi, const double *old, cons
 const struct reinit_ops even_reinit = {.height = height,
                                        .step = step,
                                        .strip_step = strip_step,
-                                       .is_known = is_known,
+                                       .is_known = reinit_is_known,
                                        .rates = rates,
                                        .size_beside = size_beside};

@@ -80,6 +80,53 @@ static void index_gradients(const struct mesh *m, const struct part *p, int64_t 
             g[a][k] = 0.5 * (m->S[a][k][c] + m->S[a][k][c + p->stride[a]]) / m->V[c];
 }
 
+/* Of the step from one centre to another along a unit vector e: its length; *off: across it. */
+static double length_along(const struct surface_mesh *w, int64_t from, int64_t to, const double *e,
+                           double *off)
+{
+    double d[3], along = 0.0, square = 0.0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = w->x[k][to] - w->x[k][from];
+        along += d[k] * e[k];
+        square += d[k] * d[k];
+    }
+    *off = sqrt(fmax(0.0, square - along * along));
+    return along;
+}
+
+/* Whether the lines of a part's cells are straight and at right angles, those of neighbours that
+ * are seen through joins, too: then sets the places along them. Only what is a cell counts. */
+static bool set_lines(const struct fv *s, const struct part *p, struct surface_mesh *w)
+{
+    const int q = (int)(p - s->grid.part);
+    const int64_t first = part_at(p, 0, 0, 0);
+    double e[3][3] = {{0.0}}, off;
+    bool good = true;
+    int i[3];
+    for (int a = 0; a < s->dim; a++) {
+        const double h = w->size[q][a];
+        for (int k = 0; k < 3; k++)
+            e[a][k] = (w->x[k][first + p->stride[a]] - w->x[k][first]) / h;
+        const double size = vec3_length(e[a]);
+        for (int k = 0; k < 3; k++)
+            e[a][k] /= size;
+    }
+    for (int a = 0; a < s->dim; a++) {
+        double *line = NEW_IN(w, double, p->n[a] + 2 * p->g[a]) + p->g[a];
+        bool even = true;
+        for (int k = -p->g[a]; k < p->n[a] + p->g[a]; k++) {
+            line[k] = length_along(w, first, first + k * p->stride[a], e[a], &off);
+            even = even && fabs(line[k] - k * w->size[q][a]) < 1e-9 * w->size[q][a];
+        }
+        w->line[q][a] = even ? NULL : line;
+        PART_ALL (p, i, c) {
+            const double x = length_along(w, first, c, e[a], &off), h = w->size[q][a];
+            good = good && (w->out[c] || fabs(x - line[i[a]]) < 1e-6 * h);
+        }
+    }
+    return good;
+}
+
 static void set_metric(const struct fv *s, const struct part *p, struct surface_mesh *w)
 {
     const struct mesh *m = s->m;
@@ -249,6 +296,10 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
         for (int up = 0; up < 2; up++)
             w->slopes[a][up] = NEW_IN(w, double, most);
     set_out(s, w);
+    w->boxes = !s->m->has_fringe; /* there films lose twice as much: NOTES.md */
+    for (int q = 0; q < s->grid.nparts; q++)
+        w->boxes = set_lines(s, s->grid.part + q, w) && w->boxes;
+    w->boxes = ranks_all(s->comm, w->boxes);
     set_sizes(s, w, f);
     if (s->m->moves)
         mesh_motion_place(s->m, s->t);

@@ -174,7 +174,7 @@ static double moved_at_once(int n)
     BLOCK_CELLS (&s->b, i, j, k, at) {
         block_centre(&s->b, i, j, k, x);
         const double r = hypot(x[0] - 0.52, x[1] - 0.49) - 0.3;
-        if (!(fabs(r) < 1.4 * h) || !surface_closest(s, s->surface->phi, at, &d))
+        if (!(fabs(r) < 1.4 * h) || !surface_closest(s, s->grid.part, s->surface->phi, at, &d))
             continue;
         worst = fmax(worst, fabs(d - r));
         known++;
