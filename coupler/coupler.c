@@ -314,9 +314,12 @@ static void describe_bodies(const struct coupler *c)
 {
     for (int k = 0; k < c->scene.nbodies; k++) {
         const struct scene_body *b = c->scene.bodies + k;
-        log_say("  sph.%s.force (N, N m), sph.%s.motion (m, rad, m/s, rad/s)%s%s%s", b->name,
-                b->name, scene_body_partnered(b) ? "; a partner gives " : "",
-                scene_body_partnered(b) ? b->name : "", scene_body_partnered(b) ? ".motion" : "");
+        const bool bends = scene_body_bends(b);
+        log_say("  sph.%s.force (N, N m), sph.%s.motion (m, rad, m/s, rad/s)", b->name, b->name);
+        if (bends)
+            log_say("  sph.%s.load (N), on the points of its outline", b->name);
+        if (bends || scene_body_partnered(b))
+            log_say("  and a partner gives %s.%s", b->name, bends ? "outline (m, m/s)" : "motion");
     }
 }
 
@@ -337,6 +340,7 @@ static void describe_scene(const struct coupler *c)
     log_say(
         "  sph.velocity (m/s), sph.pressure (Pa) of particles of the free zone and the transition");
     log_say("  fv.velocity (m/s), fv.pressure (Pa) of cells, everywhere but in sph's free zone");
+    log_say("  where a free surface crosses sph.box: sph.one (-), fv.phi (m from it, < 0: water)");
     describe_bodies(c);
 }
 

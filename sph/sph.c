@@ -446,6 +446,8 @@ static void complete(struct run *r)
 static void check(const struct run *r, struct faults *f)
 {
     sph_params_check(r, f);
+    if (params_has_group(r->params, "blocked") && !r->coupled) /* there fv refuses them */
+        params_fault(r->params, f, "blocked", "boxes cut out of fv's cells: give them as bodies");
     if (f->n == 0 && has_partner_flow(r))
         coupling_check(r, sph_params_of(r), f);
     if (f->n == 0) {
@@ -531,7 +533,7 @@ static void tell(void *state, struct summary *report)
         overlap_tell(watched(s), report);
 }
 
-static const char *const others[] = {"sph", "sph_*", "fv", "blocks", "coupler", NULL};
+static const char *const others[] = {"sph", "sph_*", "fv", "blocks", "blocked", "coupler", NULL};
 
 static struct program sph_program = {.name = "sph",
                                      .help = "weakly compressible SPH, 2D and 3D",

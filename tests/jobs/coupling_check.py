@@ -161,6 +161,15 @@ refuses('there is no water', basin, 'sph.box=((0,0.44),(2,1.2))')
 accepts(basin, 'sph.box=((0.5,0.0),(1.5,1.2))')  # the surface crosses its sides
 accepts(basin, 'sph.box=((0.5,0.0),(1.5,0.4))')  # or is fv's alone
 accepts('standing_wave_3d', 'sph.box=((0.25,0,0),(1.75,1.25,2))')  # and in 3D
+# one voice for a fault of both programs: fv has boxes cut out of its cells, and sph that knows none leaves it to say so
+boxed = basin + 'blocked: ( { min = (1.8, 0); max = (1.9, 0.2); } );\n'
+accepts(boxed)
+accepts(boxed, '', 'blocked: not in a coupled job: use bodies', 'fv', 2)
+refuses("blocked: boxes cut out of fv's cells: give them as bodies", re.sub('(?m)^fv:.*', '', boxed))
+# what a third program may take
+accepts(basin, '', r'where a free surface crosses sph.box: sph.one \(-\), fv.phi', 'coupler')
+accepts(root + '/coupler/examples/plate.cfg', '', r'sph.plate.load \(N\)', 'coupler')
+silent('plate.motion$')
 beach = varied(basin, 'walls:   (', 'walls: ( { points = ((1.2, 0), (2, 0.8)); },')
 accepts(beach, 'sph.box=((0.5,0.0),(2,1.2))')  # a beach where sph gives the flow
 refuses('fv, which has no walls but the domain', beach, 'sph.box=((1,0),(2,1.2))')
