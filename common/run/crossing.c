@@ -99,14 +99,21 @@ static bool any_moves(const struct run *r)
     return moves;
 }
 
-/* Whether the surface over a level gauge is above the box, so that the particles have none there:
- * water stands at the start where the box ends. */
+/* Whether the surface over a level gauge is above the box, so that the particles have none there,
+ * or comes there with the crests, so that they have a part of it: water stands at the start where
+ * the box ends below the domain's roof, or less than the height of the waves below that. */
 static bool is_drowned(const struct scene *c, int up, double box[2][3], const struct scene_probe *g)
 {
     const struct exact e = exact_create(c);
+    const struct scene_domain *d = &c->domain;
+    const bool falls = c->fluid.gravity[up] < 0.0;
+    const double top = box[falls][up], roof = falls ? d->max[up] : d->min[up],
+                 eps = 1e-9 * (d->max[up] - d->min[up]);
     double x[3];
     memcpy(x, g->at, sizeof x);
-    x[up] = box[c->fluid.gravity[up] < 0.0][up];
+    x[up] = top;
+    if (c->has_waves && fabs(top - roof) > eps)
+        x[up] -= copysign(c->waves.height, roof - top);
     return scene_is_fluid(c, &e, x, NULL);
 }
 

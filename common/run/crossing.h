@@ -17,9 +17,9 @@ bool crossing_find(const struct run *r);
 /* Deals out the gauges of the scene to the programs of a coupled job: r->gauge_elsewhere. SPH reads
  * those in its box at the start and those of bodies, FV those outside; a gauge of the surface's
  * level counts by its horizontal position where a surface crosses, unless the box ends below the
- * water there, else it is SPH's. Gauges of points are read by both where a box moves under no
- * surface. A discharge is read by the program in whose part its whole section lies; a fault is
- * added where there is none. Collective over r->comm. */
+ * water there or where crests come, else it is SPH's. Gauges of points are read by both where a box
+ * moves under no surface. A discharge is read by the program in whose part its whole section lies;
+ * a fault is added where there is none. Collective over r->comm. */
 void crossing_deal(struct run *r, struct faults *f);
 /* Depth of the water at the start, m: from the domain's floor to the highest point of the fluid's
  * shapes, or to initial.level, against gravity along axis a. */

@@ -21,7 +21,7 @@ static const struct param rows[] = {
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed expected in the scene, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1", .comparison = true),
-    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface but no inlet or outlet, else riemann_ale"),
+    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, but riemann_ale beside inlets, outlets and waves of fv; else riemann_ale"),
     CHOICE(P, riemann, "linear|exact", "linear", "Riemann problem of each pair of the Riemann schemes: linearised; for comparison solved exactly, by Newton's iteration, in twice the time",
           USED(NEED(ONE_SIZE, "only the Riemann schemes solve Riemann problems, and sets of several sizes (apr.method) the linear ones alone")), .comparison = true),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles",
@@ -266,6 +266,13 @@ static bool shears_lattice(const struct run *r, const struct sph_params *prm)
 static struct sph_params used; /* given, with all that follows from it and from the scene */
 static bool resolved;
 
+/* Waves cross open sides, where volumes cannot follow kernel sums: without mass flux particles
+ * crowd in them, and the pressure at the floor was 4 % low after eight periods (0.05 % with). */
+static bool is_beside_waves(const struct run *r)
+{
+    return is_coupled(r) && r->crossed && r->scene.has_waves;
+}
+
 /* Reads the motion files of bodies, so it is done once. */
 static void resolve(const struct run *r)
 {
@@ -282,9 +289,10 @@ static void resolve(const struct run *r)
     if (used.viscosity == VISCOSITY_AUTO)
         used.viscosity = used.surface ? VISCOSITY_MONAGHAN : VISCOSITY_MORRIS;
     if (used.scheme == SCHEME_AUTO)
-        used.scheme = used.surface == SURFACE_YES && !scene_has_openings(&r->scene)
-                          ? SCHEME_RIEMANN
-                          : SCHEME_RIEMANN_ALE;
+        used.scheme =
+            used.surface == SURFACE_YES && !scene_has_openings(&r->scene) && !is_beside_waves(r)
+                ? SCHEME_RIEMANN
+                : SCHEME_RIEMANN_ALE;
     const struct apr_params *apr = apr_params_of(r);
     if (used.walls == WALLS_AUTO && apr && apr->method != APR_GUARDS)
         used.walls = WALLS_GHOSTS;

@@ -179,12 +179,15 @@ static void look_at_side(struct sph *s, int side, double dt)
     s->zones->outflow[side] = fmax(-most * U, fmin(most * U, now + g->lasting[side]));
 }
 
-/* In a period no level resists a flow through both sides, in by one and out by the other: what they
- * call for of it would be given back by the partner, and grow. The rest is left to them. */
+/* A flow in by one side and out by the other changes the levels of both programs alike, so no gap
+ * resists it: in a period the partner gives it back, and in a tank it only tilts the water. Waves
+ * leave a millimetre of gap where they come in (particles that enter stand closer there), which
+ * called for ever more of it: after 16 periods the water before the box stood 0.15 of their
+ * amplitude above that behind it, instead of 0.08. */
 static void leave_out_circulation(const struct sph *s, double *outflow, int axis)
 {
     double *low = outflow + 2 * axis, *high = low + 1;
-    if (s->run->scene.domain.periodic[axis] && s->open[2 * axis] && s->open[2 * axis + 1])
+    if (s->open[2 * axis] && s->open[2 * axis + 1])
         *low = *high = 0.5 * (*low + *high);
 }
 

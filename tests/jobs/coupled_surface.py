@@ -93,6 +93,11 @@ job('level_waves', ripples, 'sph.scheme=riemann_ale')
 for folder in 'level', 'level_ale', 'level_waves':
     near(folder + ': level of still water in the box', last(folder + '/sph-series.csv', 'inside [m]'), 0.5, 0.05 * 0.05)
 
+# where crests come over the top of the box the particles have a part of the surface alone, and its level is fv's (9.7 mm too low)
+job('crests', varied(ripples, '0.0005', '0.05'), 'time.end=0.02 sph.dx=0.025 sph.box=((2,0),(4,0.525))')
+gauge('crests', 'fv', 'inside', 0.5)
+not_read('crests', sph='inside')
+
 # a tank as narrow as two supports: an imposed cell has images beyond both of its sides; 3D, gravity along -y
 job('narrow', '''format = 1;
 time:    { end = 0.3; };
