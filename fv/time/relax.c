@@ -36,6 +36,7 @@ bool relax_zones(struct fv *s, double dt)
         return false;
     if (s->surface && !w->zone_power && wave_zones_drive(s->wave_zones))
         w->zone_power = NEW_IN(w, double, s->size);
+    timer_start(&s->run->timers, "waves");
     wave_zones_at(s->wave_zones, s->t);
     FLOW_NEAR (s, at, n)
         for (int64_t i = at; i < at + n; i++) {
@@ -45,5 +46,6 @@ bool relax_zones(struct fv *s, double dt)
                 w->zone_power[i] = power;
         }
     sides_velocity(s, BC_GIVEN, s->u);
+    timer_stop(&s->run->timers, "waves");
     return true;
 }

@@ -148,6 +148,7 @@ static void add_wave_zones(struct sph *s)
 {
     const int dim = s->dim;
     double power = 0.0;
+    timer_start(&s->run->timers, "waves");
     wave_zones_at(s->wave_zones, s->t);
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), at[3] = {q[0], q[1], dim > 2 ? q[2] : 0.0};
@@ -167,6 +168,7 @@ static void add_wave_zones(struct sph *s)
         if (s->walls && !particles_is_guard(&s->p, i))
             forces_add(s, -1, q, taken);
     }
+    timer_stop(&s->run->timers, "waves");
     if (wave_zones_drive(s->wave_zones))
         s->watch.wall_power += power;
 }
