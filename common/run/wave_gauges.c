@@ -35,6 +35,9 @@ static int probes_of(const struct scene *s, const struct scene_gauges *g, int pr
     return n;
 }
 
+/* The period of a steady wave is found, so that records of whole periods may seem shorter. */
+static const double alike = 1.0 + 1e-6;
+
 /* s: the group's own, else that of the waves that are made, a sea's at its peak; 0: no waves and
  * none given. */
 static double period_of(const struct scene *s, const struct scene_gauges *g)
@@ -144,7 +147,7 @@ void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struc
         if (!(period > 0.0))
             params_fault(p, f, key_text("gauges.[%d].period", k),
                          "no group waves tells the period: give it, s");
-        if (g->from > 0.0 && period > 0.0 && s->time.end - g->from < 2.0 * period)
+        if (g->from > 0.0 && period > 0.0 && (s->time.end - g->from) * alike < 2.0 * period)
             params_fault(p, f, key_text("gauges.[%d].from", k),
                          "%g s: less than two periods (%.4g s) before time.end", g->from, period);
         if (f->n > 0)
@@ -343,7 +346,7 @@ void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
         const int n = probes_of(s, g, probe, wrong);
         const double period = period_of(s, g), end = t->v[(size_t)(t->nrows - 1) * t->ncolumns],
                      from = g->from > 0.0 ? g->from : 0.5 * end, unit = unit_of(s, g, end - from),
-                     whole = floor((end - from) / unit * (1.0 + 1e-9)) * unit;
+                     whole = floor((end - from) / unit * alike) * unit;
         struct history h = read_history(s, t, n, probe, end - whole);
         if (h.n >= 0 && (h.n < 16 || whole < period))
             log_warn("gauges %s: %d rows over %.3g periods are too few to tell waves apart",
