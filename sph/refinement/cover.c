@@ -71,9 +71,10 @@ static void say_cut(const struct sph *s, const struct body *b, int level, const 
              level, b->is->name, is->at[0], is->at[1], is->at[2], R);
 }
 
-/* Reported once for each body and level. The first call takes the state at the start as the
- * reference, later ones, every LOOK_EVERY steps, compare moving bodies with it. Every rank has all
- * bodies and regions, so nothing is exchanged. */
+/* Reported once for each body and level. The first call sees which regions hold a body whole; one
+ * that an edge cuts is told so then, and not that it has left what moves along with it. Later
+ * calls, every LOOK_EVERY steps, compare moving bodies with that. Every rank has all bodies and
+ * regions, so nothing is exchanged. */
 void refinement_watch_bodies(struct sph *s)
 {
     struct refinement *r = s->refinement;
@@ -89,7 +90,7 @@ void refinement_watch_bodies(struct sph *s)
                 continue;
             const struct held now = count(s, s->walls->bodies + k, n);
             if (first) {
-                *before = now.points;
+                *before = now.points == now.all ? now.points : 0;
                 if (now.points > 0 && now.points < now.all)
                     say_cut(s, s->walls->bodies + k, n, &now);
             } else if (now.points < *before) {

@@ -621,6 +621,13 @@ def absorbing_side(rng):
     return s
 
 
+def drifting(s, x, y, size):
+    """A block that goes with the stream: no force on it, within 3 % of rho U^2 times its side."""
+    s.bodies.append({"name": "b", "more": "velocity = %s;" % s.written(s.speed_unit() * v for v in s.vector(s.velocity)),
+                     "points": [(x, y), (x, y + size[1]), (x + size[0], y + size[1]), (x + size[0], y)]})
+    s.laws["pushed"] = [("b", [0.0, 0.0], 1000 * s.velocity[0] ** 2 * size[1])]
+
+
 def opening_body(rng):
     """A body that goes with the stream, near an inlet at the start or near an outlet at the end."""
     s = stream(rng, "sph")
@@ -632,8 +639,21 @@ def opening_body(rng):
     s.end = far / s.velocity[0]
     x = gap if rng.random() < 0.5 else s.hi[0] - gap - size[0] - far
     y = 0.5 * (s.hi[1] - size[1])
-    s.bodies.append({"name": "b", "more": "velocity = %s;" % s.written(s.speed_unit() * v for v in s.vector(s.velocity)),
-                     "points": [(x, y), (x, y + size[1]), (x + size[0], y + size[1]), (x + size[0], y)]})
+    drifting(s, x, y, size)
+    return s
+
+
+def body_moving_edge(rng):
+    """A body that goes with the stream, R or more inside a region that follows it and may lie across a period."""
+    s = stream(rng, "sph")
+    size, far = [rng.uniform(4, 5) * s.dx for _ in range(2)], rng.randint(6, 10)
+    s.n = [2 * 16 + 15 + far + rng.randint(2, 8), rng.randint(22, 26)]  # transition, buffer and R at each end
+    s.hi = [n * s.dx for n in s.n]
+    s.end = far * s.dx / s.velocity[0]
+    a, b = rng.randint(16, s.n[0] - 31 - far), rng.randint(-4, s.n[1] - 11) if s.periodic[1] else rng.randint(-5, s.n[1] - 10)
+    x, y = (a + 5) * s.dx, min(max((b + 5) * s.dx, 0.1 * s.dx), s.hi[1] - size[1] - 0.1 * s.dx)
+    drifting(s, x, y, size)
+    s.regions.append(([a * s.dx, y - 5 * s.dx], [(a + 15) * s.dx, y + size[1] + 5 * s.dx], ' follow = "b"; '))
     return s
 
 
@@ -690,6 +710,7 @@ PAIRS = [
     ("opening-side", "inlet, outlet x side or period", 1, opening_side),
     ("opening-edge", "inlet, outlet x level edge", 1, opening_level_edge),
     ("opening-body", "inlet, outlet x body that goes with the stream", 1, opening_body),
+    ("body-moving-edge", "inlet, outlet, side or period x body x level edge that follows it", 1, body_moving_edge),
     ("absorbing-side", "absorbing side x inlet, side or period", 1, absorbing_side),
     ("fv-opening-side", "fv: inlet, outlet x side or period", 1, fv_opening_side),
 ]
