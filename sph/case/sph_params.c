@@ -33,7 +33,7 @@ static const struct param rows[] = {
           USED(NEED(VISCOUS, "fluid.nu is 0: nothing viscous is computed")), .comparison = true),
     PARAM(P, low_dissipation, "-", "true", 0, 1, "bounded dissipation of the Riemann solver (Zhang, Hu & Adams)",
           USED(NEED(RIEMANN, "schemes delta and standard solve no Riemann problem")), .comparison = true),
-    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0",
+    PARAM(P, dissipation, "-", "-1.0", -1.0, 1.0, "least share of the Riemann dissipation that low_dissipation leaves; -1: 0.1 with a free surface and where walls support the weight of a fluid that fills its room, else 0; under a surface less what friction of pairs does, 2 (dim + 2) nu/(c0 dx)",
           USED(NEED(BOUNDED, "it is the floor of low_dissipation, which is off or has no Riemann scheme")), .comparison = true),
     CHOICE(P, dissipation_order, "first|third", "first", "of the jump that this share acts on: first: that between bounded states, which keeps particles in order best; third: between states of third order: gentle waves lose less, water at rest in 3D stirs a third more",
            USED(NEED(FLOORED, "nothing is left at least: see sph.dissipation and low_dissipation")), .comparison = true),
