@@ -296,11 +296,12 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
         for (int up = 0; up < 2; up++)
             w->slopes[a][up] = NEW_IN(w, double, most);
     set_out(s, w);
-    w->boxes = !s->m->has_fringe; /* there films lose twice as much: NOTES.md */
+    set_sizes(s, w, f);
+    /* where blocks overlap films lose twice as much, and eight flat cells a wave are no cubics */
+    w->boxes = !s->m->has_fringe && f->largest <= 8.0 * f->least;
     for (int q = 0; q < s->grid.nparts; q++)
         w->boxes = set_lines(s, s->grid.part + q, w) && w->boxes;
     w->boxes = ranks_all(s->comm, w->boxes);
-    set_sizes(s, w, f);
     if (s->m->moves)
         mesh_motion_place(s->m, s->t);
     return w;
