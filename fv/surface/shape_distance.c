@@ -244,6 +244,157 @@ static double shape(const struct fv *s, const struct scene_shape *h, const doubl
     }
 }
 
+/* --- several shapes: where they meet there is no surface --- */
+
+/* Whether water is at x plus a ten millionth of the domain along `way'. */
+static bool is_water(const struct fv *s, const double *x, const double *way, double sign)
+{
+    const struct scene *c = &s->run->scene;
+    double y[3] = {x[0], x[1], x[2]};
+    bool water = false;
+    for (int a = 0; a < s->dim; a++)
+        y[a] += sign * 1e-7 * (c->domain.max[a] - c->domain.min[a]) * way[a];
+    for (int k = 0; k < c->nshapes; k++)
+        if (scene_in_shape(c, c->shapes + k, y))
+            water = !c->shapes[k].hole;
+    return water;
+}
+
+/* Whether the water ends at y, across which `out' goes. */
+static bool ends_at(const struct fv *s, const double *y, const double *out)
+{
+    return is_water(s, y, out, 1.0) != is_water(s, y, out, -1.0);
+}
+
+/* Whether the water ends at w, 0 to 1, of the edge from a to b; *least: at most its distance. */
+static bool edge_ends(const struct fv *s, const double *a, const double *b, const double *out,
+                      double w, const double *x, double *least)
+{
+    const double y[3] = {a[0] + w * (b[0] - a[0]), a[1] + w * (b[1] - a[1]), x[2]};
+    const bool ends = ends_at(s, y, out);
+    if (ends)
+        *least = fmin(*least, sqrt(vec_distance2(2, x, y)));
+    return ends;
+}
+
+/* Distance of x from the nearest place of an edge in the plane where the water ends, m, or `least'
+ * if that is nearer; the edge goes from a to b, across `out', x stands at m of its length. */
+static double to_edge(const struct fv *s, const double *a, const double *b, const double *out,
+                      double m, const double *x, double least)
+{
+    enum { PARTS = 64, HALVINGS = 24 };
+    const double e[2] = {b[0] - a[0], b[1] - a[1]},
+                 d[2] = {x[0] - a[0] - m * e[0], x[1] - a[1] - m * e[1]};
+    const double across = d[0] * d[0] + d[1] * d[1], along = e[0] * e[0] + e[1] * e[1];
+    for (int way = 0; way < 2; way++) {
+        double within = m, end = NAN; /* the shape goes on; the water ends */
+        for (int k = 0; k <= PARTS && isnan(end); k++) {
+            const double w = m + (way - m) * k / PARTS;
+            if (across + (w - m) * (w - m) * along >= least * least)
+                break;
+            *(edge_ends(s, a, b, out, w, x, &least) ? &end : &within) = w;
+        }
+        for (int k = 0; k < HALVINGS && !isnan(end) && end != m; k++) {
+            const double w = 0.5 * (within + end);
+            *(edge_ends(s, a, b, out, w, x, &least) ? &end : &within) = w;
+        }
+    }
+    return least;
+}
+
+/* The same of the side of a box across axis a; in 3D of the place nearest to x alone. */
+static double to_side(const struct fv *s, const struct scene_shape *h, const double *x, int a,
+                      int upper, double least)
+{
+    double y[3] = {x[0], x[1], x[2]}, out[3] = {0.0, 0.0, 0.0};
+    const int t = 1 - a;
+    for (int k = 0; k < s->dim; k++)
+        if (h->box[1][k] > h->box[0][k])
+            y[k] = fmax(h->box[0][k] + 1e-9 * (h->box[1][k] - h->box[0][k]),
+                        fmin(h->box[1][k] - 1e-9 * (h->box[1][k] - h->box[0][k]), x[k]));
+    y[a] = h->box[upper][a];
+    out[a] = 1.0;
+    if (s->dim == 3)
+        return ends_at(s, y, out) ? fmin(least, sqrt(vec_distance2(3, x, y))) : least;
+    double from[2], to[2];
+    from[a] = to[a] = y[a];
+    from[t] = h->box[0][t];
+    to[t] = h->box[1][t];
+    return to_edge(s, from, to, out, (y[t] - from[t]) / (to[t] - from[t]), x, least);
+}
+
+/* Of all sides of a box that are no walls. */
+static double to_box(const struct fv *s, const struct scene_shape *h, const double *x, double least)
+{
+    const struct scene_domain *domain = &s->run->scene.domain;
+    for (int a = 0; a < s->dim; a++)
+        for (int upper = 0; upper < 2; upper++) {
+            const double side = h->box[upper][a];
+            const double eps = 1e-9 * (domain->max[a] - domain->min[a]);
+            if (h->box[1][a] > h->box[0][a] && side > domain->min[a] + eps &&
+                side < domain->max[a] - eps && !is_closed(s, h, x, a, upper))
+                least = to_side(s, h, x, a, upper, least);
+        }
+    return least;
+}
+
+/* Of all edges of a polygon that are no walls. */
+static double to_polygon(const struct fv *s, const struct scene_shape *h, const double *x,
+                         double least)
+{
+    const struct param_points *p = &h->points;
+    const double turn = (twice_area(p) < 0.0) != h->hole ? -1.0 : 1.0;
+    for (int k = 0, l = p->n - 1; k < p->n; l = k++) {
+        const double *a = p->x[l], *b = p->x[k], e[2] = {b[0] - a[0], b[1] - a[1]};
+        const double ee = e[0] * e[0] + e[1] * e[1], out[3] = {e[1] / sqrt(ee), -e[0] / sqrt(ee)};
+        const double m = ((x[0] - a[0]) * e[0] + (x[1] - a[1]) * e[1]) / ee;
+        if (ee > 0.0 && !edge_is_wall(s, p, k, turn, x))
+            least = to_edge(s, a, b, out, fmax(1e-9, fmin(1.0 - 1e-9, m)), x, least);
+    }
+    return least;
+}
+
+/* Of the level of water below it, in the plane; far: half of the length that is looked at, m. */
+static double to_level(const struct fv *s, const struct scene_shape *h, const double *x, double far,
+                       double least)
+{
+    const double *g = s->gravity.hydrostatic, size = vec3_length(g);
+    const double out[3] = {g[0] / size, g[1] / size, 0.0};
+    const double deep = scene_height(&s->run->scene, x) - h->level;
+    const double y[2] = {x[0] + deep * out[0], x[1] + deep * out[1]};
+    const double from[2] = {y[0] - far * out[1], y[1] + far * out[0]},
+                 to[2] = {y[0] + far * out[1], y[1] - far * out[0]};
+    return to_edge(s, from, to, out, 0.5, x, least);
+}
+
+/* Whether all shapes have straight sides; in 3D they are boxes. */
+static bool are_straight(const struct fv *s)
+{
+    const struct scene *c = &s->run->scene;
+    bool straight = true;
+    for (int k = 0; k < c->nshapes; k++)
+        straight = straight && (c->shapes[k].form == SHAPE_BOX ||
+                                (s->dim == 2 && c->shapes[k].form == SHAPE_POLYGON) ||
+                                (s->dim == 2 && c->shapes[k].form == SHAPE_BELOW &&
+                                 vec3_length(s->gravity.hydrostatic) > 0.0));
+    return straight;
+}
+
+/* Shapes of straight sides that may meet: d with the distance to where their water ends. */
+static double where_shapes_end(const struct fv *s, const double *x, double d, double far)
+{
+    const struct scene *c = &s->run->scene;
+    double least = far;
+    const bool wet = d != 0.0 ? d < 0.0 : is_water(s, x, (double[]){1.0, 0.7, 0.3}, 1.0);
+    for (int k = 0; k < c->nshapes; k++) {
+        const struct scene_shape *h = c->shapes + k;
+        least = h->form == SHAPE_BOX       ? to_box(s, h, x, least)
+                : h->form == SHAPE_POLYGON ? to_polygon(s, h, x, least)
+                                           : to_level(s, h, x, far, least);
+    }
+    return wet ? -least : least;
+}
+
 double surface_distance(const struct fv *s, const double *x)
 {
     const struct scene *c = &s->run->scene;
@@ -259,6 +410,8 @@ double surface_distance(const struct fv *s, const double *x)
         const double e = shape(s, c->shapes + k, x);
         d = c->shapes[k].hole ? fmax(d, -e) : fmin(d, e);
     }
+    if (c->nshapes > 1 && are_straight(s))
+        d = where_shapes_end(s, x, d, far);
     return fmax(-far, fmin(far, d));
 }
 

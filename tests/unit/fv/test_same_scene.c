@@ -173,20 +173,21 @@ TEST(films_press_on_nothing)
     assert_close(value("force y [N]", n, names, row), -drum.scale, tolerance);
 }
 
-/* Water at rest drawn flush with walls: its edges on walls of blocks within the domain, leaning and
- * round ones, and on faces of boxes that are cut out are no surface, so it stands still and weighs
- * what it does. A tank turned by 20 degrees about its corner, filled to 0.45 m; a ring filled to
- * 0.3 m above its middle; a tank with a box in its floor that is a hole of the water. */
+/* Water at rest drawn flush with walls, or of several shapes that meet: its edges on walls of
+ * blocks within the domain, leaning and round ones, and on faces of boxes that are cut out are no
+ * surface, so it stands still and weighs what it does; nor is a seam, through centres of cells. A
+ * tank turned by 20 degrees about its corner, filled to 0.45 m; a ring filled to 0.3 m above its
+ * middle; a tank with a box in its floor that is a hole of the water. */
 #define WATER "fluid: { rho = 1000.0; gravity = (0, -10.0); };\n"
 #define AROUND "domain: { dim = 2; min = (-1.5, -1.5); max = (1.5, 1.5); };\n" WATER
 #define RING                                                                                       \
     "mapping = \"annulus\"; radius = (0.4, 1.0); j_min = \"joined\"; j_max = \"joined\"; i_min = " \
     "\"slip\"; i_max = \"slip\""
-#define BOX                                                                                        \
+#define SIDES                                                                                      \
     "domain: { dim = 2; min = (0, 0); max = (1.2, 0.8); };\n" WATER                                \
     "walls: ( { side = \"x_min\"; }, { side = \"x_max\"; }, { side = \"y_min\"; }, { side = "      \
-    "\"y_max\"; } );\n"                                                                            \
-    "blocked: ( { min = (0.4, 0); max = (0.8, 0.2); } );\n"
+    "\"y_max\"; } );\n"
+#define BOX SIDES "blocked: ( { min = (0.4, 0); max = (0.8, 0.2); } );\n"
 static const struct forms flush[] = {
     {"leaning tank",
      AROUND "shapes: ( { form = \"polygon\"; points = ((0, 0), (0.9396926208, 0.3420201433), "
@@ -213,6 +214,15 @@ static const struct forms flush[] = {
      "shapes: ( { form = \"below\"; level = 0.41; }, { form = \"polygon\"; hole = true; points = "
      "((0.4, 0), (0.8, 0), (0.8, 0.2), (0.4, 0.2)); } );\n",
      "(24, 16)", NULL, 0.05, 0.0, 0.0},
+    {"two boxes",
+     SIDES "shapes: ( { form = \"box\"; box = ((0, 0), (0.6, 0.41)); }, { form = \"box\"; box = "
+           "((0.6, 0), (1.2, 0.41)); } );\n",
+     "(25, 16)", NULL, 0.05, 0.0, 0.0},
+    {"two polygons",
+     SIDES
+     "shapes: ( { form = \"polygon\"; points = ((0, 0), (0.6, 0), (0.6, 0.41), (0, 0.41)); }, "
+     "{ form = \"polygon\"; points = ((0.6, 0), (1.2, 0), (1.2, 0.41), (0.6, 0.41)); } );\n",
+     "(25, 16)", "min = (0, 0); max = (1.2, 0.8)", 0.05, 0.0, 0.0},
 };
 
 TEST(walls_end_shapes_and_holes)
