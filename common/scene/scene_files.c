@@ -56,10 +56,14 @@ static void begin_in_place(struct scene *s, int k, struct motion_files *files)
     body_drive_terms(&drive, &b->motion, s->domain.dim, files);
     body_drive_at(&drive, 0.0, d, dd, ddd);
     const int axes[3] = {AXIS_X, AXIS_Y, AXIS_RZ};
+    const int locked = b->free ? scene_body_locked(b->lock, s->domain.dim) : ~0;
     const double turn = d[AXIS_RZ], size = fabs(d[AXIS_X]) + fabs(d[AXIS_Y]) + fabs(turn);
     if (!(size > 0.0 && size < INFINITY) || b->motion.n + 3 > MOTIONS_MAX ||
         ((b->free || b->tank) && turn != 0.0))
         return;
+    for (int i = 0; i < 3; i++)
+        if (d[axes[i]] != 0.0 && !(locked >> axes[i] & 1))
+            return; /* refused later: forces move it */
     for (int i = 0; i < b->points.n; i++) {
         double *x = b->points.x[i];
         const double u = x[0] - b->centre[0], v = x[1] - b->centre[1];
