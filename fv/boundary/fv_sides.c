@@ -17,6 +17,15 @@ unsigned sides_kinds(const struct fv *s)
     return kinds;
 }
 
+bool sides_open(const struct fv *s)
+{
+    const unsigned kinds = sides_kinds(s);
+    bool any = false;
+    for (int k = 0; k <= MESH_LAST; k++)
+        any = any || (kinds >> k & 1u && side_is_opening(k));
+    return any;
+}
+
 bool sides_give_inflow(const struct fv *s)
 {
     return sides_kinds(s) & 1u << MESH_INFLOW || (s->outflows && s->outflows->steady);
@@ -102,7 +111,7 @@ struct passing {
 static void add_passing(const struct side_face *f, void *with)
 {
     const struct passing *p = with;
-    if (f->kind != MESH_INFLOW && f->kind != MESH_OUTFLOW && f->kind != MESH_CARRIED)
+    if (!side_is_opening(f->kind))
         return;
     const double in = (f->side % 2 ? -1.0 : 1.0) * f->flow_area * p->s->U[f->a][f->face] *
                       p->share(p->s, f->cell, f->in);

@@ -9,6 +9,8 @@
 /* One bit (1 << kind) for each kind of the sides; behind those of uniform cells that are neither
  * periodic nor have an entry of `walls' stands the exact velocity. */
 unsigned sides_kinds(const struct fv *s);
+/* Whether fluid passes one of them (side_is_opening). */
+bool sides_open(const struct fv *s);
 /* Whether one of them is an inflow whose velocity the case gives; under a surface these are listed
  * with the openings (carried.h). */
 bool sides_give_inflow(const struct fv *s);

@@ -6,17 +6,8 @@
 #include "carried.h"
 #include "levels.h"
 
-/* No overlap, join or period. */
-static bool is_physical(enum mesh_side k)
-{
-    return k != MESH_OVERLAP && k != MESH_JOINED && k != MESH_PERIODIC;
-}
-
 /* Whether the projection takes tau grad psi off its velocity. */
-static bool slips(enum mesh_side k)
-{
-    return is_physical(k) && k != MESH_SLIP && k != MESH_OUTFLOW;
-}
+static bool slips(enum mesh_side k) { return side_gives_flux(k) && k != MESH_SLIP; }
 
 /* Sets grad_xi at a place: gradients of the tangential indices at the centre of the face, cofactors
  * over J. */
@@ -122,7 +113,7 @@ static void add_side(struct fv *s, struct mesh_bc *bc, const struct part *p, int
 {
     const struct mesh_block *b = s->m->block + p->block;
     const int a = k / 2;
-    if (!is_physical(b->side[k]) || (k % 2 ? p->lo[a] + p->n[a] < b->n[a] : p->lo[a] > 0))
+    if (!side_is_end(b->side[k]) || (k % 2 ? p->lo[a] + p->n[a] < b->n[a] : p->lo[a] > 0))
         return;
     struct side *d = bc->side + bc->n++;
     *d = (struct side){.p = p, .a = a, .k = k, .kind = b->side[k], .moves = b->motion};

@@ -1,6 +1,5 @@
 /* mesh_scene.c - what contradicts itself in a scene on blocks: refused with the reason before
  * anything runs. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
@@ -137,7 +136,7 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
                 least = fmin(least, 0.5 * (t.height + t.height_most));
                 most = fmax(most, 0.5 * (t.height + t.height_most));
             }
-            out = out || kind == MESH_OUTFLOW || kind == MESH_CARRIED;
+            out = out || (side_is_opening(kind) && kind != MESH_INFLOW);
             in = in || kind == MESH_INFLOW;
             exact = exact || kind == MESH_EXACT;
             net += kind == MESH_INFLOW || kind == MESH_EXACT ? t.flux : 0.0;

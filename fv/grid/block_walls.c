@@ -24,12 +24,6 @@ struct block_walls {
     struct face *face;
 };
 
-/* Everything that is no overlap, join or period, outflows included. */
-static bool is_closed(enum mesh_side s)
-{
-    return s != MESH_OVERLAP && s != MESH_JOINED && s != MESH_PERIODIC;
-}
-
 /* Face of the cell `at' on the side along a, and the box around it. The normal is the cross product
  * of the sums of opposite edges, turned towards the cell's centre; radius bounds the face for
  * find_face. */
@@ -65,8 +59,8 @@ static void add_face(const struct mesh_block *b, int dim, int a, bool upper, con
                                              : hypot(v[k][0] - f->x[0], v[k][1] - f->x[1]));
 }
 
-/* Faces run over the first tangent fastest. room: capacity of w->face, kept by the caller. */
-static void add_side(struct block_walls *w, const struct mesh *m, int block, int k, int64_t *room)
+/* Faces run over the first tangent fastest. */
+static void add_side(struct block_walls *w, const struct mesh *m, int block, int k)
 {
     const struct mesh_block *b = m->block + block;
     const int a = k / 2, t0 = a == 0 ? 1 : 0, t1 = a == 2 ? 1 : 2;
@@ -76,11 +70,7 @@ static void add_side(struct block_walls *w, const struct mesh *m, int block, int
                               .n = (int64_t)b->n[t0] * (w->dim == 3 ? b->n[t1] : 1),
                               .min = {INFINITY, INFINITY, INFINITY},
                               .max = {-INFINITY, -INFINITY, -INFINITY}};
-    if (s->first + s->n > *room) {
-        const int64_t more = 2 * *room + s->n;
-        GROW_IN(w, w->face, s->first, more);
-        *room = more;
-    }
+    ROOM_IN(w, w->face, s->first + s->n);
     for (int64_t i = 0; i < s->n; i++) {
         int at[3] = {0, 0, 0};
         at[a] = k % 2 ? b->n[a] - 1 : 0;
@@ -95,12 +85,11 @@ static void add_side(struct block_walls *w, const struct mesh *m, int block, int
 struct block_walls *block_walls_create(const struct mesh *m)
 {
     struct block_walls *w = NEW(struct block_walls, 1);
-    int64_t room = 0;
     w->dim = m->dim;
     for (int q = 0; q < m->nblocks; q++)
         for (int k = 0; k < 2 * m->dim; k++)
-            if (is_closed(m->block[q].side[k]))
-                add_side(w, m, q, k, &room);
+            if (side_is_end(m->block[q].side[k]))
+                add_side(w, m, q, k);
     return w;
 }
 

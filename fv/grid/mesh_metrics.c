@@ -5,7 +5,6 @@
  * (mesh_map_point), fourth order. Of blocks that move they are made where the case puts the block,
  * and turned afterwards (mesh_motion.c).
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "mesh.h"
 
 static const double gauss2[2] = {0.2113248654051871, 0.7886751345948129};
@@ -181,13 +180,6 @@ static double volume(const struct mesh_block *b, int dim, const int *i)
     return v;
 }
 
-/* Whether the flux through a side is given, so that psi does not pass. */
-static bool is_closed(enum mesh_side s)
-{
-    return s == MESH_WALL || s == MESH_SLIP || s == MESH_INFLOW || s == MESH_EXACT ||
-           s == MESH_CARRIED;
-}
-
 /* S for all ghosts; G and V for all but the outermost layer at the low end, which has G = 0 and V =
  * 1. */
 static void part_metrics(struct mesh *m, const struct part *p)
@@ -229,8 +221,8 @@ void mesh_open_faces(struct mesh *m)
             part_index(p, c, at);
             for (int a = 0; a < m->dim; a++) {
                 const int i = p->lo[a] + at[a];
-                m->open[a][c] = (i == 0 && is_closed(b->side[2 * a])) ||
-                                        (i == b->n[a] && is_closed(b->side[2 * a + 1]))
+                m->open[a][c] = (i == 0 && side_gives_flux(b->side[2 * a])) ||
+                                        (i == b->n[a] && side_gives_flux(b->side[2 * a + 1]))
                                     ? 0.0
                                     : 1.0;
             }

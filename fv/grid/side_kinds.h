@@ -18,11 +18,24 @@ enum mesh_side {
     MESH_INFLOW,
     MESH_OUTFLOW,
     MESH_EXACT,
-    MESH_CARRIED /* convective outflow; from `walls' alone */
+    MESH_CARRIED, /* convective outflow; from `walls' alone */
+    MESH_LAST = MESH_CARRIED
 };
 
 /* Whether nothing passes a side of this kind, with friction or without. */
 static inline bool side_is_wall(enum mesh_side k) { return k == MESH_WALL || k == MESH_SLIP; }
+/* Whether it ends the flow: no overlap, join or period. */
+static inline bool side_is_end(enum mesh_side k)
+{
+    return k != MESH_OVERLAP && k != MESH_JOINED && k != MESH_PERIODIC;
+}
+/* Whether its flux is given, so that psi does not pass: all ends but those with a pressure. */
+static inline bool side_gives_flux(enum mesh_side k) { return side_is_end(k) && k != MESH_OUTFLOW; }
+/* Whether fluid passes it that does work on the flow, or the flow on it. */
+static inline bool side_is_opening(enum mesh_side k)
+{
+    return side_is_end(k) && !side_is_wall(k) && k != MESH_EXACT;
+}
 
 /* The kind of side that a wall of the scene makes: convective outflow and given discharge have
  * velocities that change in time; an inflow with a given level has its pressure given, as an

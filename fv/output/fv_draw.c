@@ -10,21 +10,11 @@
 
 static enum picture_kind kind_of(enum mesh_side side)
 {
-    switch (side) {
-    case MESH_WALL:
-        return PICTURE_NO_SLIP;
-    case MESH_SLIP:
-        return PICTURE_SLIP;
-    case MESH_PERIODIC:
-        return PICTURE_PERIODIC;
-    case MESH_INFLOW:
-    case MESH_OUTFLOW:
-    case MESH_EXACT:
-    case MESH_CARRIED:
+    if (side_is_wall(side))
+        return side == MESH_WALL ? PICTURE_NO_SLIP : PICTURE_SLIP;
+    if (side_is_end(side))
         return PICTURE_OPENING;
-    default:
-        return PICTURE_CELLS;
-    }
+    return side == MESH_PERIODIC ? PICTURE_PERIODIC : PICTURE_CELLS;
 }
 
 /* The vertices of one side, in 3D those of the first layer along j. */

@@ -37,8 +37,7 @@ struct watches *fv_watches_create(const struct fv *s)
     const unsigned sides = sides_kinds(s);
     const bool overlaps = grid_overlaps(&s->grid);
     const bool filled = s->run->coupled || s->prm.hole[1][0] > s->prm.hole[0][0],
-               open = sides & (1u << MESH_INFLOW | 1u << MESH_OUTFLOW | 1u << MESH_CARRIED),
-               slides = walls_slide(s), moves = grid_moves(&s->grid);
+               open = sides_open(s), slides = walls_slide(s), moves = grid_moves(&s->grid);
     struct watches *w = watches_create(s->run, &s->prm, is_periodic(s, sides), s->surface != NULL);
     if (overlaps || (s->surface && surface_any_inclined(s))) {
         w->energy.warn *= 10.0;
