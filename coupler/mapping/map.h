@@ -52,8 +52,10 @@ void map_deal(enum map_dealing how, int dim, double R, int ncomp, const double p
               const struct map_cloud *target, struct map_cloud *source, long first, long last,
               double *v);
 
-/* W at the distance r for the support R, 1/m^dim. */
-double map_kernel(int dim, double r, double R);
+/* W at the distance q R for the support R, 1/m^dim. */
+double map_kernel(int dim, double q, double R);
+/* Room for n points with ncomp values each. */
+void map_cloud_room(struct map_cloud *c, int dim, long ncomp, long n);
 /* Frees the arrays and leaves an empty cloud. */
 void map_cloud_free(struct map_cloud *c);
 

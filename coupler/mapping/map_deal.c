@@ -1,7 +1,6 @@
 /* map_deal.c - the conservative direction: sources deal out what they have. Every rank of the
  * coupler goes through all sources in the order of their gid and keeps what falls to its own
  * targets: the same bits on any number of ranks. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/base/base.h"
 #include "near.h"
 
@@ -13,8 +12,7 @@ struct deal {
     const struct map_cloud *source;
     long first, last;
     double *v;
-    double *w; /* scratch, [capacity] */
-    long capacity;
+    double *w; /* scratch */
 };
 
 static void box_of(const struct map_cloud *c, int dim, double lo[3], double hi[3])
@@ -31,8 +29,7 @@ static void box_of(const struct map_cloud *c, int dim, double lo[3], double hi[3
 
 /* Target i moved by whole periods, if that is within R of the box of the sources. */
 static void add_image(struct map_cloud *to, const struct map_cloud *from, int dim, long i,
-                      const double move[3], double R, const double lo[3], const double hi[3],
-                      long *room)
+                      const double move[3], double R, const double lo[3], const double hi[3])
 {
     double y[3] = {0};
     for (int d = 0; d < dim; d++) {
@@ -40,14 +37,7 @@ static void add_image(struct map_cloud *to, const struct map_cloud *from, int di
         if (!(y[d] >= lo[d] - R && y[d] <= hi[d] + R))
             return;
     }
-    if (to->n == *room) {
-        const long more = 2 * *room + 64;
-        GROW(to->x, *room * dim, more * dim);
-        GROW(to->gid, *room, more);
-        GROW(to->volume, *room, more);
-        GROW(to->v, *room, more);
-        *room = more;
-    }
+    map_cloud_room(to, dim, 1, to->n + 1);
     memcpy(to->x + to->n * dim, y, (size_t)dim * sizeof *y);
     to->gid[to->n] = from->gid[i];
     to->volume[to->n] = from->volume[i];
@@ -62,7 +52,6 @@ static struct map_cloud images(const struct map_cloud *from, const struct map_cl
     struct map_cloud to = {0};
     double lo[3], hi[3], move[3];
     int most[3], k[3];
-    long room = 0;
     box_of(source, dim, lo, hi);
     for (int d = 0; d < 3; d++)
         most[d] = d < dim && period[d] > 0.0;
@@ -72,28 +61,10 @@ static struct map_cloud images(const struct map_cloud *from, const struct map_cl
                 for (k[0] = -most[0]; k[0] <= most[0]; k[0]++) {
                     for (int d = 0; d < 3; d++)
                         move[d] = k[d] ? k[d] * period[d] : 0.0;
-                    add_image(&to, from, dim, i, move, R, lo, hi, &room);
+                    add_image(&to, from, dim, i, move, R, lo, hi);
                 }
     near_sort(&to, dim, 1);
     return to;
-}
-
-/* One of those in reach takes all: the nearest. */
-static void nearest(const struct deal *a, const struct reach *r, const double *x, double *w)
-{
-    int best = 0;
-    double least = INFINITY;
-    for (int k = 0; k < r->n; k++) {
-        double r2 = 0.0;
-        for (int d = 0; d < a->dim; d++)
-            r2 += pow(a->target.x[(long)r->j[k] * a->dim + d] - x[d], 2);
-        if (r2 < least) {
-            least = r2;
-            best = k;
-        }
-        w[k] = 0.0;
-    }
-    w[best] = 1.0;
 }
 
 static bool is_mine(const struct deal *a, int j)
@@ -112,13 +83,11 @@ static bool deal_one(struct deal *a, const struct reach *r, long source, bool fa
         return false;
     for (int k = 0; k < r->n; k++)
         mine = mine || is_mine(a, r->j[k]);
-    if (r->n > a->capacity) {
-        GROW(a->w, a->capacity, 2 * (long)r->n);
-        a->capacity = 2 * (long)r->n;
-    }
-    if (far || a->how == MAP_DEAL_NEAREST)
-        nearest(a, r, x, a->w);
-    else if (!map_weights(a->dim, a->R, a->how == MAP_DEAL_MLS, r, &a->target, x, a->w))
+    ROOM_IN(NULL, a->w, r->n);
+    if (far || a->how == MAP_DEAL_NEAREST) { /* one takes all */
+        memset(a->w, 0, (size_t)r->n * sizeof *a->w);
+        a->w[reach_nearest(a->dim, r, &a->target, x)] = 1.0;
+    } else if (!map_weights(a->dim, a->R, a->how == MAP_DEAL_MLS, r, &a->target, x, a->w))
         return false;
     for (int k = 0; k < r->n && mine; k++)
         if (is_mine(a, r->j[k])) {
@@ -134,17 +103,13 @@ static bool deal_one(struct deal *a, const struct reach *r, long source, bool fa
 static long deal_within(struct deal *a, const struct map_cloud *target, double R, bool far,
                         const double period[3], long n, long *left)
 {
-    struct reach r = {0};
     long still = 0;
     a->target = images(target, a->source, a->dim, R, period);
-    struct near g = near_create(a->dim, R, &a->target, a->source->n, a->source->x);
-    for (long i = 0; i < n; i++) {
-        near_gather(&g, a->source->x + left[i] * a->dim, &r);
-        if (!deal_one(a, &r, left[i], far))
+    struct near *g = near_create(a->dim, R, &a->target, a->source->n, a->source->x);
+    for (long i = 0; i < n; i++)
+        if (!deal_one(a, near_gather(g, a->source->x + left[i] * a->dim), left[i], far))
             left[still++] = left[i];
-    }
-    near_free(&g);
-    reach_free(&r);
+    mem_free(g);
     map_cloud_free(&a->target);
     return still;
 }

@@ -10,14 +10,12 @@
 static const double least_weight = 1e-6; /* sum w W below which nothing is there */
 static const double worst_condition = 1e6;
 
-static inline double kernel(int dim, double q, double R)
+double map_kernel(int dim, double q, double R)
 {
     const double c = dim == 2 ? 7.0 / (M_PI * R * R) : 21.0 / (2.0 * M_PI * R * R * R);
     const double a = 1.0 - q, a2 = a * a;
     return q < 1.0 ? c * a2 * a2 * (1.0 + 4.0 * q) : 0.0;
 }
-
-double map_kernel(int dim, double r, double R) { return kernel(dim, r / R, R); }
 
 /* a[n][n] -> its inverse (Gauss-Jordan with pivots on the diagonal: a is symmetric positive); the
  * condition number in the 1-norm, INFINITY if singular. */
@@ -72,7 +70,7 @@ static bool mls_row(int dim, double R, const struct reach *r, const struct map_c
             p[d + 1] = (c->x[j * dim + d] - x[d]) / R;
             r2 += p[d + 1] * p[d + 1];
         }
-        const double w = c->volume[j] * kernel(dim, sqrt(r2), R);
+        const double w = c->volume[j] * map_kernel(dim, sqrt(r2), R);
         total += w;
         for (int m = 0; m <= dim; m++)
             for (int n = 0; n <= dim; n++)
@@ -105,7 +103,7 @@ static bool map_one(int dim, double R, int ncomp, bool mls, const struct reach *
             r2 += p * p;
             slope += row[d + 1] * p;
         }
-        const double w = c->volume[j] * kernel(dim, sqrt(r2), R);
+        const double w = c->volume[j] * map_kernel(dim, sqrt(r2), R);
         total += w;
         const double weight = linear ? w * (row[0] + slope) : w;
         for (int a = 0; a < ncomp; a++)
@@ -116,7 +114,7 @@ static bool map_one(int dim, double R, int ncomp, bool mls, const struct reach *
     return !(total < least_weight);
 }
 
-static void sum_one(int dim, double R, int ncomp, const struct reach *r, const struct map_cloud *c,
+static bool sum_one(int dim, double R, int ncomp, const struct reach *r, const struct map_cloud *c,
                     const double *x, double *v)
 {
     for (int a = 0; a < ncomp; a++)
@@ -126,10 +124,11 @@ static void sum_one(int dim, double R, int ncomp, const struct reach *r, const s
         double r2 = 0.0;
         for (int d = 0; d < dim; d++)
             r2 += (c->x[j * dim + d] - x[d]) * (c->x[j * dim + d] - x[d]);
-        const double w = c->volume[j] * kernel(dim, sqrt(r2) / R, R);
+        const double w = c->volume[j] * map_kernel(dim, sqrt(r2) / R, R);
         for (int a = 0; a < ncomp; a++)
             v[a] += w * c->v[j * ncomp + a];
     }
+    return true;
 }
 
 /* The same sums as weights of the sources. Divided by what they really add up to: a transposed
@@ -147,7 +146,7 @@ bool map_weights(int dim, double R, bool mls, const struct reach *r, const struc
             r2 += p * p;
             slope += row[d + 1] * p;
         }
-        w[k] = c->volume[j] * kernel(dim, sqrt(r2), R) * (linear ? slope : 1.0);
+        w[k] = c->volume[j] * map_kernel(dim, sqrt(r2), R) * (linear ? slope : 1.0);
         total += w[k];
     }
     for (int k = 0; k < r->n; k++)
@@ -155,47 +154,32 @@ bool map_weights(int dim, double R, bool mls, const struct reach *r, const struc
     return total > 0.0;
 }
 
-static void map(int dim, double R, int ncomp, bool mls, struct map_cloud *c, long ntarget,
-                const double *x, double *v, unsigned char *mask)
+static bool shepard_one(int dim, double R, int ncomp, const struct reach *r,
+                        const struct map_cloud *c, const double *x, double *v)
 {
-    struct reach r = {0};
-    if (ntarget == 0)
-        return;
-    near_sort(c, dim, ncomp);
-    struct near g = near_create(dim, R, c, ntarget, x);
-    for (long i = 0; i < ntarget; i++) {
-        near_gather(&g, x + i * dim, &r);
-        mask[i] = map_one(dim, R, ncomp, mls, &r, c, x + i * dim, v + i * ncomp);
-    }
-    reach_free(&r);
-    near_free(&g);
+    return map_one(dim, R, ncomp, false, r, c, x, v);
+}
+
+static bool mls_one(int dim, double R, int ncomp, const struct reach *r, const struct map_cloud *c,
+                    const double *x, double *v)
+{
+    return map_one(dim, R, ncomp, true, r, c, x, v);
 }
 
 void map_shepard(int dim, double R, int ncomp, struct map_cloud *from, long ntarget,
                  const double *x, double *v, unsigned char *mask)
 {
-    map(dim, R, ncomp, false, from, ntarget, x, v, mask);
+    near_map(shepard_one, dim, R, ncomp, from, ntarget, x, v, mask);
 }
 
 void map_mls(int dim, double R, int ncomp, struct map_cloud *from, long ntarget, const double *x,
              double *v, unsigned char *mask)
 {
-    map(dim, R, ncomp, true, from, ntarget, x, v, mask);
+    near_map(mls_one, dim, R, ncomp, from, ntarget, x, v, mask);
 }
 
 void map_sum(int dim, double R, int ncomp, struct map_cloud *from, long ntarget, const double *x,
              double *v, unsigned char *mask)
 {
-    struct reach r = {0};
-    if (ntarget == 0)
-        return;
-    near_sort(from, dim, ncomp);
-    struct near g = near_create(dim, R, from, ntarget, x);
-    for (long i = 0; i < ntarget; i++) {
-        near_gather(&g, x + i * dim, &r);
-        sum_one(dim, R, ncomp, &r, from, x + i * dim, v + i * ncomp);
-        mask[i] = 1;
-    }
-    reach_free(&r);
-    near_free(&g);
+    near_map(sum_one, dim, R, ncomp, from, ntarget, x, v, mask);
 }

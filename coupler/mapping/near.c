@@ -12,6 +12,14 @@ void map_cloud_free(struct map_cloud *c)
     *c = (struct map_cloud){0};
 }
 
+void map_cloud_room(struct map_cloud *c, int dim, long ncomp, long n)
+{
+    ROOM_IN(NULL, c->x, n * dim);
+    ROOM_IN(NULL, c->gid, n);
+    ROOM_IN(NULL, c->volume, n);
+    ROOM_IN(NULL, c->v, n * ncomp);
+}
+
 struct near_place {
     int64_t gid;
     long i;
@@ -115,8 +123,8 @@ static void make_cells(struct near *g, long ntarget, const double *x)
         g->n[d] = (int)floor((hi[d] - g->lo[d]) / g->edge) + 1;
     const long n = (long)g->n[0] * g->n[1] * g->n[2];
     long *cell = NEW(long, c->n);
-    g->start = NEW(long, n + 1);
-    g->member = NEW(int, c->n);
+    g->start = NEW_IN(g, long, n + 1);
+    g->member = NEW_IN(g, int, c->n);
     for (long i = 0; i < c->n; i++)
         g->start[(cell[i] = cell_of(g, c->x + i * dim)) + 1]++;
     for (long i = 0; i < n; i++)
@@ -129,23 +137,12 @@ static void make_cells(struct near *g, long ntarget, const double *x)
     mem_free(cell);
 }
 
-struct near near_create(int dim, double R, const struct map_cloud *c, long n, const double *x)
+struct near *near_create(int dim, double R, const struct map_cloud *c, long n, const double *x)
 {
-    struct near g = {.dim = dim, .R = R, .edge = R, .cloud = c, .n = {1, 1, 1}};
-    make_cells(&g, n, x);
+    struct near *g = NEW(struct near, 1);
+    *g = (struct near){.dim = dim, .R = R, .edge = R, .cloud = c, .n = {1, 1, 1}};
+    make_cells(g, n, x);
     return g;
-}
-
-void near_free(struct near *g)
-{
-    FREE(g->start, g->member);
-    *g = (struct near){0};
-}
-
-void reach_free(struct reach *r)
-{
-    FREE(r->j, r->room);
-    *r = (struct reach){0};
 }
 
 /* Pairs of runs into one until one is left: n log(3^dim) comparisons. */
@@ -174,9 +171,10 @@ static void merge_runs(struct reach *r)
 
 /* Looks at the 3^dim cells around x. Each cell's members are in order (a run); the runs are merged,
  * so that the sum that follows has one order, whatever the cells. */
-void near_gather(const struct near *g, const double *x, struct reach *r)
+const struct reach *near_gather(struct near *g, const double *x)
 {
     const struct map_cloud *c = g->cloud;
+    struct reach *r = &g->reach;
     const int dim = g->dim;
     const double R = g->R;
     int at[3] = {0, 0, 0}, first[3] = {0, 0, 0}, last[3] = {0, 0, 0};
@@ -191,11 +189,8 @@ void near_gather(const struct near *g, const double *x, struct reach *r)
             for (int i = first[0]; i <= last[0]; i++) {
                 const long cell = ((long)k * g->n[1] + j) * g->n[0] + i;
                 const int begin = r->n, room = r->n + (int)(g->start[cell + 1] - g->start[cell]);
-                if (room > r->capacity) {
-                    GROW(r->j, r->capacity, 2 * room);
-                    GROW(r->room, r->capacity, 2 * room);
-                    r->capacity = 2 * room;
-                }
+                ROOM_IN(g, r->j, room);
+                ROOM_IN(g, r->room, room);
                 for (long m = g->start[cell]; m < g->start[cell + 1]; m++) {
                     const double *y = c->x + (long)g->member[m] * dim;
                     double r2 = 0.0;
@@ -208,4 +203,17 @@ void near_gather(const struct near *g, const double *x, struct reach *r)
                     r->run[r->nrun++] = begin;
             }
     merge_runs(r);
+    return r;
+}
+
+void near_map(near_one *one, int dim, double R, int ncomp, struct map_cloud *from, long ntarget,
+              const double *x, double *v, unsigned char *mask)
+{
+    if (ntarget == 0)
+        return;
+    near_sort(from, dim, ncomp);
+    struct near *g = near_create(dim, R, from, ntarget, x);
+    for (long i = 0; i < ntarget; i++)
+        mask[i] = one(dim, R, ncomp, near_gather(g, x + i * dim), from, x + i * dim, v + i * ncomp);
+    mem_free(g);
 }

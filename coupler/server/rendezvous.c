@@ -196,7 +196,6 @@ static struct map_cloud assemble(struct coupler *c, const struct partner_link *l
 {
     struct map_cloud s = {0};
     const size_t nd = (size_t)l->dim, nc = (size_t)width;
-    long room = 0;
     for (int r = 0; r < c->solver[l->source].size; r++) {
         struct message *m = a->put[r];
         double image[27][3], place[3] = {0};
@@ -207,14 +206,7 @@ static struct map_cloud assemble(struct coupler *c, const struct partner_link *l
         for (size_t i = 0; i < (size_t)m->head.count; i++) {
             memcpy(place, x + i * nd, nd * sizeof *place);
             const int n = region_images(&l->region, place, image);
-            if (s.n + n > room) {
-                const long more = 2 * room + m->head.count + 27;
-                GROW(s.x, room * l->dim, more * l->dim);
-                GROW(s.gid, room, more);
-                GROW(s.volume, room, more);
-                GROW(s.v, room * width, more * width);
-                room = more;
-            }
+            map_cloud_room(&s, l->dim, width, s.n + n);
             for (int k = 0; k < n; k++, s.n++) {
                 memcpy(s.x + s.n * l->dim, image[k], nd * sizeof *s.x);
                 memcpy(s.v + s.n * width, v + i * nc, nc * sizeof *s.v);

@@ -54,6 +54,9 @@ void unit_begin(void);
  * removed at the end. Of use within unit_begin and later; one file a unit. */
 const char *unit_file(const char *name);
 
+/* A number between the two, the next of one sequence for all of a unit. */
+static inline double random_in(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }
+
 /* Largest difference of n numbers over max(1, |a|), on all ranks; infinite if one is NaN. */
 static inline double most_apart(int n, const double *a, const double *b)
 {

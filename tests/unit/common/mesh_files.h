@@ -9,6 +9,22 @@
 
 #include "../../../common/geometry/trimesh.h"
 
+/* A box without its lid, two triangles a side in each direction; connected. */
+static inline struct trimesh open_box(const double *lo, const double *hi)
+{
+    struct trimesh m = trimesh_box(lo, hi, 2);
+    int kept = 0;
+    for (int t = 0; t < m.ntriangles; t++) {
+        double n[3];
+        trimesh_normal(&m, t, n);
+        if (n[2] < 0.5)
+            memmove(m.vertex[kept++], m.vertex[t], sizeof m.vertex[t]);
+    }
+    m.ntriangles = kept;
+    trimesh_connect(&m);
+    return m;
+}
+
 static inline FILE *mesh_file(const char *name)
 {
     const char *dir = getenv("TEST_SCRATCH");

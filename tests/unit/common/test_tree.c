@@ -6,16 +6,7 @@
 #include "../../../common/base/mem.h"
 #include "../../../common/base/vec3.h"
 #include "../../../common/geometry/tree.h"
-
-static uint64_t seed = 88172645463325252u;
-
-static double random_in(double lo, double hi) /* xorshift64 */
-{
-    seed ^= seed << 13;
-    seed ^= seed >> 7;
-    seed ^= seed << 17;
-    return lo + (hi - lo) * (double)(seed >> 11) * 0x1p-53;
-}
+#include "mesh_files.h"
 
 static void random_point(double lo, double hi, double x[3])
 {
@@ -184,16 +175,7 @@ TEST(winding_is_one_inside_and_nought_outside)
 TEST(open_tank_has_one_half_on_its_lid)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {2, 1, 1};
-    struct trimesh m = trimesh_box(lo, hi, 2);
-    int kept = 0;
-    for (int t = 0; t < m.ntriangles; t++) {
-        double n[3];
-        trimesh_normal(&m, t, n);
-        if (n[2] < 0.5)
-            memmove(m.vertex[kept++], m.vertex[t], sizeof m.vertex[t]);
-    }
-    m.ntriangles = kept;
-    trimesh_connect(&m);
+    struct trimesh m = open_box(lo, hi);
     assert_false(m.closed);
     assert_int_equal(m.rims, 8);
     for (int k = 0; k < 100; k++) {

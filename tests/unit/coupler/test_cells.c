@@ -4,8 +4,6 @@
 
 #include "../../../coupler/cpl.h"
 
-static double noise(void) { return (double)rand() / RAND_MAX; }
-
 /* x -> A x + b: volumes by the determinant, centroids by the map itself. */
 static void affine(const double *x, int n, double *y)
 {
@@ -80,7 +78,7 @@ TEST(cells_that_share_a_bent_face_add_up)
         const int right[4] = {1, 2, 6, 5}, left[4] = {0, 3, 7, 4};
         double centroid[3], va, vb;
         for (int i = 0; i < 4; i++) { /* along x alone: the outer sides stay flat */
-            const double x = 1.0 + 0.6 * (noise() - 0.5);
+            const double x = 1.0 + 0.6 * (random_in(0.0, 1.0) - 0.5);
             a[3 * right[i]] = b[3 * left[i]] = x;
         }
         cpl_cell(3, 8, a, centroid, &va);

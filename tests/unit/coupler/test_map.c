@@ -8,8 +8,6 @@
 
 enum { TARGETS = 200 };
 
-static double noise(void) { return (double)rand() / RAND_MAX; }
-
 /* A disturbed lattice of n points a side over the unit box, `order': 0 as it grows, 1 backwards,
  * else shuffled. */
 static struct map_cloud lattice(int dim, int n, double disturb, int ncomp, int order)
@@ -25,7 +23,7 @@ static struct map_cloud lattice(int dim, int n, double disturb, int ncomp, int o
         at[i] = order == 1 ? size - 1 - i : i;
     srand(7);
     for (long i = size - 1; i > 0 && order > 1; i--) {
-        const long j = (long)(noise() * (double)i), swap = at[i];
+        const long j = (long)(random_in(0.0, 1.0) * (double)i), swap = at[i];
         at[i] = at[j];
         at[j] = swap;
     }
@@ -34,9 +32,9 @@ static struct map_cloud lattice(int dim, int n, double disturb, int ncomp, int o
         const long k = at[i];
         const long place[3] = {i % n, i / n % n, i / n / n};
         c.gid[k] = 10 * i + 5;
-        c.volume[k] = pow(1.0 / n, dim) * (1.0 + 0.2 * noise());
+        c.volume[k] = pow(1.0 / n, dim) * (1.0 + 0.2 * random_in(0.0, 1.0));
         for (int a = 0; a < dim; a++)
-            c.x[k * dim + a] = ((double)place[a] + 0.5 + disturb * (noise() - 0.5)) / n;
+            c.x[k * dim + a] = ((double)place[a] + 0.5 + disturb * (random_in(0.0, 1.0) - 0.5)) / n;
     }
     mem_free(at);
     return c;
@@ -55,7 +53,7 @@ static void targets(int dim, double lo, double hi, double *x)
 {
     srand(11);
     for (int i = 0; i < TARGETS * dim; i++)
-        x[i] = lo + (hi - lo) * noise();
+        x[i] = lo + (hi - lo) * random_in(0.0, 1.0);
 }
 
 static double one(const double *x) { return x[0] * 0.0 + 3.7; }
@@ -114,8 +112,8 @@ TEST(kernel_integrates_to_one_and_has_its_moments)
         double sum = 0.0, second = 0.0;
         for (double r = 0.5 * dr; r < R; r += dr) {
             const double shell = dim == 2 ? 2.0 * M_PI * r : 4.0 * M_PI * r * r;
-            sum += map_kernel(dim, r, R) * shell * dr;
-            second += map_kernel(dim, r, R) * shell * dr * r * r / dim;
+            sum += map_kernel(dim, r / R, R) * shell * dr;
+            second += map_kernel(dim, r / R, R) * shell * dr * r * r / dim;
         }
         assert_true(fabs(sum - 1.0) < 1e-5);
         assert_true(fabs(second / (R * R) - (dim == 2 ? 5.0 / 72.0 : 1.0 / 15.0)) < 1e-5);
@@ -216,7 +214,7 @@ TEST(regions_hold_what_is_within_reach)
             double x[3] = {0};
             bool near = false;
             for (int a = 0; a < dim; a++)
-                x[a] = 1.2 * noise() - 0.1;
+                x[a] = 1.2 * random_in(0.0, 1.0) - 0.1;
             for (int i = 0; i < TARGETS && !near; i++)
                 for (int s = -1; s <= 1; s++) {
                     double r2 = 0.0;

@@ -10,8 +10,6 @@
 
 typedef double function(const double *x);
 
-static double noise(void) { return (double)rand() / RAND_MAX; }
-
 /* Averages over the cells by Gauss-Legendre with 3 points a direction: exact to degree 5. `point':
  * values at cell centres instead. */
 static void fill(struct client_patch *p, function *f, function *dfdt, bool point)
@@ -57,8 +55,9 @@ static struct client_patch make(int dim, int n, double h, bool cubic)
 static void place(const struct client_patch *p, double inset, double *x)
 {
     for (int a = 0; a < 3; a++)
-        x[a] = a < p->dim ? p->origin[a] + (p->lo[a] + inset + noise() * (p->n[a] - 2.0 * inset)) *
-                                               p->spacing[a]
+        x[a] = a < p->dim ? p->origin[a] +
+                                (p->lo[a] + inset + random_in(0.0, 1.0) * (p->n[a] - 2.0 * inset)) *
+                                    p->spacing[a]
                           : 0.0;
 }
 
@@ -164,7 +163,8 @@ TEST(linear_is_the_printed_formula)
                      f22 = p.v[3 * CPL_TERMS];
         const double x1 = p.origin[0] + (p.lo[0] + 0.5) * p.spacing[0], x2 = x1 + p.spacing[0];
         const double y1 = p.origin[1] + (p.lo[1] + 0.5) * p.spacing[1], y2 = y1 + p.spacing[1];
-        const double x[3] = {x1 + noise() * (x2 - x1), y1 + noise() * (y2 - y1), 0.0};
+        const double x[3] = {x1 + random_in(0.0, 1.0) * (x2 - x1),
+                             y1 + random_in(0.0, 1.0) * (y2 - y1), 0.0};
         const double left = f11 * (y2 - x[1]) + f12 * (x[1] - y1);
         const double right = f21 * (y2 - x[1]) + f22 * (x[1] - y1);
         const double want = ((x2 - x[0]) * left + (x[0] - x1) * right) / ((x2 - x1) * (y2 - y1));
@@ -208,8 +208,9 @@ TEST(periodic_patches_find_every_image)
     fill(&p, wave, NULL, false);
     patch_prepare(&p);
     for (int m = 0; m < 500; m++) {
-        const double x[3] = {lo[0] + 0.5 * noise(), lo[1] + noise(), 0.0};
-        const double y[3] = {x[0] + floor(3.0 * noise()) - 1.0, x[1] - floor(3.0 * noise()), 0.0};
+        const double x[3] = {lo[0] + 0.5 * random_in(0.0, 1.0), lo[1] + random_in(0.0, 1.0), 0.0};
+        const double y[3] = {x[0] + floor(3.0 * random_in(0.0, 1.0)) - 1.0,
+                             x[1] - floor(3.0 * random_in(0.0, 1.0)), 0.0};
         double a, b;
         patch_eval(&p, 0.0, 1, x, &a, NULL);
         patch_eval(&p, 0.0, 1, y, &b, NULL);
@@ -270,7 +271,8 @@ TEST(values_follow_a_cubic_in_time)
     }
     patch_prepare(&p);
     for (int m = 0; m < 50; m++) {
-        const double tau = noise() - 0.5, course = 1.0 + tau * (1.0 + tau * (-2.0 + 5.0 * tau));
+        const double tau = random_in(0.0, 1.0) - 0.5,
+                     course = 1.0 + tau * (1.0 + tau * (-2.0 + 5.0 * tau));
         double x[3], v[2];
         place(&p, 0.0, x);
         patch_eval(&p, p.t + tau, 1, x, v, NULL);

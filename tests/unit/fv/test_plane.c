@@ -3,8 +3,6 @@
 
 #include "../../../fv/surface/plane.h"
 
-static double random_real(void) { return rand() / (double)RAND_MAX; }
-
 /* Components of very different size, some 0. */
 static void random_normal(int dim, double *n)
 {
@@ -13,9 +11,9 @@ static void random_normal(int dim, double *n)
         for (int a = 0; a < dim; a++) {
             const int kind = rand() % 6;
             const double size = kind == 0   ? 0.0
-                                : kind == 1 ? pow(10.0, -20.0 * random_real())
+                                : kind == 1 ? pow(10.0, -20.0 * random_in(0.0, 1.0))
                                             : 1.0;
-            n[a] = 4.0 * (random_real() - 0.5) * size;
+            n[a] = 4.0 * (random_in(0.0, 1.0) - 0.5) * size;
             sum += fabs(n[a]);
         }
 }
@@ -36,7 +34,7 @@ TEST(inverse_of_share)
         const int dim = 1 + k % 3;
         double n[3];
         random_normal(dim, n);
-        const double share = k % 7 ? random_real() : pow(10.0, -15.0 * random_real());
+        const double share = k % 7 ? random_in(0.0, 1.0) : pow(10.0, -15.0 * random_in(0.0, 1.0));
         const double alpha = plane_alpha(dim, n, share);
         assert_close(plane_share(dim, n, alpha), share, 1e-12);
         assert_close(plane_share(dim, n, -alpha), 1.0 - share, 1e-12);
@@ -52,7 +50,8 @@ TEST(slabs_add_up)
         const int dim = 1 + k % 3, a = rand() % dim;
         double n[3];
         random_normal(dim, n);
-        const double alpha = (random_real() - 0.5) * size_of(dim, n), cut = random_real() - 0.5;
+        const double alpha = (random_in(0.0, 1.0) - 0.5) * size_of(dim, n),
+                     cut = random_in(0.0, 1.0) - 0.5;
         assert_close(plane_slab(dim, n, alpha, a, -0.5, cut) +
                          plane_slab(dim, n, alpha, a, cut, 0.5),
                      plane_share(dim, n, alpha), 1e-12);

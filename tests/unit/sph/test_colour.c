@@ -36,7 +36,7 @@ static double share(int dim, double (*phi)(const double *, const void *), const 
                 const double r = sqrt(pow(x[0] - y[0], 2) + pow(x[1] - y[1], 2) +
                                       (deep ? pow(x[2] - y[2], 2) : 0.0));
                 if (r < R && phi(x, of) < 0.0)
-                    sum += map_kernel(dim, r, R);
+                    sum += map_kernel(dim, r / R, R);
             }
     return sum;
 }

@@ -7,8 +7,6 @@
 #include "../../../sph/walls/facet.h"
 #include "../../../sph/walls/vec_math.h"
 
-static double random_in(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }
-
 static struct wall_integrals integrals(const struct facet *f, int n, const double *x)
 {
     struct facet_batch b = {.n = 0};

@@ -8,6 +8,7 @@
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/eos.h"
 #include "../../../sph/walls/walls.h"
+#include "../common/mesh_files.h"
 #include "sph_case.h"
 
 static const double g = 9.81, rho = 1000.0;
@@ -45,22 +46,6 @@ static struct scene_mesh *add_wall(struct scene *s, struct trimesh m, int fluid_
     is->volume = is->mesh.closed ? fabs(trimesh_solid(&is->mesh, -1).volume) : 0.0;
     trimesh_bounds(&is->mesh, is->lo, is->hi);
     return is;
-}
-
-/* A box without its lid; out: thickness of a second skin with the solid between, 0: none. */
-static struct trimesh open_box(const double *lo, const double *hi)
-{
-    struct trimesh m = trimesh_box(lo, hi, 2);
-    int kept = 0;
-    for (int t = 0; t < m.ntriangles; t++) {
-        double n[3];
-        trimesh_normal(&m, t, n);
-        if (n[2] < 0.5)
-            memmove(m.vertex[kept++], m.vertex[t], sizeof m.vertex[t]);
-    }
-    m.ntriangles = kept;
-    trimesh_connect(&m);
-    return m;
 }
 
 static void finish(struct sph_case *c)

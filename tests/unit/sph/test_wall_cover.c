@@ -14,8 +14,6 @@ struct tank {
     double ends[ROOM][2][2], lo[2], hi[2], angle;
 };
 
-static double any(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }
-
 static void add(struct tank *t, double ax, double ay, double bx, double by)
 {
     const double c = cos(t->angle), s = sin(t->angle), x[2] = {ax, bx}, y[2] = {ay, by};
@@ -29,7 +27,7 @@ static void add(struct tank *t, double ax, double ay, double bx, double by)
 /* Open above, 2 m wide and 1 m high; upright it is the domain, else it stands in it. */
 static void tank_make(struct tank *t, bool upright)
 {
-    *t = (struct tank){.angle = upright ? 0.0 : any(0.0, 6.28)};
+    *t = (struct tank){.angle = upright ? 0.0 : random_in(0.0, 6.28)};
     for (int a = 0; a < 2; a++) {
         t->lo[a] = upright ? 0.0 : -4.0;
         t->hi[a] = upright ? (a ? 1.0 : 2.0) : 4.0;
@@ -61,8 +59,9 @@ TEST(beaches_hide_the_floor)
     for (int k = 0; k < 60; k++) {
         struct tank t;
         tank_make(&t, k % 2);
-        const double x = any(0.2, 1.8), y = any(0.1, 0.9), l = hypot(2.0 - x, y);
-        const double under = k % 3 == 1 ? any(0.1, 0.5) : 0.0, over = k % 3 ? any(0.1, 0.5) : 0.0;
+        const double x = random_in(0.2, 1.8), y = random_in(0.1, 0.9), l = hypot(2.0 - x, y);
+        const double under = k % 3 == 1 ? random_in(0.1, 0.5) : 0.0,
+                     over = k % 3 ? random_in(0.1, 0.5) : 0.0;
         const double all = k % 2 ? 4.2 : 4.0;
         add(&t, x - under * (2.0 - x), -under * y, 2.0 + over * (2.0 - x), y + over * y);
         assert_close(left(&t), all - (2.0 - x) - y + l, 1e-9);
@@ -74,7 +73,8 @@ TEST(bumps_hide_the_floor)
     for (int k = 0; k < 60; k++) {
         struct tank t;
         tank_make(&t, k % 2);
-        const double a = any(0.1, 0.9), b = any(1.0, 1.9), x = any(0.0, 2.0), y = any(0.1, 0.9);
+        const double a = random_in(0.1, 0.9), b = random_in(1.0, 1.9), x = random_in(0.0, 2.0),
+                     y = random_in(0.1, 0.9);
         const bool below = k % 3 == 0; /* begins and ends under the floor */
         const double all = k % 2 ? 4.2 : 4.0, more = below ? 0.3 : 0.0;
         add(&t, a - more * (x - a), -more * y, x, y);
@@ -88,7 +88,7 @@ TEST(blocks_on_the_floor_have_no_bottom)
     for (int k = 0; k < 40; k++) {
         struct tank t;
         tank_make(&t, k % 2);
-        const double a = any(0.1, 0.9), b = any(1.0, 1.9), y = any(0.1, 0.9);
+        const double a = random_in(0.1, 0.9), b = random_in(1.0, 1.9), y = random_in(0.1, 0.9);
         add(&t, a, 0.0, a, y);
         add(&t, a, y, b, y);
         add(&t, b, y, b, 0.0);
@@ -103,8 +103,9 @@ TEST(beds_through_open_sides_hide_the_floor)
 {
     for (int k = 0; k < 40; k++) {
         struct tank t = {.hi = {2.0, 1.0}};
-        const double low = any(0.05, 0.4), high = any(0.05, 0.9), more = any(0.0, 0.5);
-        const double rise = high - low, beyond = any(0.1, 1.0);
+        const double low = random_in(0.05, 0.4), high = random_in(0.05, 0.9),
+                     more = random_in(0.0, 0.5);
+        const double rise = high - low, beyond = random_in(0.1, 1.0);
         add(&t, -more, 0.0, 2.0 + more, 0.0);
         add(&t, -beyond, fmax(low - 0.5 * beyond * rise, 0.01), 2.0 + beyond,
             high + 0.5 * beyond * rise > 0.01 ? high + 0.5 * beyond * rise : 0.01);
@@ -120,7 +121,7 @@ TEST(what_hides_nothing_stays)
     for (int k = 0; k < 40; k++) {
         struct tank t;
         tank_make(&t, k % 2);
-        const double x = any(0.3, 1.7), y = any(0.1, 0.9);
+        const double x = random_in(0.3, 1.7), y = random_in(0.1, 0.9);
         const double length = hypot(0.05, 0.6) + hypot(0.1, 0.3) + hypot(0.15, 0.3);
         add(&t, x, 0.0, x, y);
         add(&t, 0.1, 0.2, 0.15, 0.8);
@@ -152,10 +153,10 @@ TEST(rooms_behind_beaches_are_shut)
 {
     for (int k = 0; k < 200; k++) {
         struct tank t;
-        const double foot = any(0.2, 1.6), top = any(0.2, 0.9);
+        const double foot = random_in(0.2, 1.6), top = random_in(0.2, 0.9);
         tank_make(&t, true);
         add(&t, foot, 0.0, 2.0, top);
-        const double x[2] = {any(0.01, 1.99), any(0.01, 0.99)};
+        const double x[2] = {random_in(0.01, 1.99), random_in(0.01, 0.99)};
         const double over = x[1] - top * (x[0] - foot) / (2.0 - foot);
         if (fabs(over) > 0.01)
             assert_int_equal(

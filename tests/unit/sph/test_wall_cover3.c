@@ -5,8 +5,6 @@
 #include "../../../common/base/mem.h"
 #include "../../../sph/walls/wall_cover3.h"
 
-static double any(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }
-
 static const struct cover_side floor_side = {
     .axis = 2, .high = false, .at = 0.0, .lo = {0, 0, 0}, .hi = {2, 1, 1}};
 
@@ -48,8 +46,8 @@ static double floor_left(struct trimesh *m, double size, int *triangles)
 TEST(slopes_hide_the_floor)
 {
     for (int k = 0; k < 20; k++) {
-        const double foot = any(0.2, 1.8), more = k % 2 ? 0.3 : 0.0; /* beyond the sides */
-        struct trimesh m = slope(foot, any(0.1, 2.0), -more, 1.0 + more, more);
+        const double foot = random_in(0.2, 1.8), more = k % 2 ? 0.3 : 0.0; /* beyond the sides */
+        struct trimesh m = slope(foot, random_in(0.1, 2.0), -more, 1.0 + more, more);
         int triangles;
         assert_close(floor_left(&m, 0.05, &triangles), foot, 1e-9);
         assert_true(triangles < 2000);
@@ -61,8 +59,8 @@ TEST(slopes_hide_the_floor)
 TEST(columns_hide_the_floor)
 {
     for (int k = 0; k < 10; k++) {
-        const double lo[3] = {any(0.1, 0.9), any(0.1, 0.4), k % 2 ? 0.0 : -0.2};
-        const double hi[3] = {any(1.1, 1.9), any(0.6, 0.9), 0.5};
+        const double lo[3] = {random_in(0.1, 0.9), random_in(0.1, 0.4), k % 2 ? 0.0 : -0.2};
+        const double hi[3] = {random_in(1.1, 1.9), random_in(0.6, 0.9), 0.5};
         struct trimesh m = trimesh_box(lo, hi, 1);
         trimesh_turn(&m, -1); /* the fluid is outside */
         trimesh_connect(&m);
@@ -76,7 +74,7 @@ TEST(what_hides_nothing_cuts_nothing)
 {
     int triangles;
     for (int k = 0; k < 10; k++) {
-        const double middle[3] = {any(0.5, 1.5), 0.5, any(0.31, 0.6)};
+        const double middle[3] = {random_in(0.5, 1.5), 0.5, random_in(0.31, 0.6)};
         struct trimesh m = trimesh_sphere(middle, 0.3, 2);
         trimesh_turn(&m, -1);
         trimesh_connect(&m);
@@ -89,7 +87,7 @@ TEST(what_hides_nothing_cuts_nothing)
 TEST(slopes_end_at_the_sides)
 {
     for (int k = 0; k < 20; k++) {
-        const double foot = any(0.2, 1.8), rise = any(0.1, 2.0);
+        const double foot = random_in(0.2, 1.8), rise = random_in(0.1, 2.0);
         struct trimesh m = slope(foot, rise, -0.3, 1.4, 0.5);
         struct trimesh cut = trimesh_within(&m, floor_side.lo, (const double[]){2, 1, INFINITY});
         assert_close(trimesh_area(&cut), (2.0 - foot) * hypot(1.0, rise), 1e-9);

@@ -7,8 +7,6 @@
 static const double R = 0.3;
 static const double origin[3] = {0.0, 0.0, 0.0};
 
-static double any(double lo, double hi) { return lo + (hi - lo) * rand() / RAND_MAX; }
-
 /* The k-th of twelve triangles of the box lo, hi. */
 static void triangle_of_box(int k, const double *lo, const double *hi, double (*v)[3])
 {
@@ -62,7 +60,7 @@ static void any_triangle_beyond(double least, double (*v)[3])
     const double way = rand() % 2 ? 1.0 : -1.0;
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++)
-            v[k][a] = a == axis ? way * any(least, R) : any(-R, R);
+            v[k][a] = a == axis ? way * random_in(least, R) : random_in(-R, R);
 }
 
 TEST(a_box_hides_all_beyond_it)
@@ -70,8 +68,8 @@ TEST(a_box_hides_all_beyond_it)
     for (int k = 0; k < 200; k++) {
         double lo[3], hi[3], v[3][3];
         for (int a = 0; a < 3; a++) {
-            lo[a] = any(-0.2, -0.05) * R;
-            hi[a] = any(0.05, 0.2) * R;
+            lo[a] = random_in(-0.2, -0.05) * R;
+            hi[a] = random_in(0.05, 0.2) * R;
         }
         any_triangle_beyond(0.21 * R, v);
         const struct wall_integrals is = of_triangle(v), sum = hidden_by_box(lo, hi, false, 3, v);
@@ -85,7 +83,7 @@ TEST(what_is_before_is_not_hidden)
         const double lo[3] = {-R, -R, -R}, hi[3] = {R, R, R};
         double v[3][3];
         for (int i = 0; i < 9; i++)
-            v[i / 3][i % 3] = any(-0.9, 0.9) * R;
+            v[i / 3][i % 3] = random_in(-0.9, 0.9) * R;
         const struct wall_integrals sum = hidden_by_box(lo, hi, false, 3, v);
         assert_true(sum.W == 0.0 && sum.gamma == 0.0);
     }
@@ -99,13 +97,13 @@ TEST(parts_add_up)
         double lo[3], hi[3], v[3][3], door[3][3];
         struct wall_integrals parts, whole;
         for (int a = 0; a < 3; a++) {
-            lo[a] = any(-0.3, -0.1) * R;
-            hi[a] = any(0.1, 0.3) * R;
+            lo[a] = random_in(-0.3, -0.1) * R;
+            hi[a] = random_in(0.1, 0.3) * R;
         }
         for (int i = 0; i < 3; i++) {
-            v[i][0] = any(-1.0, -0.31) * R;
-            v[i][1] = any(-R, R);
-            v[i][2] = any(-R, R);
+            v[i][0] = random_in(-1.0, -0.31) * R;
+            v[i][1] = random_in(-R, R);
+            v[i][2] = random_in(-R, R);
         }
         whole = of_triangle(v);
         parts = hidden_by_box(lo, hi, true, 3, v);
