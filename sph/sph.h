@@ -14,7 +14,6 @@
 #include "sph_parameters.h"
 #include "watch/sph_watch.h"
 
-struct sph;
 struct neighbours;   /* cell grid and list of pairs; neighbours.h */
 struct domain;       /* partition over ranks, migration, halo; domain.h */
 struct walls;        /* walls and bodies; walls.h; NULL: none */

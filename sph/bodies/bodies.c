@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bodies.h"
 
-#include "../../common/geometry/geometry.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
 #include "../rigid/sph_rigid.h"

@@ -10,7 +10,6 @@
  * rubs there is gathered step by step (hold), so that what friction can hold comes to rest, as by
  * the tangential spring of Cundall & Strack (Geotechnique 29, 1979), and does not creep.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "bodies.h"
 #include "body_touch.h"
 

@@ -66,8 +66,7 @@ void body_lines_add(const struct scene *c, struct body *bodies, int k, double (*
         const int other = body_line_other(c, l);
         double x[2][3], u[2][3], e[3], rate = 0.0;
         ends_of(b, other < 0 ? NULL : bodies + other, l, x, u);
-        for (int a = 0; a < 3; a++)
-            e[a] = x[1][a] - x[0][a];
+        vec3_from(x[0], x[1], e);
         const double length = vec3_length(e);
         for (int a = 0; a < 3; a++) {
             e[a] = length > 0.0 ? e[a] / length : 0.0;
@@ -96,8 +95,7 @@ double body_lines_energy(const struct scene *c, const struct body *bodies, int k
         const int other = body_line_other(c, l);
         double x[2][3], u[2][3], d[3];
         ends_of(b, other < 0 ? NULL : bodies + other, l, x, u);
-        for (int a = 0; a < 3; a++)
-            d[a] = x[1][a] - x[0][a];
+        vec3_from(x[0], x[1], d);
         const double more = vec3_length(d) - b->free->slack[i];
         sum += l->pull_only && more < 0.0 ? 0.0 : 0.5 * l->stiffness * more * more;
     }

@@ -1,6 +1,5 @@
 /* body_output.c - what moving bodies show: columns of the series, the summary, the restart file.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/files/files.h"
 #include "bodies.h"
 
@@ -91,8 +90,7 @@ static void summarise_free(const struct sph *s, int k)
     put(to, b, "potential", energy - kinetic);
     put(to, b, "springs", body_lines_energy(&s->run->scene, s->walls->bodies, k));
     put(to, b, "stopping_rate", f->lambda);
-    for (int a = 0; a < 3; a++)
-        lost[a] = f->impulse[1][a] - f->impulse[0][a];
+    vec3_from(f->impulse[0], f->impulse[1], lost);
     if (f->size > 0.0)
         put(to, b, "momentum_defect", vec3_length(lost) / f->size);
 }

@@ -14,7 +14,6 @@
  * by particles. SPDX-License-Identifier: BSD-3-Clause */
 #include "body_seal.h"
 
-#include "../walls/sph_walls.h"
 #include "bodies.h"
 #include "body_touch.h"
 

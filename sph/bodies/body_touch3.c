@@ -1,6 +1,5 @@
 /* body_touch3.c - vertices of one surface of triangles against another: flat faces meet at the
  * vertices of one of them. Not seen: two edges that cross. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/geometry/geometry.h"
 #include "body_touch.h"
 

@@ -1,7 +1,6 @@
 /* body_wedge.c - wedges and slits between bodies and walls that stay where they are, two of a pair
  * of bodies once: a diamond that stands on its corner, a disc on the floor. Found at the start; a
  * scene without such places has none to ask. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "bodies.h"
 #include "body_seal.h"
 #include "body_touch.h"

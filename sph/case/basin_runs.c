@@ -1,7 +1,6 @@
 /* basin_runs.c - see basin_runs.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "basin_runs.h"
 
-#include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 #include "rooms.h"
 #include "sph_params.h"

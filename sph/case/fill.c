@@ -3,12 +3,10 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "fill.h"
 
-#include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"
-#include "../sph.h"
 #include "../walls/sph_walls.h"
 #include "amount.h"
 #include "basins.h"

@@ -1,7 +1,6 @@
 /* first_lattice.c - see first_lattice.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "first_lattice.h"
 
-#include "../../common/scene/scene.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"

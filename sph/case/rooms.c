@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "rooms.h"
 
-#include "../../common/scene/scene.h"
 #include "../walls/sph_walls.h"
 
 /* Winding numbers nearer to the threshold than this say nothing. */

@@ -1,7 +1,6 @@
 /* sph_body_paths.c - bodies and walls of a scene as particles meet them: gaps that none can enter,
  * bodies that overlap, pierce walls or leave the domain, now or later, files of motion that a run
  * cannot follow. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"

@@ -1,7 +1,6 @@
 /* sph_falls.c - water that nothing catches: where parts of it at the start would fly by gravity and
  * their own velocity, until a wall, a body or a side of the domain stops them, or they are out; see
  * sph_sense.h. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"

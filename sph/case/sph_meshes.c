@@ -1,7 +1,6 @@
 /* sph_meshes.c - surfaces of triangles as particles of this spacing meet them: too small, too fine,
  * too coarse, thinner than the particles' reach, gauges behind them; see sph_sense.h.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/scene/scene.h"
 #include "sph_sense.h"
 

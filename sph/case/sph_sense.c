@@ -2,10 +2,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_sense.h"
 
-#include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../open_boundaries/sph_open_boundaries.h"
-#include "../sph.h"
 #include "first_lattice.h"
 
 static bool is_pressure(const struct scene_wall *w)

@@ -73,20 +73,10 @@ static void create_walls(struct sph *s)
     memcpy(s->hi, now[1], sizeof now[1]);
 }
 
-/* What is part of the state itself. */
-static void free_values(void *state)
-{
-    struct sph *s = state;
-    particles_free(&s->p);
-    if (s->refinement)
-        regions_free(&s->refinement->regions);
-}
-
 /* Without particles; coarser: the level above, NULL: the first. */
 static struct sph *create_level(struct run *r, const struct sph_params *prm, struct sph *coarser)
 {
     struct sph *s = NEW(struct sph, 1);
-    mem_at_free(s, free_values);
     s->run = r;
     s->prm = *prm;
     s->t = r->t;
@@ -97,7 +87,7 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
         s->prm.dx = 0.5 * coarser->dx;
     }
     set_constants(s);
-    particles_create(&s->p, s->dim, 0);
+    particles_create(s, &s->p, s->dim, 0);
     s->p.next_id = ((int64_t)s->level << 56) + r->rank;
     s->list = mem_own(s, neighbours_create());
     s->list->touching = collisions_distance(s);
@@ -123,7 +113,7 @@ static void create_finer(struct sph *s)
         return;
     const bool local = apr_params_of(s->run)->local_steps;
     s->refinement = NEW_IN(s, struct refinement, 1);
-    s->refinement->regions = g;
+    s->refinement->regions = mem_own(s->refinement, g);
     if (apr_params_of(s->run)->method != APR_GUARDS)
         return;
     s->refinement->local_steps = s->local_steps = local;

@@ -4,7 +4,6 @@
  * would help. Water and cells are only looked at when nothing else is wrong, for they need boxes
  * that make sense.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"

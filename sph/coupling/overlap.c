@@ -8,7 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "overlap.h"
 
-#include "../../common/files/files.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
 #include "../surface/sph_surface.h"

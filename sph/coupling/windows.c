@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "windows.h"
 
-#include "../../common/run/run.h"
-#include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../particles/sph_particles.h"
 

@@ -92,7 +92,7 @@ static void add_fluxes(struct sph *s, double dt)
 /* Particles near the open sides in a hash of cells of side dx, to keep births apart: chains by
  * head[] and next[]. */
 struct birth_strip {
-    int n, capacity, heads;
+    int n, heads;
     double (*x)[3];
     int *next, *head;
 };
@@ -109,11 +109,8 @@ static int strip_cell(const struct birth_strip *t, const struct openings *o, con
 static void strip_add(struct birth_strip *t, const struct openings *o, const double *y)
 {
     static const int here[3] = {0, 0, 0};
-    if (t->n == t->capacity) {
-        GROW(t->x, t->capacity, 2 * t->capacity);
-        GROW(t->next, t->capacity, 2 * t->capacity);
-        t->capacity *= 2;
-    }
+    ROOM_IN(NULL, t->x, t->n + 1);
+    ROOM_IN(NULL, t->next, t->n + 1);
     for (int a = 0; a < o->dim; a++)
         t->x[t->n][a] = y[a];
     const int c = strip_cell(t, o, y, here);
@@ -126,11 +123,7 @@ static struct birth_strip strip_create(const struct sph *s)
 {
     const struct openings *o = s->zones->openings;
     const int room = 4 * openings_faces(o) + 64;
-    struct birth_strip t = {.capacity = room,
-                            .heads = room,
-                            .x = mem_new((size_t)room, sizeof *t.x),
-                            .next = NEW(int, room),
-                            .head = NEW(int, room)};
+    struct birth_strip t = {.heads = room, .head = NEW(int, room)};
     for (int c = 0; c < t.heads; c++)
         t.head[c] = -1;
     for (int i = 0; i < s->p.n + o->first_ghost; i++) {

@@ -3,8 +3,6 @@
  * high they stand. SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gap.h"
 
-#include "../../common/files/files.h"
-#include "../../common/waves/waves.h"
 #include "../pairs/sph_pairs.h"
 #include "openings.h"
 #include "wet_faces.h"

@@ -6,8 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "side_levels.h"
 
-#include "../../common/files/files.h"
-#include "../../common/scene/scene.h"
 #include "../surface/sph_surface.h"
 #include "openings.h"
 

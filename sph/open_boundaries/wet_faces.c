@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "wet_faces.h"
 
-#include "../../common/files/files.h"
 #include "../walls/sph_walls.h"
 #include "zones.h"
 

@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "zone_steps.h"
 
-#include "../../common/files/files.h"
-#include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "births.h"
 #include "box_motion.h"

@@ -135,18 +135,14 @@ void zones_counted_box(const struct run *r, const struct sph_params *prm, const 
 
 void zones_room(struct zones *z, int n)
 {
-    if (n <= z->capacity)
-        return;
-    n += n / 4 + 64;
-    GROW_IN(z, z->who, z->capacity, n);
-    GROW_IN(z, z->x, 3 * z->capacity, 3 * n);
-    GROW_IN(z, z->u, 3 * z->capacity, 3 * n);
-    GROW_IN(z, z->p, z->capacity, n);
-    GROW_IN(z, z->gu, 9 * z->capacity, 9 * n);
-    GROW_IN(z, z->gp, 3 * z->capacity, 3 * n);
-    GROW_IN(z, z->phi, z->capacity, n);
-    GROW_IN(z, z->gphi, 3 * z->capacity, 3 * n);
-    z->capacity = n;
+    ROOM_IN(z, z->who, n);
+    ROOM_IN(z, z->x, 3 * n);
+    ROOM_IN(z, z->u, 3 * n);
+    ROOM_IN(z, z->p, n);
+    ROOM_IN(z, z->gu, 9 * n);
+    ROOM_IN(z, z->gp, 3 * n);
+    ROOM_IN(z, z->phi, n);
+    ROOM_IN(z, z->gphi, 3 * n);
 }
 
 int zones_nearest(const struct zones *z, const double *x, double *below)

@@ -57,7 +57,6 @@ struct zones {
     double R, weight; /* m, Pa: the support, and rho g R where rest_excess is added; else 0 */
     double level;     /* Pa: the smoothed part of it that SPH's own pressure gives; NAN: none yet */
     int n; /* buffer or transition particles at hand, and the flow outside at their places */
-    int capacity;
     int *who;
     double *x, *u, *p, *gu, *gp;
     double *phi, *gphi; /* with a surface outside: see zones_surface */

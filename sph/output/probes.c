@@ -6,7 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "probes.h"
 
-#include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"

@@ -4,7 +4,6 @@
  * gauges and bodies: the same in sph_columns, which names them. Every function that sums is
  * collective.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../open_boundaries/sph_open_boundaries.h"

@@ -5,7 +5,6 @@
  * (h5_read_parts), then whatever each module writes of its own. What is saved in sph_checkpoint is
  * read in sph_restore in the same order, on any number of ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/files/files.h"
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"

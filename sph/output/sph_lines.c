@@ -2,7 +2,6 @@
  * (Botella & Peyret 1998). A point of a line takes the linear least-squares fit of the particles
  * around it (moving least squares), so that a linear field is exact up to the walls.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../pairs/sph_pairs.h"
 #include "../sph.h"
 #include "sph_output.h"

@@ -19,11 +19,9 @@ struct list_grid {
     int *first; /* [total + 1] first local of each cell */
     int *ghost; /* [total + 1] first of each cell in order */
     int *order; /* ghosts by cell */
-    int first_capacity, order_capacity;
-    int *cell; /* of each particle that is being sorted */
-    int cell_capacity;
+    int *cell;  /* of each particle that is being sorted */
     /* what lies around one cell */
-    int near, near_capacity;
+    int near;
     double *x[3];
     int *id;
 };
@@ -34,16 +32,6 @@ struct neighbours *neighbours_create(void)
     l->grid = NEW_IN(l, struct list_grid, 1);
     return l;
 }
-
-/* Grows an array whose contents do not matter. */
-#define ROOM(owner, p, capacity, wanted)                                                           \
-    do {                                                                                           \
-        if ((wanted) > (capacity)) {                                                               \
-            mem_free(p);                                                                           \
-            (capacity) = (wanted) + (wanted) / 4 + 64;                                             \
-            (p) = mem_new_in((owner), (size_t)(capacity), sizeof *(p));                            \
-        }                                                                                          \
-    } while (0)
 
 /* The bounding box of this rank's particles from their states; [0, 0] along each axis where there
  * are none or one is not finite. */
@@ -106,7 +94,7 @@ static int cell_of(const struct list_grid *g, const double *x, int margin)
 static void sort_rows(struct list_grid *g, const double *rows, int width, int n, int margin,
                       int *first, int *order)
 {
-    ROOM(g, g->cell, g->cell_capacity, n);
+    ROOM_IN(g, g->cell, n);
     memset(first, 0, ((size_t)g->total + 1) * sizeof *first);
     for (int i = 0; i < n; i++) {
         g->cell[i] = cell_of(g, rows + (size_t)i * width, margin);
@@ -125,10 +113,9 @@ void neighbours_sort(struct sph *s)
 {
     struct list_grid *g = s->list->grid;
     lay_grid(g, s);
-    int ghost_capacity = g->first_capacity;
-    ROOM(g, g->ghost, ghost_capacity, g->total + 1);
-    ROOM(g, g->first, g->first_capacity, g->total + 1);
-    ROOM(g, g->order, g->order_capacity, s->p.n);
+    ROOM_IN(g, g->ghost, g->total + 1);
+    ROOM_IN(g, g->first, g->total + 1);
+    ROOM_IN(g, g->order, s->p.n);
     sort_rows(g, s->p.y, s->p.nstate, s->p.n, 1, g->first, g->order);
     particles_permute(&s->p, s->p.n, g->order, s->guards != NULL);
 }
@@ -136,13 +123,9 @@ void neighbours_sort(struct sph *s)
 /* Grows the arrays of what lies around a cell to n entries; their contents stay. */
 static void near_room(struct list_grid *g, int n)
 {
-    if (n <= g->near_capacity)
-        return;
-    const int old = g->near_capacity, more = n + n / 4 + 64;
     for (int a = 0; a < 3; a++)
-        GROW_IN(g, g->x[a], old, more);
-    GROW_IN(g, g->id, old, more);
-    g->near_capacity = more;
+        ROOM_IN(g, g->x[a], n);
+    ROOM_IN(g, g->id, n);
 }
 
 /* Box of the particles of a cell. */
@@ -265,11 +248,7 @@ static void add_close(const struct sph *s, int i, double close2)
         const double r2 = vec_distance2(s->dim, y, x);
         if (r2 >= close2)
             continue;
-        if (l->nclose == l->close_capacity) {
-            const int more = 2 * l->close_capacity + 64;
-            GROW_IN(l, l->close, l->close_capacity, more);
-            l->close_capacity = more;
-        }
+        ROOM_IN(l, l->close, l->nclose + 1);
         l->close[l->nclose][0] = i;
         l->close[l->nclose++][1] = j;
     }
@@ -362,13 +341,11 @@ static void order_rows(const struct sph *s, struct neighbours *l)
     l->ninner = n[0];
     l->nshallow = n[0] + n[1];
     if (s->run->size == 1 && n[2] == 0) {
-        mem_free(l->order);
-        l->order = NULL;
-        l->order_capacity = 0;
+        DROP(l->order);
         return;
     }
     int at[3] = {0, n[0], n[0] + n[1]};
-    ROOM(l, l->order, l->order_capacity, l->n);
+    ROOM_IN(l, l->order, l->n);
     for (int i = 0; i < l->n; i++)
         l->order[at[kind_of(s, i)]++] = i;
 }
@@ -381,6 +358,14 @@ void neighbours_rows(struct neighbours *l, enum rows which)
     l->last = which != ROWS_INNER; /* no outer rows: an empty part ends the pass */
 }
 
+void neighbours_room(struct neighbours *l, int n)
+{
+    ROOM_IN(l, l->start, n + 1);
+    ROOM_IN(l, l->count, n + 1);
+    ROOM_IN(l, l->whole, n + 1);
+    ROOM_IN(l, l->tail, n + 1);
+}
+
 /* `touching' must have been set before; rows are those of the last neighbours_sort, whose number of
  * locals must still hold. */
 void neighbours_build(struct sph *s)
@@ -389,22 +374,13 @@ void neighbours_build(struct sph *s)
     struct list_grid *g = l->grid;
     const int n = s->p.n;
     require(n == g->n); /* neighbours_sort has been here */
-    if (n + 1 > l->rows_capacity) {
-        int capacity = l->rows_capacity;
-        ROOM(l, l->start, capacity, n + 1);
-        capacity = l->rows_capacity;
-        ROOM(l, l->count, capacity, n + 1);
-        capacity = l->rows_capacity;
-        ROOM(l, l->whole, capacity, n + 1);
-        capacity = l->rows_capacity;
-        ROOM(l, l->busy, capacity, n + 1);
-        ROOM(l, l->tail, l->rows_capacity, n + 1);
-    }
+    neighbours_room(l, n);
+    ROOM_IN(l, l->busy, n + 1);
     l->n = n;
     l->start[0] = 0;
     l->nclose = 0;
     l->spared = false;
-    ROOM(g, g->order, g->order_capacity, s->p.nghost);
+    ROOM_IN(g, g->order, s->p.nghost);
     sort_rows(g, prim_line(&s->p, n), PRIM, s->p.nghost, 0, g->ghost, g->order);
     if (s->dim == 2)
         build_2d(s);
@@ -501,15 +477,11 @@ void neighbours_gather(const struct sph *s, const double *lo, const double *hi, 
 /* Filters what was gathered by its distance from x, a vector of LANES at a time; the room for 2
  * LANES more is what `append' may write beyond the end. */
 int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
-                    int *capacity)
+                    void *owner)
 {
     const struct list_grid *g = s->list->grid;
     vec least = vec_all(INFINITY);
-    if (n + g->near + 2 * LANES > *capacity) {
-        const int more = 2 * *capacity + g->near + 2 * LANES;
-        GROW(*found, *capacity, more);
-        *capacity = more;
-    }
+    ROOM_IN(owner, *found, n + g->near + 2 * LANES);
     return n + (s->dim == 2 ? append(g, 0, g->near, x, reach * reach, *found + n, &least, 2)
                             : append(g, 0, g->near, x, reach * reach, *found + n, &least, 3));
 }

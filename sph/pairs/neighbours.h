@@ -30,19 +30,16 @@ struct neighbours {
      * others, the deep ones (ROLE_DEEP). NULL: as they are stored; so it is on one rank, where
      * ghosts need no wait, without deep rows. */
     int *order;
-    int order_capacity;
     int ninner;   /* rows that need no ghosts and come first in order; 0 on one rank */
     int nshallow; /* rows but for the deep ones */
     int treated;  /* rows that passes go through: all until slopes are known, then without the deep
                      ones */
     double touching; /* m: pairs that may come this near in the step are put into close; 0: none */
     int *taken; /* [n] entries of the lists from which guards take their fields; NULL: no levels */
-    int taken_capacity;
-    int nclose, close_capacity;
+    int nclose;
     int (*close)[2];  /* pairs i < j that may collide in the step; collisions.h */
     int begin, end;   /* range of order that a pass treats, set by neighbours_rows */
     bool first, last; /* part of the pass: sums begin with zeros; they are whole after it */
-    int rows_capacity;
     struct list_grid *grid;
 };
 
@@ -75,10 +72,12 @@ double *neighbours_sums(struct sph *s, int width);
  * ghost_role[nhalo]: bits of the ghosts. After neighbours_build. */
 void neighbours_gather(const struct sph *s, const double *lo, const double *hi, double reach,
                        const unsigned short *ghost_role, int without);
-/* Appends to *found those gathered last within `reach' of x. n are there already; *found is grown
- * (mem_grow) so that *capacity is at least LANES more than the new number, which is returned. */
+/* Appends to *found those gathered last within `reach' of x. n are there already; *found is given
+ * room, of `owner', for LANES more than the new number, which is returned. */
 int neighbours_pick(const struct sph *s, const double *x, double reach, int n, int **found,
-                    int *capacity);
+                    void *owner);
+/* Room for n rows. */
+void neighbours_room(struct neighbours *l, int n);
 /* Smallest distance of a listed pair, m, at most R; of this rank. */
 double neighbours_least(const struct sph *s);
 /* Number of ordered pairs within R now, for the throughput figures; of this rank. */

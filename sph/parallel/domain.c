@@ -8,7 +8,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "domain.h"
 
-#include "../../common/files/files.h"
 #include "../pairs/sph_pairs.h"
 
 /* WORK: of a particle besides its pairs, as a number of them: sort, list, update, row overhead.

@@ -24,40 +24,32 @@ static void set_dummy(struct particles *p, int dim)
 static void grow(struct particles *p, int capacity)
 {
     const size_t old = (size_t)p->capacity, n = (size_t)capacity, ns = (size_t)p->nstate;
-    GROW(p->y, old * ns, n * ns);
-    GROW(p->y0, old * ns, n * ns);
-    GROW(p->rate, old * ns, (n + 1) * ns);
-    GROW(p->prim, old * PRIM, (n + 1) * PRIM);
-    GROW(p->slope, old * p->nslope, (n + 1) * p->nslope);
-    GROW(p->id, old, n);
-    GROW(p->false_divergence, old, n);
-    GROW(p->zone, old, n);
-    GROW(p->role, old, n);
+    GROW_IN(p->owner, p->y, old * ns, n * ns);
+    GROW_IN(p->owner, p->y0, old * ns, n * ns);
+    GROW_IN(p->owner, p->rate, old * ns, (n + 1) * ns);
+    GROW_IN(p->owner, p->prim, old * PRIM, (n + 1) * PRIM);
+    GROW_IN(p->owner, p->slope, old * p->nslope, (n + 1) * p->nslope);
+    GROW_IN(p->owner, p->id, old, n);
+    GROW_IN(p->owner, p->false_divergence, old, n);
+    GROW_IN(p->owner, p->zone, old, n);
+    GROW_IN(p->owner, p->role, old, n);
     if (p->size)
         GROW(p->size, old, n);
     p->capacity = capacity;
     p->sum_capacity = 0;
-    mem_free(p->sum);
-    p->sum = NULL;
+    DROP(p->sum);
     set_dummy(p, (p->nstate - 2) / 2);
 }
 
-void particles_create(struct particles *p, int dim, int capacity)
+void particles_create(void *owner, struct particles *p, int dim, int capacity)
 {
-    *p = (struct particles){.nstate = 2 * dim + 2, .nslope = dim == 2 ? 8 : 16};
+    *p = (struct particles){.owner = owner, .nstate = 2 * dim + 2, .nslope = dim == 2 ? 8 : 16};
     grow(p, capacity > 0 ? capacity : 1);
-}
-
-void particles_free(struct particles *p)
-{
-    FREE(p->y, p->y0, p->sum, p->rate, p->prim, p->slope, p->id, p->zone, p->role, p->size,
-         p->false_divergence);
-    *p = (struct particles){0};
 }
 
 void particles_add_sizes(struct particles *p, double R)
 {
-    p->size = mem_new((size_t)p->capacity, sizeof *p->size);
+    p->size = mem_new_in(p->owner, (size_t)p->capacity, sizeof *p->size);
     for (int i = 0; i < p->n; i++) {
         p->size[i][0] = R;
         p->size[i][1] = 1.0;
@@ -73,7 +65,7 @@ void particles_reserve(struct particles *p, int total)
 double *particles_sum(struct particles *p)
 {
     if (p->sum_capacity < p->capacity) {
-        p->sum = NEW(double, (size_t)p->capacity * p->nstate);
+        p->sum = NEW_IN(p->owner, double, (size_t)p->capacity * p->nstate);
         p->sum_capacity = p->capacity;
     }
     return p->sum;
@@ -120,7 +112,7 @@ static void permute_slopes(struct particles *p, int n, const int *order)
 /* Applies the order to the sizes of locals; those of ghosts are lost. */
 static void permute_sizes(struct particles *p, int n, const int *order)
 {
-    double(*size)[2] = mem_new((size_t)p->capacity, sizeof *size);
+    double(*size)[2] = mem_new_in(p->owner, (size_t)p->capacity, sizeof *size);
     for (int i = 0; i < n; i++)
         memcpy(size[i], p->size[order[i]], sizeof *size);
     mem_free(p->size);
@@ -132,10 +124,10 @@ static void permute_sizes(struct particles *p, int n, const int *order)
 void particles_permute(struct particles *p, int n, const int *order, bool slopes)
 {
     const size_t row = (size_t)p->nstate;
-    int64_t *id = NEW(int64_t, p->capacity);
-    unsigned char *zone = NEW(unsigned char, p->capacity);
-    unsigned short *role = NEW(unsigned short, p->capacity);
-    double *false_divergence = NEW(double, p->capacity);
+    int64_t *id = NEW_IN(p->owner, int64_t, p->capacity);
+    unsigned char *zone = NEW_IN(p->owner, unsigned char, p->capacity);
+    unsigned short *role = NEW_IN(p->owner, unsigned short, p->capacity);
+    double *false_divergence = NEW_IN(p->owner, double, p->capacity);
     for (int i = 0; i < n; i++) {
         memcpy(p->y0 + (size_t)i * row, p->y + (size_t)order[i] * row, row * sizeof(double));
         id[i] = p->id[order[i]];

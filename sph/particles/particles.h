@@ -42,6 +42,7 @@ enum { PRIM_FALSE = 6, SLOPE_FALSE = 15 };
  * Locals are 0 .. n-1, sorted by cell; ghosts (halo of other ranks, periodic images, then ghosts of
  * walls and open sides) are n .. n+nghost-1 and have only prim and slope. All arrays are owned. */
 struct particles {
+    void *owner; /* of the arrays */
     int n, nghost, capacity;
     int nhalo;      /* ghosts, the first ones, that are particles of other ranks or images */
     int nstate;     /* 2 dim + 2 */
@@ -108,11 +109,9 @@ static inline bool particles_keeps_mass(const struct particles *p, int i)
     return p->zone[i] != ZONE_BUFFER && !particles_is_guard(p, i);
 }
 
-/* Makes room for `capacity' particles in 2 or 3 dimensions; there are none yet. The old contents of
- * *p are not freed. */
-void particles_create(struct particles *p, int dim, int capacity);
-/* Frees the arrays and zeroes *p. */
-void particles_free(struct particles *p);
+/* Makes room for `capacity' particles in 2 or 3 dimensions; there are none yet. The
+ * arrays belong to `owner'. The old contents of *p are not freed. */
+void particles_create(void *owner, struct particles *p, int dim, int capacity);
 /* Allocates size and sets it to R, m, and weight 1 for all locals. */
 void particles_add_sizes(struct particles *p, double R);
 /* Makes room for n + nghost = total records. Contents are kept, pointers into the arrays are

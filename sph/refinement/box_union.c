@@ -92,7 +92,7 @@ static void grow_rest(struct box_union *u, struct cuts *c, const int *cell)
             }
         }
     mark(c, from, to, 0);
-    GROW(u->rest, u->nrest, u->nrest + 1);
+    GROW_IN(u->of, u->rest, u->nrest, u->nrest + 1);
     struct box *b = u->rest + u->nrest++;
     for (int a = 0; a < 3; a++) {
         b->lo[a] = c->at[a][from[a]];
@@ -128,9 +128,9 @@ static void find_rest(struct box_union *u, double near)
 }
 
 /* In 2D boxes are infinite along z, so that the code of three axes serves. */
-struct box_union box_union_create(int dim, int n, const struct box *box, double near)
+struct box_union box_union_create(void *owner, int dim, int n, const struct box *box, double near)
 {
-    struct box_union u = {.dim = dim, .n = n, .near = near, .of = NEW(struct box, n)};
+    struct box_union u = {.dim = dim, .n = n, .near = near, .of = NEW_IN(owner, struct box, n)};
     if (n > 0)
         memcpy(u.of, box, (size_t)n * sizeof *box);
     for (int k = 0; k < n && dim == 2; k++) {
@@ -140,12 +140,6 @@ struct box_union box_union_create(int dim, int n, const struct box *box, double 
     if (n > 0)
         find_rest(&u, near);
     return u;
-}
-
-void box_union_free(struct box_union *u)
-{
-    FREE(u->of, u->rest);
-    *u = (struct box_union){0};
 }
 
 /* Squared distance to a box, 0 inside. */

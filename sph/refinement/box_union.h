@@ -16,10 +16,9 @@ struct box_union {
     struct box *of, *rest; /* the boxes; what they leave of space, cut into boxes */
 };
 
-/* Of n boxes, which are copied; coordinates closer than `near', m, become one. Freed by
- * box_union_free. */
-struct box_union box_union_create(int dim, int n, const struct box *box, double near);
-void box_union_free(struct box_union *u);
+/* Of n boxes, which are copied; coordinates closer than `near', m, become one. The boxes, u.of,
+ * belong to `owner', and the rest of space to them. */
+struct box_union box_union_create(void *owner, int dim, int n, const struct box *box, double near);
 /* Signed distance of x to the edge, m, positive inside; -INFINITY: there is no box, INFINITY: they
  * cover all. */
 double box_union_distance(const struct box_union *u, const double *x);

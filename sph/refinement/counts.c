@@ -39,7 +39,7 @@ static const double nothing = 1e30; /* no gap is known */
 
 /* Particles found near a place. */
 struct found {
-    int n, capacity;
+    int n;
     int *j;
 };
 
@@ -85,7 +85,7 @@ static double family(const struct sph *s, const double *x, const double *y, doub
 static void look_around(struct sph *at, const double *x, double reach, struct found *to)
 {
     neighbours_gather(at, x, x, reach, at->guards->ghost, 0);
-    to->n = neighbours_pick(at, x, reach, 0, &to->j, &to->capacity);
+    to->n = neighbours_pick(at, x, reach, 0, &to->j, NULL);
 }
 
 /* The gap at x in children; positive: some are missing. */

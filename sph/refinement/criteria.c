@@ -79,38 +79,26 @@ struct criteria *criteria_create(struct regions *g)
         levels = g->prm->criteria.of[k].level > levels ? g->prm->criteria.of[k].level : levels;
     if (levels == 0)
         return NULL;
-    struct criteria *c = g->criteria = NEW(struct criteria, 1);
+    struct criteria *c = g->criteria = NEW_IN(g, struct criteria, 1);
     c->levels = levels;
     c->factor = 1.0;
     c->next = -INFINITY;
     for (int n = 1; n <= levels; n++) {
         struct criteria_grid *q = c->grid + n;
-        if (!marks_create(&q->cells, g->dim, g->domain.lo, g->domain.hi, g->periodic, g->open,
+        if (!marks_create(c, &q->cells, g->dim, g->domain.lo, g->domain.hi, g->periodic, g->open,
                           regions_R(g, n - 1), CELLS_MOST))
             abort_run("criteria of level %d need more than %g cells", n, CELLS_MOST);
         const size_t cells = marks_count(&q->cells);
-        q->value = NEW(double, cells);
-        q->until = NEW(double, cells);
-        q->surface = NEW(unsigned char, cells);
-        q->seed = NEW(unsigned char, cells);
-        q->units = NEW(int64_t, cells);
-        q->allowed = NEW(unsigned char, cells);
+        q->value = NEW_IN(c, double, cells);
+        q->until = NEW_IN(c, double, cells);
+        q->surface = NEW_IN(c, unsigned char, cells);
+        q->seed = NEW_IN(c, unsigned char, cells);
+        q->units = NEW_IN(c, int64_t, cells);
+        q->allowed = NEW_IN(c, unsigned char, cells);
         g->level[n].cells = &q->cells;
         allow(g, n);
     }
     return c;
-}
-
-/* Also unsets g->criteria. */
-void criteria_free(struct regions *g)
-{
-    for (int n = 1; g->criteria && n <= g->criteria->levels; n++) {
-        struct criteria_grid *q = g->criteria->grid + n;
-        marks_free(&q->cells);
-        FREE(q->value, q->until, q->surface, q->seed, q->units, q->allowed);
-    }
-    mem_free(g->criteria);
-    g->criteria = NULL;
 }
 
 /* --- what particles say --- */

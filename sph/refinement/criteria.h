@@ -42,9 +42,8 @@ double criteria_factor(const struct regions *g);
 /* Number of particles of all levels that the last evaluation expects. */
 double criteria_forecast(const struct regions *g);
 
-/* For regions.c: the criteria of g, NULL if it has none; owned by g until criteria_free. */
+/* For regions.c: the criteria of g, NULL if it has none; owned by g. */
 struct criteria *criteria_create(struct regions *g);
-void criteria_free(struct regions *g);
 /* What the next evaluation depends on, in restart files: the same on all ranks. false: the file has
  * none that fits. Collective. */
 void criteria_save(const struct regions *g, struct h5 *f);

@@ -37,7 +37,6 @@ struct guards *guards_create(const struct run *r)
     const struct apr_params *apr = apr_params_of(r);
     g->mean = apr->guards == GUARDS_MEAN;
     g->own_rates = apr->local_steps;
-    g->j = NEW_IN(g, int, g->j_capacity = 1); /* neighbours_pick makes more room */
     return g;
 }
 
@@ -50,10 +49,7 @@ static void share_roles(struct sph *s)
     for (int i = 0; i < s->p.n; i++)
         own[i] = s->p.role[i];
     domain_share(s, own, 1, ghosts);
-    if (s->p.nghost > g->ghost_capacity) {
-        GROW_IN(g, g->ghost, g->ghost_capacity, s->p.nghost);
-        g->ghost_capacity = s->p.nghost;
-    }
+    ROOM_IN(g, g->ghost, s->p.nghost);
     for (int k = 0; k < s->p.nghost; k++)
         g->ghost[k] = (unsigned short)ghosts[k];
     for (int k = s->p.nhalo; k < s->p.nghost && s->walls; k++) {
@@ -67,15 +63,11 @@ static void share_roles(struct sph *s)
 /* Room for n guards; contents are kept. */
 static void make_room(struct guards *g, int n)
 {
-    if (n <= g->capacity)
-        return;
-    const int old = g->capacity, more = n + n / 8 + 64;
-    GROW_IN(g, g->who, old, more);
-    GROW_IN(g, g->source, old, more);
-    GROW_IN(g, g->near, old, more);
-    GROW_IN(g, g->first, old, more);
-    GROW_IN(g, g->count, old, more);
-    g->capacity = more;
+    ROOM_IN(g, g->who, n);
+    ROOM_IN(g, g->source, n);
+    ROOM_IN(g, g->near, n);
+    ROOM_IN(g, g->first, n);
+    ROOM_IN(g, g->count, n);
 }
 
 /* The order in which guards are listed: 0 outside of where their level flows, 1 within, 2 deep. */
@@ -149,7 +141,7 @@ static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end
     for (; k < end; k++) {
         const double *x = prim_line(&s->p, g->who[k]);
         const int begin = at;
-        at = neighbours_pick(from, x, reach, at, &g->j, &g->j_capacity);
+        at = neighbours_pick(from, x, reach, at, &g->j, g);
         g->first[k][m] = begin;
         g->count[k][m] = at - begin;
         g->near[k] = (m > 0 && g->near[k]) ||
@@ -165,11 +157,7 @@ static int add_rows(struct sph *s, const struct sph *from, int m, int k, int end
 static void count_taken(struct sph *s)
 {
     struct neighbours *l = s->list;
-    if (l->taken_capacity < s->p.n) {
-        mem_free(l->taken);
-        l->taken_capacity = s->p.capacity;
-        l->taken = NEW_IN(l, int, l->taken_capacity);
-    }
+    ROOM_IN(l, l->taken, s->p.n);
     if (s->p.n > 0)
         memset(l->taken, 0, (size_t)s->p.n * sizeof *l->taken);
     for (int k = 0; k < s->guards->n; k++)

@@ -18,7 +18,7 @@ struct created {
 /* The guards of one level and the particles that they take from: for each guard two rows of numbers
  * in j, of its coarser and of its finer source level, padded with the dummies of these levels. */
 struct guards {
-    int n, capacity;
+    int n;
     /* In who come first the guards outside of where this level flows; nshallow counts these and
      * those that are not deep. */
     int nfiner, nshallow;
@@ -27,9 +27,7 @@ struct guards {
     bool *near;            /* [n] whether a source is near the free surface */
     int64_t (*first)[2];   /* [n] of its rows in j */
     int (*count)[2];       /* [n] */
-    int j_capacity;
     int *j;
-    int ghost_capacity;
     unsigned short *ghost; /* [nhalo] roles of the ghosts */
     int nprior;            /* locals that `prior' holds; 0: slopes are those of the last stage */
     /* [nprior][nslope] slopes that guards were given before an output; a restart continues from

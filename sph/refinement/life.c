@@ -24,7 +24,7 @@ struct depths {
     double *own, *next;
 };
 
-/* Distance of every particle from the edge of a level's region, m; freed by depths_free. */
+/* Distance of every particle from the edge of a level's region, m; both to be freed. */
 static double *measure(const struct regions *g, const struct sph *s, int level)
 {
     double *d = NEW(double, s->p.n);
@@ -40,9 +40,6 @@ static struct depths depths_of(const struct regions *g, const struct sph *s, boo
     return (struct depths){s->coarser && !held ? measure(g, s, s->level) : NULL,
                            s->finer ? measure(g, s, s->level + 1) : NULL};
 }
-
-/* Frees both arrays. */
-static void depths_free(struct depths *is) { FREE(is->own, is->next); }
 
 /* Bits of enum sph_role of particle i but ROLE_PARENT, with the source. Runs through the finer
  * levels until one does not flow at the particle; the last that does is the source. */
@@ -140,7 +137,7 @@ void refinement_remember(struct sph *s)
     for (struct sph *q = s; q; q = q->finer) {
         struct depths is = depths_of(r->regions, q, false);
         s->step.mass += mass_of_level(q, &is);
-        depths_free(&is);
+        FREE(is.own, is.next);
     }
     r->added = r->gone = s->watch.removed = 0.0;
     MPI_Allreduce(&s->step.mass, &r->mass0, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
@@ -313,7 +310,7 @@ static double adapt_level(const struct regions *g, struct sph *s, bool held)
     give_roles(g, s, &is, held);
     const double mass = mass_of_level(s, &is);
     s->lists.ready = false;
-    depths_free(&is);
+    FREE(is.own, is.next);
     return mass;
 }
 
@@ -374,7 +371,7 @@ void refinement_begin(struct sph *s, void (*settle)(struct sph *level))
         if (q->coarser && settle) {
             struct depths is = depths_of(g, q, false);
             give_roles(g, q, &is, false);
-            depths_free(&is);
+            FREE(is.own, is.next);
             settle(q);
         }
         adapt_level(g, q, false);

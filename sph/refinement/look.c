@@ -4,7 +4,6 @@
  * (regions_move). Sums and maxima are over all ranks, so every rank moves its copy of the regions
  * alike.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"

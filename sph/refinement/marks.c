@@ -9,7 +9,7 @@
 
 /* The number of cells along an axis is the largest at which they are at least `width' wide; 1e-12
  * keeps a length that is a multiple of it from losing one to rounding. */
-bool marks_create(struct marks *c, int dim, const double lo[3], const double hi[3],
+bool marks_create(void *owner, struct marks *c, int dim, const double lo[3], const double hi[3],
                   const bool periodic[3], const bool open[6], double width, double most)
 {
     double all = 1.0;
@@ -26,16 +26,10 @@ bool marks_create(struct marks *c, int dim, const double lo[3], const double hi[
         c->periodic[a] = a < dim && periodic[a];
     }
     memcpy(c->open, open, sizeof c->open);
-    c->mark = NEW(unsigned char, all);
-    c->depth = NEW(signed char, all);
+    c->mark = NEW_IN(owner, unsigned char, all);
+    c->depth = NEW_IN(owner, signed char, all);
     marks_measure(c);
     return true;
-}
-
-void marks_free(struct marks *c)
-{
-    FREE(c->mark, c->depth);
-    *c = (struct marks){0};
 }
 
 size_t marks_count(const struct marks *c)

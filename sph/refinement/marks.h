@@ -25,10 +25,9 @@ struct marks {
 };
 
 /* Sets *c to a grid over lo .. hi, m, of cells at least `width', m, wide, without marks; false:
- * there would be more than `most' of them. */
-bool marks_create(struct marks *c, int dim, const double lo[3], const double hi[3],
+ * there would be more than `most' of them. The marks belong to `owner'. */
+bool marks_create(void *owner, struct marks *c, int dim, const double lo[3], const double hi[3],
                   const bool periodic[3], const bool open[6], double width, double most);
-void marks_free(struct marks *c);
 size_t marks_count(const struct marks *c);
 /* Number of the cell that holds x, clamped into the grid. */
 size_t marks_find(const struct marks *c, const double *x);

@@ -6,8 +6,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "mixed.h"
 
-#include "../../common/files/files.h"
-#include "../../common/params/params.h"
 #include "../pairs/sph_pairs.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
@@ -18,19 +16,19 @@ enum { CLASSES = 2 * APR_LEVELS_MAX + 8, SORT_EVERY = 50 };
 /* Particles and ghosts whose R are within a factor of root two, by cells as wide as the largest of
  * them reaches. */
 struct size_class {
-    int n, capacity;
+    int n;
     int *who;        /* [n] as they come, then by cell */
     double *x, *y;   /* [n] m: of these, by cell */
     double *half;    /* [n] m: R/2 */
     double R, lo[2]; /* m: largest; lower corner of the cells */
     double edge_1;   /* 1/m */
-    int cells[2], cells_capacity;
+    int cells[2];
     int *first; /* [cells + 1] */
 };
 
 struct mixed {
     struct size_class of[CLASSES];
-    int spare_capacity, npairs, pairs_capacity;
+    int npairs, pairs_capacity;
     int *spare;
     int (*pair)[2]; /* [npairs] i < j, i a local */
     double least;   /* m */
@@ -161,14 +159,7 @@ void mixed_images(struct sph *s)
 /* Appends particle or ghost i to a class and widens the class's R. */
 static void put_into_class(void *owner, struct size_class *c, int i, double R)
 {
-    if (c->n == c->capacity) {
-        const int more = 2 * c->capacity + 256;
-        GROW_IN(owner, c->who, c->capacity, more);
-        GROW_IN(owner, c->x, c->capacity, more);
-        GROW_IN(owner, c->y, c->capacity, more);
-        GROW_IN(owner, c->half, c->capacity, more);
-        c->capacity = more;
-    }
+    ROOM_IN(owner, c->who, c->n + 1);
     c->who[c->n++] = i;
     c->R = fmax(c->R, R);
 }
@@ -212,14 +203,11 @@ static void sort_class(struct mixed *m, struct size_class *c, const struct sph *
 {
     lay_cells(c, s);
     const int total = c->cells[0] * c->cells[1];
-    if (total + 2 > c->cells_capacity) {
-        GROW_IN(m, c->first, c->cells_capacity, 2 * total + 64);
-        c->cells_capacity = 2 * total + 64;
-    }
-    if (c->n > m->spare_capacity) {
-        GROW_IN(m, m->spare, m->spare_capacity, 2 * c->n);
-        m->spare_capacity = 2 * c->n;
-    }
+    ROOM_IN(m, c->first, total + 2);
+    ROOM_IN(m, m->spare, c->n);
+    ROOM_IN(m, c->x, c->n);
+    ROOM_IN(m, c->y, c->n);
+    ROOM_IN(m, c->half, c->n);
     memset(c->first, 0, ((size_t)total + 2) * sizeof *c->first);
     for (int k = 0; k < c->n; k++)
         c->first[cell_at(c, prim_line(&s->p, c->who[k])) + 2]++;
@@ -301,14 +289,7 @@ static void find_pairs(struct sph *s)
 /* Grows the arrays of the list to n rows and this many entries. */
 static void make_room(struct neighbours *l, int n, int64_t entries)
 {
-    if (n + 1 > l->rows_capacity) {
-        const int old = l->rows_capacity, more = n + n / 4 + 64;
-        GROW_IN(l, l->start, old, more);
-        GROW_IN(l, l->count, old, more);
-        GROW_IN(l, l->whole, old, more);
-        GROW_IN(l, l->tail, old, more);
-        l->rows_capacity = more;
-    }
+    neighbours_room(l, n);
     if (entries > l->capacity) {
         GROW_IN(l, l->j, l->capacity, entries + entries / 4);
         l->capacity = entries + entries / 4;

@@ -1,7 +1,6 @@
 /* region_motion.c - regions that move as prescribed, with a body, or with the largest pressure.
  * What follows goes no farther in a step than half a spacing of its finest level, so that particles
  * just born have settled before they flow. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "regions.h"
 #include "regions_parts.h"
 

@@ -7,8 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "regions.h"
 
-#include "../../common/files/files.h"
-#include "../../common/scene/scene.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "criteria.h"
 #include "regions_parts.h"
@@ -167,7 +165,7 @@ static void add_box(const struct regions *g, int k, double grow, struct pieces *
 }
 
 /* The same of a sphere. */
-static void add_ball(const struct regions *g, int k, double grow, struct level *l)
+static void add_ball(struct regions *g, int k, double grow, struct level *l)
 {
     const struct apr_region *is = g->prm->regions.of + k;
     double shift[3], lo[3], hi[3];
@@ -182,7 +180,7 @@ static void add_ball(const struct regions *g, int k, double grow, struct level *
         }
         if (!is_near(g, lo, hi))
             continue;
-        GROW(l->balls, l->nballs, l->nballs + 1);
+        GROW_IN(g, l->balls, l->nballs, l->nballs + 1);
         l->balls[l->nballs++] = b;
     }
 }
@@ -192,7 +190,7 @@ static void make_level(struct regions *g, int n)
 {
     struct level *l = g->level + n;
     struct pieces boxes = {.level = n};
-    box_union_free(&l->boxes);
+    DROP(l->boxes.of);
     l->nballs = l->nlayers = 0;
     for (int k = 0; k < g->prm->regions.n; k++) {
         const struct apr_region *is = g->prm->regions.of + k;
@@ -204,11 +202,11 @@ static void make_level(struct regions *g, int n)
         } else if (is->shape == REGION_SPHERE) {
             add_ball(g, k, grow, l);
         } else {
-            GROW(l->layers, l->nlayers, l->nlayers + 1);
+            GROW_IN(g, l->layers, l->nlayers, l->nlayers + 1);
             l->layers[l->nlayers++] = (struct layer){g->shell_of[k], is->offset + grow};
         }
     }
-    l->boxes = box_union_create(g->dim, boxes.n, boxes.box, g->near);
+    l->boxes = box_union_create(g, g->dim, boxes.n, boxes.box, g->near);
     mem_free(boxes.box);
 }
 
@@ -290,7 +288,7 @@ static void add_shells(struct regions *g)
         const int n = g->shell_of[k] = g->nshells++;
         const int index = body ? region_body(c, is->body) : is->wall - 1;
         g->body_of[n] = body ? index : -1;
-        g->shells[n] = shell_create(c, body ? MESH_OF_BODY : MESH_OF_WALL, index);
+        g->shells[n] = shell_create(g, c, body ? MESH_OF_BODY : MESH_OF_WALL, index);
     }
 }
 
@@ -329,22 +327,6 @@ struct regions *regions_create(const struct run *r, const struct sph_params *prm
     make_parts(g);
     g->criteria = criteria_create(g);
     return g;
-}
-
-void regions_free(struct regions **of)
-{
-    struct regions *g = *of;
-    if (!g)
-        return;
-    for (int n = 1; n <= g->prm->levels; n++) {
-        box_union_free(&g->level[n].boxes);
-        FREE(g->level[n].balls, g->level[n].layers);
-    }
-    for (int n = 0; n < g->nshells; n++)
-        shell_free(g->shells + n);
-    criteria_free(g);
-    mem_free(g);
-    *of = NULL;
 }
 
 /* Cells of criteria move with the box: their marks stay with the flow around the box. */

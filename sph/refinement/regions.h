@@ -8,12 +8,10 @@
 #include "../sph.h"
 
 struct regions;
-struct h5;
 
 /* The regions of group apr; NULL: the case refines nothing. r is borrowed. Owned by the caller
- * (regions_free). Every rank holds all regions in the same state. */
+ * (FREE). Every rank holds all regions in the same state. */
 struct regions *regions_create(const struct run *r, const struct sph_params *prm);
-void regions_free(struct regions **g);
 /* Number of the finest level, >= 1. */
 int regions_levels(const struct regions *g);
 /* Signed distance of x to the edge of B_level, m, positive inside, 1 <= level, at the time of the
@@ -30,7 +28,6 @@ double regions_dt(const struct regions *g);
 /* The same for the steps of one level, where regions of the next finer one are moved after each: by
  * half of its spacing. */
 double regions_dt_outside(const struct regions *g, int level);
-struct body_motion;
 /* Sets where a body of the scene is, the same on all ranks; at the start all are where the case has
  * them. */
 void regions_set_body(struct regions *g, int body, const struct body_motion *now);

@@ -534,5 +534,5 @@ void regions_check(const struct run *r, const struct sph_params *used, struct fa
         check_motion(&c, g);
     }
     check_open_sides(r, used, g, f);
-    regions_free(&g);
+    DROP(g);
 }

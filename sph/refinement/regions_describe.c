@@ -1,7 +1,6 @@
 /* regions_describe.c - what --check says and draws of refinement. All of it makes the regions anew
  * from the parameters and frees them again, for --check has no state.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/scene/scene.h"
 #include "regions.h"
 #include "regions_check.h"
@@ -76,7 +75,7 @@ double regions_particles(const struct run *r, const struct sph_params *used)
     double sum = 0.0;
     for (int n = 1; g && n <= g->prm->levels; n++)
         sum += particles_of(r, g, n, 0.0);
-    regions_free(&g);
+    DROP(g);
     return sum;
 }
 
@@ -109,7 +108,7 @@ void regions_describe(const struct run *r, const struct sph_params *used)
         describe_level(r, g, n);
     if (g->criteria && g->prm->particles > 0.0)
         log_say("criteria keep to %.4g particles of all levels", g->prm->particles);
-    regions_free(&g);
+    DROP(g);
 }
 
 /* --- picture --- */
@@ -167,5 +166,5 @@ void regions_draw(const struct run *r, const struct sph_params *used, struct pic
     struct regions *g = regions_create(r, used);
     for (int n = 1; g && n <= g->prm->levels; n++)
         draw_level(p, g, n);
-    regions_free(&g);
+    DROP(g);
 }

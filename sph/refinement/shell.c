@@ -12,11 +12,11 @@ struct shell_line {
 };
 
 /* The segments of a line. */
-static void add_lines(struct shell *to, const struct param_points *p, bool closed)
+static void add_lines(void *owner, struct shell *to, const struct param_points *p, bool closed)
 {
     to->nlines = closed ? p->n : p->n - 1;
-    to->line = NEW(struct shell_line, to->nlines);
-    to->run = NEW(struct shell_run, to->nlines / RUN + 1);
+    to->line = NEW_IN(owner, struct shell_line, to->nlines);
+    to->run = NEW_IN(owner, struct shell_run, to->nlines / RUN + 1);
     for (int k = 0; k < to->nlines; k++) {
         const double *from = p->x[k], *end = p->x[(k + 1) % p->n];
         struct shell_line *l = to->line + k;
@@ -36,29 +36,23 @@ static void add_lines(struct shell *to, const struct param_points *p, bool close
 }
 
 /* A scene's mesh and its tree are borrowed. */
-struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index)
+struct shell shell_create(void *owner, const struct scene *s, enum mesh_owner kind, int index)
 {
-    const bool body = owner == MESH_OF_BODY;
-    const struct scene_mesh *file = scene_mesh_of(s, owner, index);
+    const bool body = kind == MESH_OF_BODY;
+    const struct scene_mesh *file = scene_mesh_of(s, kind, index);
     struct shell to = {.dim = s->domain.dim};
     if (file) {
         to.tree = file->tree;
         memcpy(to.lo, file->lo, sizeof to.lo);
         memcpy(to.hi, file->hi, sizeof to.hi);
     } else {
-        add_lines(&to, body ? &s->bodies[index].points : &s->walls[index].points,
+        add_lines(owner, &to, body ? &s->bodies[index].points : &s->walls[index].points,
                   body || s->walls[index].closed);
     }
     if (body)
         memcpy(to.centre, s->bodies[index].centre, sizeof to.centre);
     shell_move(&to, NULL);
     return to;
-}
-
-void shell_free(struct shell *s)
-{
-    FREE(s->line, s->run);
-    *s = (struct shell){0};
 }
 
 /* Sets displacement and rotation; NULL: as at the start. */

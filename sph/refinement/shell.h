@@ -24,9 +24,8 @@ struct shell {
     double x[3], Q[3][3];
 };
 
-/* Of a body or a wall of the scene that has points or a mesh. Freed by shell_free. */
-struct shell shell_create(const struct scene *s, enum mesh_owner owner, int index);
-void shell_free(struct shell *s);
+/* Of a body or a wall of the scene that has points or a mesh; its arrays belong to `owner'. */
+struct shell shell_create(void *owner, const struct scene *s, enum mesh_owner kind, int index);
 /* Takes the surface to where its body is now; NULL: to the start. */
 void shell_move(struct shell *s, const struct body_motion *now);
 /* Distance of x from the surface, on either side, m; beyond reach some value between that and

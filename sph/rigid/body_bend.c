@@ -2,7 +2,6 @@
  * plate. Between two points the outline is straight and its velocity linear, so that the work of
  * the loads on the points is that of the forces on the pieces. Points are those of the case, in its
  * order. SPDX-License-Identifier: BSD-3-Clause */
-
 #include "body.h"
 
 struct body_bend *body_bend_create(const struct scene_body *is)

@@ -5,7 +5,6 @@
  * sliders and locked degrees of freedom are reduced equations, so that nothing drifts from them.
  * The angular acceleration of a body that rotates freely in 3D is Q I^-1 Q^T (T - omega x L).
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../../common/geometry/geometry.h"
 #include "../../common/scene/scene.h"
 #include "body.h"
@@ -47,8 +46,7 @@ static void set_hinge(struct body *b, const struct scene_hinge *h)
     f->rotation = TURNS_AXIS;
     unit(b->dim == 2 ? z : h->axis, f->axis);
     memcpy(f->hinge, h->at, sizeof f->hinge);
-    for (int a = 0; a < 3; a++)
-        f->arm[a] = b->centre[a] - h->at[a];
+    vec3_from(h->at, b->centre, f->arm);
     vec3_cross(f->axis, f->arm, across);
     f->J = inertia_about(f, f->axis) + f->mass * vec3_dot(across, across);
 }

@@ -7,7 +7,6 @@
  * (closed tanks: 1.5e-3 c0 -> 1e-4 c0; without mass flux they diverged). Not for delta and
  * standard, which need the shift to keep their order: 4e-4 c0 with U/4, 5e-3 without.
  * SPDX-License-Identifier: BSD-3-Clause */
-
 #include "../pairs/sph_pairs.h"
 #include "../walls/sph_walls.h"
 #include "surface.h"

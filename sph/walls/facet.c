@@ -256,8 +256,7 @@ struct facet_place facet_ask(struct facet_batch *b, const struct facet *f, const
                              double R, struct wall_integrals *to)
 {
     double y[3], p[3], x1[3], least2 = INFINITY;
-    for (int a = 0; a < 3; a++)
-        y[a] = f->centre[a] - x[a];
+    vec3_from(x, f->centre, y);
     const double D = vec3_dot(f->n, y) / R, away2 = vec3_dot(y, y);
     struct facet_place place = {D * R, fabs(D) * R, false};
     if (f->longest < 0.5 * R) {
@@ -274,8 +273,7 @@ struct facet_place facet_ask(struct facet_batch *b, const struct facet *f, const
         return place;
     place.foot = true;
     for (int s = 0; s < 3; s++) {
-        for (int a = 0; a < 3; a++)
-            y[a] = f->v[s][a] - x[a];
+        vec3_from(x, f->v[s], y);
         p[s] = vec3_dot(f->m[s], y) / R;
         x1[s] = vec3_dot(f->t[s], y) / R;
         const double out = more(0.0, more(x1[s], -x1[s] - f->length[s] / R));
@@ -327,8 +325,7 @@ double facet_nearest(const struct facet *f, const double *x, double *foot)
     double y[3], least2 = INFINITY;
     bool inside = true;
     for (int s = 0; s < 3; s++) {
-        for (int a = 0; a < 3; a++)
-            y[a] = f->v[s][a] - x[a];
+        vec3_from(x, f->v[s], y);
         inside = inside && vec3_dot(f->m[s], y) >= 0.0;
         const double along = more(0.0, less(-vec3_dot(f->t[s], y), f->length[s]));
         double r2 = 0.0;

@@ -39,11 +39,7 @@ int ghost_append(struct sph *s, struct ghost_block *g, int n)
     if (g->n == 0)
         g->first = s->p.nghost;
     particles_reserve(&s->p, first + n);
-    if (g->n + n > g->capacity) {
-        const int more = 2 * g->capacity + n + 64;
-        GROW_IN(s->walls->state, g->rub, g->capacity * s->dim, more * s->dim);
-        g->capacity = more;
-    }
+    ROOM_IN(s->walls->state, g->rub, (g->n + n) * s->dim);
     s->p.nghost += n;
     g->n += n;
     return first;

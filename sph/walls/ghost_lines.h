@@ -8,8 +8,7 @@
 
 /* Ghosts of walls: a contiguous block among the ghosts of s->p. */
 struct ghost_block {
-    int n, first; /* first: counted from the first ghost */
-    int capacity;
+    int n, first;      /* first: counted from the first ghost */
     double *rub;       /* [n][dim] m/s: u of the no-slip form minus u of the slip form; owned */
     bool has_friction; /* any of it is not zero */
 };

@@ -1,7 +1,6 @@
 /* wall_layers.c - see wall_layers.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "wall_layers.h"
 
-#include "../../common/scene/scene.h"
 #include "../pairs/sph_pairs.h"
 
 /* int f dS over the plane at the height h, f of the distance, within R. Midpoints. */

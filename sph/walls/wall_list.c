@@ -9,28 +9,17 @@ enum { WALL_GROUP = 8 };
 
 void wall_list_room(struct wall_list *l, int touches)
 {
-    if (l->n + 2 > l->capacity) {
-        const int more = 2 * l->capacity + 256;
-        GROW_IN(l->owner, l->who, l->capacity, more);
-        GROW_IN(l->owner, l->first, l->capacity, more);
-        GROW_IN(l->owner, l->gamma, l->capacity, more);
-        l->capacity = more;
-    }
-    if (touches > l->touches_capacity) {
-        const int more = 2 * touches + 256;
-        GROW_IN(l->owner, l->touch, l->touches_capacity, more);
-        l->touches_capacity = more;
-    }
+    ROOM_IN(l->owner, l->who, l->n + 2);
+    ROOM_IN(l->owner, l->first, l->n + 2);
+    ROOM_IN(l->owner, l->gamma, l->n + 2);
+    ROOM_IN(l->owner, l->touch, touches);
 }
 
 /* Neighbours along a polyline share a box, so that most particles are done with few of them. */
 static int lay_boxes(const struct walls *w, struct wall_list *l, double reach)
 {
     const int n = (w->nsegments + WALL_GROUP - 1) / WALL_GROUP;
-    if (n > l->boxes_capacity) {
-        GROW_IN(l->owner, l->boxes, l->boxes_capacity, n);
-        l->boxes_capacity = n;
-    }
+    ROOM_IN(l->owner, l->boxes, n);
     for (int k = 0; k < n; k++) {
         double *box = l->boxes[k];
         box[0] = box[1] = INFINITY;
@@ -79,10 +68,7 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
 /* Of the part of a segment that touch t has, that from `from' to `to' is left. */
 static void cut_touch(struct wall_list *l, struct wall_touch *t, double from, double to)
 {
-    if (l->ncuts == l->cuts_capacity) {
-        GROW_IN(l->owner, l->cut, l->cuts_capacity, 2 * l->cuts_capacity + 64);
-        l->cuts_capacity = 2 * l->cuts_capacity + 64;
-    }
+    ROOM_IN(l->owner, l->cut, l->ncuts + 1);
     l->cut[l->ncuts][0] = t->of < 0 ? from : fmax(from, l->cut[t->of][0]);
     l->cut[l->ncuts][1] = t->of < 0 ? to : fmin(to, l->cut[t->of][1]);
     t->of = l->ncuts++;
@@ -124,14 +110,6 @@ static int leave_seen(const struct walls *w, struct wall_list *l, const struct w
     return kept;
 }
 
-static void make_room_for_parted(struct wall_list *l)
-{
-    if (l->n < l->parted_capacity)
-        return;
-    GROW_IN(l->owner, l->parted, l->parted_capacity, l->capacity);
-    l->parted_capacity = l->capacity;
-}
-
 /* Of the l->n-th to be, at x, with touches [first, n); returns the new n. */
 static int part(const struct walls *w, struct wall_list *l, const double *x, double reach,
                 int first, int n)
@@ -144,7 +122,7 @@ static int part(const struct walls *w, struct wall_list *l, const double *x, dou
         n = leave_seen(w, l, l->joints.of + k, x, first, n);
     }
     if (l->joints.n > 0) {
-        make_room_for_parted(l);
+        ROOM_IN(l->owner, l->parted, l->n + 1);
         l->parted[l->n] = any;
     }
     return n;
@@ -307,10 +285,7 @@ static void close_open_ends(const struct sph *s, struct wall_list *l)
 {
     if (s->dim == 3 || !s->walls->any_open)
         return;
-    if (l->n > l->rims_capacity) {
-        GROW_IN(l->owner, l->rim, l->rims_capacity, l->n + l->n / 2);
-        l->rims_capacity = l->n + l->n / 2;
-    }
+    ROOM_IN(l->owner, l->rim, l->n);
     for (int k = 0; k < l->n; k++) {
         memset(l->rim[k], 0, sizeof *l->rim);
         for (int j = l->first[k]; j < l->first[k + 1]; j++)
@@ -446,11 +421,8 @@ const double *wall_list_shares(const struct sph *s, struct wall_list *l, int k, 
         any = t[j].body != body && !walls_sealed(s, body, t[j].body) && reaches(s, l, t + j, x);
     if (!any)
         return NULL;
-    if (n > l->shares_capacity) {
-        GROW_IN(l->owner, l->share, l->shares_capacity, 2 * n);
-        GROW_IN(l->owner, l->asked, l->shares_capacity, 2 * n);
-        l->shares_capacity = 2 * n;
-    }
+    ROOM_IN(l->owner, l->share, n);
+    ROOM_IN(l->owner, l->asked, n);
     if (s->dim == 3)
         wall_list3_shares(s, l, k, face, x);
     for (int j = 0; j < n && s->dim == 2; j++) {

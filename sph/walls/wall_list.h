@@ -38,33 +38,28 @@ struct thin_piece; /* wall_thin3.c */
 /* The list. Zeroed memory with an owner is empty. */
 struct wall_list {
     void *owner; /* a block, of all arrays here */
-    int n, capacity;
-    int *who, *first; /* [n] locals near walls; [n+1] the first touch of each */
-    int touches_capacity;
+    int n;
+    int *who, *first;         /* [n] locals near walls; [n+1] the first touch of each */
     struct wall_touch *touch; /* [first[n]] */
     double *gamma;            /* [n] Shepard factor */
     bool measured;            /* touch and gamma belong to the present positions */
-    int boxes_capacity;
-    double (*boxes)[4]; /* 2D: around groups of segments: low x, y, high x, y */
+    double (*boxes)[4];       /* 2D: around groups of segments: low x, y, high x, y */
     /* 2D, where walls touch: points that part the fluid, which particles are beside one [n, NULL:
      * there are none], parts of segments that they see, m along these */
     struct wall_joints joints;
-    int parted_capacity, ncuts, cuts_capacity;
+    int ncuts;
     bool *parted;
     double (*cut)[2];
     /* 3D: triangles that were seen, by mesh; what a tree found; what is near a group */
-    int nframes, found_capacity, near_capacity;
+    int nframes, found_capacity;
     struct wall_frames *of3;
     int *found;
     struct wall_near *near;
     /* Thin walls in 3D, open ends in 2D: what closes the sums at rims, m^-1. 3D: places at the last
      * list and its time */
-    int rims_capacity;
     double (*rim)[3], (*seen_from)[3], listed_at;
-    int pieces_capacity, shown_capacity; /* of the particle at hand, beside thin walls */
-    struct thin_piece *piece;
+    struct thin_piece *piece; /* of the particle at hand, beside thin walls */
     double *shown;
-    int shares_capacity;
     double *share; /* see wall_list_shares */
     struct wall_integrals *asked;
 };

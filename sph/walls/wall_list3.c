@@ -6,7 +6,7 @@
 
 /* What is known of a mesh: frames of the triangles that some particle has seen. */
 struct wall_frames {
-    int n, capacity;
+    int n;
     struct facet *facet;
     int *triangle;  /* [n] which it is */
     double *behind; /* [n] -: the kernel's part behind its owner's faces, around its middle; -1: not
@@ -47,13 +47,9 @@ static int frame_of(struct wall_frames *f, const struct wall_mesh *m, int triang
 {
     if (f->slot[triangle] >= 0)
         return f->slot[triangle];
-    if (f->n == f->capacity) {
-        const int more = 2 * f->capacity + 64;
-        GROW_IN(f->slot, f->facet, f->capacity, more);
-        GROW_IN(f->slot, f->triangle, f->capacity, more);
-        GROW_IN(f->slot, f->behind, f->capacity, more);
-        f->capacity = more;
-    }
+    ROOM_IN(f->slot, f->facet, f->n + 1);
+    ROOM_IN(f->slot, f->triangle, f->n + 1);
+    ROOM_IN(f->slot, f->behind, f->n + 1);
     const int *v = m->mesh.vertex[triangle];
     f->triangle[f->n] = triangle;
     f->behind[f->n] = -1.0;
@@ -107,10 +103,7 @@ static int ask_tree(const struct sph *s, struct wall_list *l, const struct group
         l->found_capacity = 2 * found;
         found = tree_box(m->tree, lo, hi, l->found_capacity, l->found);
     }
-    if (n + found > l->near_capacity) {
-        GROW_IN(l->owner, l->near, l->near_capacity, 2 * (n + found));
-        l->near_capacity = 2 * (n + found);
-    }
+    ROOM_IN(l->owner, l->near, n + found);
     for (int k = 0; k < found; k++)
         l->near[n++] = (struct wall_near){mesh, frame_of(l->of3 + mesh, m, l->found[k])};
     return n;

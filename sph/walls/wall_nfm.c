@@ -33,8 +33,7 @@ struct nfm {
     double *room; /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
-    int pushes_capacity, q_capacity;
-    double (*q)[3]; /* [q_capacity] N/m^dim: fluxes of the touches of the particle at hand */
+    double (*q)[3]; /* N/m^dim: fluxes of the touches of the particle at hand */
 };
 
 static void *nfm_create(struct sph *s)
@@ -58,11 +57,7 @@ static void list(struct sph *s)
 static void judge(const struct sph *s, struct nfm *m)
 {
     const struct wall_list *l = &m->list;
-    if (l->first[l->n] > m->pushes_capacity) {
-        mem_free(m->pushes);
-        m->pushes_capacity = l->touches_capacity;
-        m->pushes = NEW_IN(m, bool, m->pushes_capacity);
-    }
+    ROOM_IN(m, m->pushes, l->first[l->n]);
     for (int k = 0; k < l->n; k++)
         for (int j = l->first[k]; j < l->first[k + 1]; j++) {
             double x[3];
@@ -122,11 +117,7 @@ static double crowding(const struct sph *s, const struct nfm *m, const struct wa
 static void mark_beside_walls(struct sph *s, const struct wall_list *l)
 {
     struct walls *w = s->walls;
-    if (s->p.n > w->beside_capacity) {
-        mem_free(w->beside);
-        w->beside_capacity = s->p.n + s->p.n / 8;
-        w->beside = NEW_IN(w, bool, w->beside_capacity);
-    }
+    ROOM_IN(w, w->beside, s->p.n);
     for (int i = 0; i < s->p.n; i++)
         w->beside[i] = false;
     for (int k = 0; k < l->n; k++)
@@ -448,11 +439,7 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     const struct wall_list *l = &m->list;
     const int n = l->first[k + 1] - l->first[k];
     struct given all = *rim;
-    if (n > m->q_capacity) {
-        mem_free(m->q);
-        m->q_capacity = 2 * n + 16;
-        m->q = mem_new_in(m, (size_t)m->q_capacity, sizeof *m->q);
-    }
+    ROOM_IN(m, m->q, n);
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + l->first[k] + j;
         const struct given to = t->is.W > 0.0 ? flux(s, t, i, wave, dim) : (struct given){0};

@@ -76,11 +76,8 @@ void wall_list3_cut(const struct sph *s, struct wall_list *l)
     for (int k = 0; k < l->n; k++)
         if (has_thin(s, l, k))
             wall_list_cut_row(s, l, k, sees);
-    if (l->n > l->rims_capacity) {
-        GROW_IN(l->owner, l->rim, l->rims_capacity, l->n + l->n / 2);
-        GROW_IN(l->owner, l->seen_from, l->rims_capacity, l->n + l->n / 2);
-        l->rims_capacity = l->n + l->n / 2;
-    }
+    ROOM_IN(l->owner, l->rim, l->n);
+    ROOM_IN(l->owner, l->seen_from, l->n);
     for (int k = 0; k < l->n; k++)
         memcpy(l->seen_from[k], prim_line(&s->p, l->who[k]), sizeof *l->seen_from);
     l->listed_at = s->t;
@@ -132,10 +129,7 @@ static int gather(const struct sph *s, struct wall_list *l, int k)
     struct wall_touch *t = l->touch + l->first[k];
     const int n = l->first[k + 1] - l->first[k];
     int pieces = 0;
-    if (n > l->pieces_capacity) {
-        GROW_IN(l->owner, l->piece, l->pieces_capacity, 2 * n);
-        l->pieces_capacity = 2 * n;
-    }
+    ROOM_IN(l->owner, l->piece, n);
     for (int j = 0; j < n; j++, t++) {
         double v[3][3];
         const bool thin = is_thin(s, t);
@@ -253,10 +247,7 @@ static void add_rims(const struct sph *s, const struct wall_list *l, int k, int 
 static void shade(const struct sph *s, struct wall_list *l, int k)
 {
     const int n = l->first[k + 1] - l->first[k], pieces = gather(s, l, k);
-    if (n > l->shown_capacity) {
-        GROW_IN(l->owner, l->shown, l->shown_capacity, 2 * n);
-        l->shown_capacity = 2 * n;
-    }
+    ROOM_IN(l->owner, l->shown, n);
     find_shares(s, l, k, pieces);
     for (const struct thin_piece *c = l->piece; c < l->piece + pieces; c++)
         if (c->thin && c->share > 0.0)

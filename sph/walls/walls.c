@@ -7,7 +7,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "walls.h"
 
-#include "../../common/scene/scene.h"
 #include "../particles/sph_particles.h"
 #include "forces.h"
 #include "wall_cover.h"

@@ -63,7 +63,6 @@ struct wall_mesh {
     double shift[3];      /* m: that far from it */
 };
 
-struct walls;
 /* One way to make walls act on particles, picked by name. The functions are called at the points of
  * a step that their comments say, in this order; what a model does not need is NULL. */
 struct wall_model {
@@ -135,7 +134,6 @@ struct walls {
     void *state;                    /* of the model */
     /* [n] whether a local's support meets a wall; NULL: the model does not report it. */
     bool *beside;
-    int beside_capacity;
     /* [n] 0: farther than R from a free surface; borrowed of the present list's surface. NULL: not
      * known. */
     const unsigned char *near_surface;

@@ -2,7 +2,6 @@
  * or denser than impacts at the speeds seen so far can make it. The worst of all ranks is named by
  * its place; the cause follows from what is measured there. SPDX-License-Identifier: BSD-3-Clause
  */
-
 #include "../particles/sph_particles.h"
 #include "../sph.h"
 #include "../walls/sph_walls.h"

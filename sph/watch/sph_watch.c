@@ -23,7 +23,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include "../../common/files/files.h"
 #include "../pairs/sph_pairs.h"
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"

@@ -64,6 +64,24 @@ static inline struct scene *sph_case_tank(struct sph_case *c, int cells, double 
     return e;
 }
 
+/* The tank with a column of water in its left corner that falls, in units of its height; wall
+ * terms, Riemann. */
+static inline struct scene *sph_case_column(struct sph_case *c, int cells)
+{
+    struct scene *e = sph_case_tank(c, cells, 1.0, 3);
+    e->fluid.rho = 1000.0;
+    e->time.end = 10.0;
+    e->nshapes = 1;
+    e->shapes[0].form = SHAPE_BOX;
+    e->shapes[0].box[1][0] = e->shapes[0].box[1][1] = 0.5;
+    c->prm.scheme = SCHEME_RIEMANN;
+    c->prm.surface = SURFACE_YES;
+    c->prm.dissipation = 0.1;
+    c->prm.walls = WALLS_NFM;
+    c->prm.density_limit = 0.5;
+    return e;
+}
+
 static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
 {
     memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);
@@ -142,6 +160,43 @@ static inline double velocity_error(const struct sph *s)
         }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     return sqrt(sums[0] / sums[1]);
+}
+
+/* nu Lap u of the particles in row `row' above a no-slip wall, u_x = z^power with z the last axis,
+ * over the rate by a step so short that nothing moves; R = 4 dx. NAN: the run failed. */
+static inline double sph_case_laplacian(int dim, int cells, int row, int power)
+{
+    struct sph_case c;
+    sph_case_set(&c, dim, cells);
+    struct scene *e = &c.run.scene;
+    const int z = dim - 1, w = 2 * dim + 1;
+    e->fluid.nu = 1.0;
+    e->domain.periodic[z] = false;
+    e->initial.field = FIELD_REST;
+    e->nwalls = 2;
+    for (int k = 0; k < 2; k++) {
+        e->walls[k].side = SIDE_X_MIN + 2 * z + k;
+        e->walls[k].kind = WALL_NO_SLIP;
+        e->walls[k].velocity[0] = k;
+    }
+    c.prm.R_dx = 4.0;
+    c.prm.scheme = SCHEME_RIEMANN;
+    c.prm.transport = TRANSPORT_EULERIAN;
+    c.prm.limiter = LIMITER_NONE;
+    const struct sph *s = sph_case_start(&c, NULL);
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = state_row(&s->p, s->p.y, i);
+        y[dim] = y[w] * pow(y[z], power);
+    }
+    const bool good = sph_case_run(&c, 1, 1e-8);
+    double most = -1e300;
+    for (int i = 0; i < s->p.n; i++) {
+        const double *y = state_row(&s->p, s->p.y, i);
+        if (fabs(y[z] - (row + 0.5) / cells) < 1e-6)
+            most = fmax(most, (y[dim] / y[w] - pow(y[z], power)) / 1e-8);
+    }
+    DROP(c.s);
+    return good ? max_anywhere(most) : NAN;
 }
 
 #endif

@@ -52,8 +52,8 @@ static inline void toy_create(struct toy *t, int dim, int cells, double R_dx, do
     s->step.shift_speed = 1.0;
     s->gamma = s->prm.gamma = 7.0;
     s->lists.skin = 0.05 * s->R;
-    particles_create(&s->p, dim, 0);
     s->list = neighbours_create();
+    particles_create(s->list, &s->p, dim, 0);
     for (int k = 0; k < (dim == 3 ? cells : 1); k++)
         for (int j = 0; j < cells; j++)
             for (int i = 0; i < cells; i++) {
@@ -108,10 +108,6 @@ static inline void toy_split(struct toy *t, const struct toy *all, double cut)
     t->s.scheme = &t->s.passes;
 }
 
-static inline void toy_free(struct toy *t)
-{
-    DROP(t->s.list);
-    particles_free(&t->s.p);
-}
+static inline void toy_free(struct toy *t) { DROP(t->s.list); }
 
 #endif

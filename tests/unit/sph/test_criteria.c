@@ -11,8 +11,6 @@
 #include "../../../sph/refinement/regions_parts.h"
 #include "sph_case.h"
 
-static double uniform(double lo, double hi) { return lo + (hi - lo) * (rand() / (RAND_MAX + 1.0)); }
-
 /* --- marks --- */
 
 /* Distance of x from the nearest cell whose mark differs; cells beyond the ends as marks.h has it.
@@ -53,7 +51,7 @@ static void distances_from(int dim, const bool *periodic, const bool *open, int 
 {
     struct marks c;
     const double lo[3] = {-0.5, 0.0, 0.1}, hi[3] = {0.5, 1.3, 0.8};
-    assert_true(marks_create(&c, dim, lo, hi, periodic, open, 0.1, 1e6));
+    assert_true(marks_create(NULL, &c, dim, lo, hi, periodic, open, 0.1, 1e6));
     const double h = fmin(fmin(c.h[0], c.h[1]), dim == 3 ? c.h[2] : 1.0);
     assert_true(h >= 0.1 * (1.0 - 1e-9));
     for (int turn = 0; turn < 6; turn++) {
@@ -65,7 +63,7 @@ static void distances_from(int dim, const bool *periodic, const bool *open, int 
         for (int p = 0; p < points; p++) {
             double x[3];
             for (int a = 0; a < 3; a++)
-                x[a] = uniform(lo[a], hi[a]);
+                x[a] = random_in(lo[a], hi[a]);
             const double d = marks_distance(&c, x), e = brute(&c, x);
             assert_true((d > 0.0) == (e > 0.0));
             const double exact = e > 0.0 ? 2.0 * h : h;
@@ -75,7 +73,7 @@ static void distances_from(int dim, const bool *periodic, const bool *open, int 
                 assert_true(fabs(d) <= fabs(e) + 1e-12 && fabs(d) >= exact * (1.0 - 1e-12));
         }
     }
-    marks_free(&c);
+    FREE(c.mark, c.depth);
 }
 
 TEST(distance_to_marked_cells_is_exact_near_their_edge)
@@ -143,7 +141,8 @@ TEST(vorticity_is_refined_with_all_levels_around)
         srand(6);
         long wrong = 0, fine = 0;
         for (int k = 0; k < 4000; k++) {
-            const double x[3] = {uniform(0, 1), uniform(0, 1), dim == 3 ? uniform(0, 1) : 0.0};
+            const double x[3] = {random_in(0, 1), random_in(0, 1),
+                                 dim == 3 ? random_in(0, 1) : 0.0};
             double r2 = 0.0;
             for (int a = 0; a < dim; a++)
                 r2 += pow(x[a] - at[a], 2.0);
@@ -159,7 +158,7 @@ TEST(vorticity_is_refined_with_all_levels_around)
         }
         assert_true(wrong == 0 && fine > 0);
         assert_true(regions_distance(g, 1, (const double[]){0.05, 0.9, 0.05}) < 0.0 || dim == 3);
-        regions_free(&g);
+        DROP(g);
     }
 }
 
@@ -182,7 +181,7 @@ TEST(cells_stay_for_a_while)
     assert_int_equal(marked(g, 1), first);
     evaluate(g, at, 0.01, 4.1 * life);
     assert_int_equal(marked(g, 1), 0);
-    regions_free(&g);
+    DROP(g);
 }
 
 /* Particles if every place of the lattice has all that its levels ask for. */
@@ -208,7 +207,7 @@ TEST(the_budget_is_kept)
     evaluate(g, at, 1.0, 0.0);
     const double free = count(g);
     assert_close(criteria_forecast(g), free, 0.02 * free);
-    regions_free(&g);
+    DROP(g);
     double last = free;
     for (int k = 1; k <= 4; k++) {
         const double budget = 6400.0 + (free - 6400.0) * (1.0 - 0.2 * k);
@@ -220,7 +219,7 @@ TEST(the_budget_is_kept)
         /* cells that would have to stay give way, too */
         evaluate(g, (const double[]){0.2, 0.7, 0.0}, 1.0, 0.01);
         assert_true(count(g) <= budget && count(g) > 6400.0);
-        regions_free(&g);
+        DROP(g);
     }
 }
 
@@ -245,7 +244,7 @@ TEST(open_sides_are_left_alone)
     const double end = 1.0 - 2.5 * 0.05 - 0.05; /* transition, buffer, R */
     assert_true(regions_distance(g, 1, (const double[]){end + 1e-6, 0.5, 0.0}) < 0.0);
     assert_true(regions_distance(g, 1, (const double[]){end - 0.07, 0.5, 0.0}) > 0.0);
-    regions_free(&g);
+    DROP(g);
 }
 
 TEST(a_restart_goes_on_the_same)
@@ -275,8 +274,8 @@ TEST(a_restart_goes_on_the_same)
         evaluate(g, (const double[]){0.55, 0.5, 0.0}, 0.8, 0.02 * (turn + 1));
         evaluate(h, (const double[]){0.55, 0.5, 0.0}, 0.8, 0.02 * (turn + 1));
     }
-    regions_free(&g);
-    regions_free(&h);
+    DROP(g);
+    DROP(h);
     if (c.run.rank == 0)
         remove(path);
 }
@@ -299,6 +298,6 @@ TEST(ranks_do_not_matter)
         different += memcmp(g->level[n].cells->mark, h->level[n].cells->mark,
                             marks_count(g->level[n].cells)) != 0;
     assert_true(none_anywhere(different));
-    regions_free(&g);
-    regions_free(&h);
+    DROP(g);
+    DROP(h);
 }

@@ -8,8 +8,6 @@
 
 /* --- helpers --- */
 
-static double uniform(double lo, double hi) { return lo + (hi - lo) * (rand() / (RAND_MAX + 1.0)); }
-
 /* Unit square or cube of 40 or 20 particles a side; regions of apr_given. */
 static void set(struct sph_case *c, int dim, bool periodic)
 {
@@ -82,20 +80,20 @@ static void union_of_boxes(int dim, int cases, int points)
         const int n = 1 + c % 4;
         for (int k = 0; k < n; k++)
             for (int a = 0; a < 3; a++) {
-                b[k].lo[a] = uniform(0.0, 0.6);
-                b[k].hi[a] = b[k].lo[a] + uniform(0.1, 0.4);
+                b[k].lo[a] = random_in(0.0, 0.6);
+                b[k].hi[a] = b[k].lo[a] + random_in(0.1, 0.4);
             }
         if (c % 3 == 0 && n > 1) { /* two that share a face: no edge between */
             b[1] = b[0];
             b[1].lo[0] = b[0].hi[0];
             b[1].hi[0] += 0.2;
         }
-        struct box_union u = box_union_create(dim, n, b, 1e-9);
+        struct box_union u = box_union_create(NULL, dim, n, b, 1e-9);
         for (int p = 0; p < points; p++) {
-            const double x[3] = {uniform(0.0, 1.0), uniform(0.0, 1.0), uniform(0.0, 1.0)};
+            const double x[3] = {random_in(0.0, 1.0), random_in(0.0, 1.0), random_in(0.0, 1.0)};
             assert_close(box_union_distance(&u, x), brute(n, b, x, dim), 1e-8);
         }
-        box_union_free(&u);
+        DROP(u.of);
     }
 }
 
@@ -118,7 +116,7 @@ static void ball_beside_walls(int dim, const double *centre, double radius)
         do {
             r = 0.0;
             for (int a = 0; a < dim; a++) {
-                x[a] = uniform(0.0, 1.0);
+                x[a] = random_in(0.0, 1.0);
                 r += (x[a] - centre[a]) * (x[a] - centre[a]);
             }
         } while (sqrt(r) >= radius);
@@ -171,13 +169,13 @@ TEST(levels_lie_within_each_other)
         struct regions *g = regions_create(&c.run, &c.prm);
         assert_int_equal(regions_levels(g), 3);
         for (int k = 0; k < 20000; k++) {
-            const double x[3] = {uniform(0.0, 1.0), uniform(0.0, 1.0), uniform(0.0, 1.0)};
+            const double x[3] = {random_in(0.0, 1.0), random_in(0.0, 1.0), random_in(0.0, 1.0)};
             for (int n = 1; n < 3; n++)
                 if (regions_distance(g, n + 1, x) > 0.0)
                     assert_true(regions_distance(g, n, x) >=
                                 3.0 * regions_R(g, n - 1) * (1 - 1e-9));
         }
-        regions_free(&g);
+        DROP(g);
         assert_null(g);
     }
 }
@@ -198,13 +196,13 @@ TEST(periods_are_no_edges)
     assert_close(regions_distance(g, 1, (const double[]){0.65, 1.0, 0.0}), 0.05, 1e-12);
     assert_close(regions_distance(g, 1, (const double[]){0.65, 0.0, 0.0}), 0.05, 1e-12);
     assert_close(regions_distance(g, 1, (const double[]){0.65, 0.98, 0.0}), 0.07, 1e-12);
-    regions_free(&g);
+    DROP(g);
     set(&c, 2, true); /* a whole period: no edges along it */
     add_box(1, 0.0, 0.2, 1.0, 0.8);
     g = regions_create(&c.run, &c.prm);
     assert_close(regions_distance(g, 1, (const double[]){0.001, 0.5, 0.0}), 0.3, 1e-12);
     assert_close(regions_distance(g, 1, (const double[]){0.999, 0.1, 0.0}), -0.1, 1e-12);
-    regions_free(&g);
+    DROP(g);
 }
 
 TEST(walls_are_no_edges)
@@ -215,7 +213,7 @@ TEST(walls_are_no_edges)
     struct regions *g = regions_create(&c.run, &c.prm);
     assert_close(regions_distance(g, 1, (const double[]){0.5, 0.001, 0.0}), 0.2, 1e-12);
     assert_close(regions_distance(g, 1, (const double[]){0.35, 0.001, 0.0}), 0.05, 1e-12);
-    regions_free(&g);
+    DROP(g);
     /* the same for a wall of points: a tank smaller than the domain */
     const double tank[4][2] = {{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}};
     set(&c, 2, false);
@@ -227,7 +225,7 @@ TEST(walls_are_no_edges)
     g = regions_create(&c.run, &c.prm);
     assert_true(regions_distance(g, 1, (const double[]){0.5, 0.101, 0.0}) > regions_R(g, 0));
     assert_close(regions_distance(g, 1, (const double[]){0.35, 0.2, 0.0}), 0.05, 1e-12);
-    regions_free(&g);
+    DROP(g);
 }
 
 TEST(a_given_outer_region_is_taken)
@@ -239,7 +237,7 @@ TEST(a_given_outer_region_is_taken)
     struct regions *g = regions_create(&c.run, &c.prm);
     assert_close(regions_distance(g, 1, (const double[]){0.3, 0.5, 0.0}), 0.1, 1e-12);
     assert_close(regions_distance(g, 2, (const double[]){0.3, 0.5, 0.0}), -0.1, 1e-12);
-    regions_free(&g);
+    DROP(g);
 }
 
 /* Within an offset of a body that has turned, by the points of its outline. */
@@ -262,7 +260,7 @@ TEST(bodies_have_layers_that_move)
     srand(4);
     for (int moved = 0; moved < 2; moved++) {
         for (int p = 0; p < 200; p++) {
-            const double x[3] = {uniform(0.0, 1.0), uniform(0.0, 1.0), 0.0};
+            const double x[3] = {random_in(0.0, 1.0), random_in(0.0, 1.0), 0.0};
             double best = INFINITY;
             for (int k = 0; k < 5; k++)
                 for (int i = 0; i <= 1000; i++) {
@@ -282,7 +280,7 @@ TEST(bodies_have_layers_that_move)
         regions_set_body(g, 0, &now);
         regions_move(g, 0.1);
     }
-    regions_free(&g);
+    DROP(g);
 }
 
 /* --- motion --- */
@@ -304,7 +302,7 @@ TEST(sets_move_together)
         assert_close(regions_distance(g, 1, (const double[]){x, 0.45, 0.0}), 0.05 + 3.0 * R, 1e-9);
         assert_close(regions_distance(g, 1, (const double[]){0.85, 0.85, 0.0}), 0.05, 1e-9);
     }
-    regions_free(&g);
+    DROP(g);
 }
 
 /* What follows the peak comes to it by half a finest spacing a step and stops within R of it. */
@@ -333,7 +331,7 @@ TEST(the_peak_is_followed)
     /* x = 0.65 lies at 0.65 - shift - 0.1 from the lower face; the wall below is no edge */
     assert_close(regions_distance(g, 1, (const double[]){0.65, 0.0, 0.0}), 0.4 + shift[0] - 0.65,
                  1e-9);
-    regions_free(&g);
+    DROP(g);
 }
 
 /* What a distance costs goes with the boxes that the complement is cut into. */
@@ -346,5 +344,5 @@ TEST(few_boxes_leave_few)
     add_box(1, 0.6, 0.1, 0.9, 0.5);
     struct regions *g = regions_create(&c.run, &c.prm);
     assert_true(g->level[1].boxes.nrest <= 16);
-    regions_free(&g);
+    DROP(g);
 }

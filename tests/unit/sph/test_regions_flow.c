@@ -33,29 +33,11 @@ static double particles(const struct sph *s, bool flowing)
     return n;
 }
 
-/* A tank of water that fills its left part and falls; in units of its height. */
-static void set_column(struct sph_case *c, int cells)
-{
-    struct scene *e = sph_case_tank(c, cells, 1.0, 3);
-    e->fluid.rho = 1000.0;
-    e->time.end = 10.0;
-    e->domain.max[0] = 1.2;
-    e->nshapes = 1;
-    e->shapes[0].form = SHAPE_BOX;
-    e->shapes[0].box[1][0] = 0.5;
-    e->shapes[0].box[1][1] = 0.5;
-    c->prm.scheme = SCHEME_RIEMANN;
-    c->prm.surface = SURFACE_YES;
-    c->prm.dissipation = 0.1;
-    c->prm.walls = WALLS_NFM;
-    c->prm.density_limit = 0.5;
-}
-
 /* Whoever lies on the surface, and R of the coarser level around it, is in the region. */
 TEST(the_surface_is_refined)
 {
     struct sph_case c;
-    set_column(&c, 64);
+    sph_case_column(&c, 64)->domain.max[0] = 1.2;
     ask(CRITERION_SURFACE, 0.0, 1.0, 1, 0.0);
     apr_given.around = 2;
     struct sph *s = sph_case_start(&c, NULL);
@@ -172,7 +154,7 @@ TEST(still_water_is_refined_by_its_weight_alone)
     for (int k = 0; k < 3; k++) {
         struct sph_case c;
         long in = 0, out = 0;
-        set_column(&c, 40);
+        sph_case_column(&c, 40)->domain.max[0] = 1.2;
         c.run.scene.shapes[0].box[1][0] = 1.2;
         ask(kinds[k], bounds[k], 0.0, 1, 0.0);
         apr_given.around = 2;
@@ -200,7 +182,7 @@ TEST(steep_pressures_are_refined)
     for (int k = 0; k < 2; k++) {
         struct sph_case c;
         long above = 0, outside = 0;
-        set_column(&c, 48);
+        sph_case_column(&c, 48)->domain.max[0] = 1.2;
         ask(kinds[k], bounds[k], 0.0, 1, 0.0);
         apr_given.around = 2;
         struct sph *s = sph_case_start(&c, NULL);
@@ -228,7 +210,7 @@ TEST(steep_pressures_are_refined)
 TEST(the_peak_takes_its_region_along)
 {
     struct sph_case c;
-    set_column(&c, 32);
+    sph_case_column(&c, 32)->domain.max[0] = 1.2;
     apr_given = (struct apr_params){.margin = 3.0, .around = 3};
     apr_given.regions.n = 1;
     struct apr_region *is = apr_given.regions.of;

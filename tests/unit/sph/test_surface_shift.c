@@ -19,18 +19,8 @@ TEST(the_law_is_the_printed_one)
 /* A column that collapses in a corner, without weight from the test on. */
 static struct sph *collapse(struct sph_case *c)
 {
-    struct scene *e = sph_case_tank(c, 32, 1.0, 3);
-    e->fluid.rho = 1000.0;
-    e->time.end = 10.0;
-    e->nshapes = 1;
-    e->shapes[0].form = SHAPE_BOX;
-    e->shapes[0].box[1][0] = e->shapes[0].box[1][1] = 0.5;
-    c->prm.scheme = SCHEME_RIEMANN;
-    c->prm.surface = SURFACE_YES;
+    sph_case_column(c, 32);
     c->prm.surface_shift = SURFACE_SHIFT_BETA;
-    c->prm.dissipation = 0.1;
-    c->prm.walls = WALLS_NFM;
-    c->prm.density_limit = 0.5;
     struct sph *s = sph_case_start(c, NULL);
     assert_true(sph_case_run(c, 60, 10.0));
     integrate_gradients(s);

@@ -146,53 +146,17 @@ TEST(walls_go_on_beyond_periodic_sides)
 
 /* --- operators --- */
 
-/* nu Lap u of the particles in row `row' above a no-slip wall, u_x = z^power, over the rate by a
- * step so short that nothing moves; R = 4 dx. */
-static double laplacian(int row, int power)
-{
-    enum { CELLS = 12 };
-    struct sph_case c;
-    sph_case_set(&c, 3, CELLS);
-    struct scene *e = &c.run.scene;
-    e->fluid.nu = 1.0;
-    e->domain.periodic[2] = false;
-    e->initial.field = FIELD_REST;
-    e->nwalls = 2;
-    for (int k = 0; k < 2; k++) {
-        e->walls[k].side = SIDE_Z_MIN + k;
-        e->walls[k].kind = WALL_NO_SLIP;
-        e->walls[k].velocity[0] = k;
-    }
-    c.prm.R_dx = 4.0;
-    c.prm.scheme = SCHEME_RIEMANN;
-    c.prm.transport = TRANSPORT_EULERIAN;
-    c.prm.limiter = LIMITER_NONE;
-    const struct sph *s = sph_case_start(&c, NULL);
-    for (int i = 0; i < s->p.n; i++) {
-        double *y = state_row(&s->p, s->p.y, i);
-        y[3] = y[7] * pow(y[2], power);
-    }
-    assert_true(sph_case_run(&c, 1, 1e-8));
-    double most = -1e300;
-    for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i);
-        if (fabs(y[2] - (row + 0.5) / CELLS) < 1e-6)
-            most = fmax(most, (y[3] / y[7] - pow(y[2], power)) / 1e-8);
-    }
-    DROP(c.s);
-    return max_anywhere(most);
-}
-
 /* The wall's share of the Laplacian; limits 0 and 2, at R/dx = 4 as near to them as in 2D. */
 TEST(laplacian_at_a_wall)
 {
     const double R = 4.0 / 12.0;
-    print_message("Lap z %.3f %.3f /R, Lap z^2 %.3f %.3f\n", laplacian(0, 1) * R,
-                  laplacian(1, 1) * R, laplacian(0, 2), laplacian(1, 2));
-    assert_close(laplacian(0, 1) * R, 0.0, 0.15);
-    assert_close(laplacian(1, 1) * R, 0.0, 0.15);
-    assert_close(laplacian(0, 2), 2.0, 0.1);
-    assert_close(laplacian(1, 2), 2.0, 0.1);
+    print_message("Lap z %.3f %.3f /R, Lap z^2 %.3f %.3f\n", sph_case_laplacian(3, 12, 0, 1) * R,
+                  sph_case_laplacian(3, 12, 1, 1) * R, sph_case_laplacian(3, 12, 0, 2),
+                  sph_case_laplacian(3, 12, 1, 2));
+    assert_close(sph_case_laplacian(3, 12, 0, 1) * R, 0.0, 0.15);
+    assert_close(sph_case_laplacian(3, 12, 1, 1) * R, 0.0, 0.15);
+    assert_close(sph_case_laplacian(3, 12, 0, 2), 2.0, 0.1);
+    assert_close(sph_case_laplacian(3, 12, 1, 2), 2.0, 0.1);
 }
 
 /* A uniform flow along slip walls stays: no force, no change of volume. */
