@@ -216,6 +216,17 @@ static void find_near(struct sph *s, struct free_surface *f)
     }
 }
 
+static bool finds_near(const struct sph *s)
+{
+    return s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO;
+}
+
+bool surface_reaches(const struct sph *s, int i)
+{
+    return s->surface && s->surface->lambda[i] < 1.0 &&
+           (s->surface->is[i] != SURFACE_INNER || !finds_near(s));
+}
+
 void surface_detect(struct sph *s)
 {
     struct free_surface *f = s->surface;
@@ -223,9 +234,10 @@ void surface_detect(struct sph *s)
     for (int i = 0; i < s->p.n; i++)
         classify(s, f, i);
     f->known = true;
+    if (!finds_near(s))
+        return; /* nobody asks */
     find_near(s, f);
-    if ((s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO) && s->walls &&
-        f->reach == s->R)
+    if (s->walls && f->reach == s->R)
         s->walls->near_surface = f->is;
 }
 
@@ -235,11 +247,13 @@ void surface_detect(struct sph *s)
 void surface_calm(struct sph *s)
 {
     const int dim = s->dim;
+    const double beside_walls = s->mixed ? 1.0 : 1.0 - scheme_streams(s);
     for (int i = 0; i < s->p.n; i++) {
         const double lambda = s->surface->lambda[i];
-        if (lambda >= 1.0 || s->surface->is[i] == SURFACE_INNER)
+        const double share = surface_reaches(s, i) ? 1.0 : beside_walls;
+        if (lambda >= 1.0)
             continue;
-        const double out = (lambda < inside ? 1.0 : (1.0 - lambda) / (1.0 - inside)) / dim;
+        const double out = share * (lambda < inside ? 1.0 : (1.0 - lambda) / (1.0 - inside)) / dim;
         double *g = slope_line(&s->p, i) + dim, divergence = 0.0;
         for (int a = 0; a < dim; a++)
             divergence += g[dim * a + a];

@@ -39,12 +39,15 @@ static inline double surface_beta(double v)
 struct free_surface *sph_surface_create(struct sph *s);
 /* Makes room for n locals; contents are kept. */
 void surface_room(struct free_surface *f, int n, int dim);
-/* Classifies the locals, after the first pass. Collective. */
+/* Classifies the locals, after the first pass. SURFACE_NEAR and its normals are found for the
+ * transport velocities tvs and tvo alone, for only those use them. Collective. */
 void surface_detect(struct sph *s);
-/* For the acoustic damper: near the surface removes the divergence from the gradients of u as far
- * as the support lacks neighbours, from lambda = 1 (nothing) to 0.75 (all), since there it is an
- * error and no sound. Beside walls lambda lacks as much where no surface is near: there damper.c
- * finds the error. */
+/* Whether neighbours of local i are missing because the surface is near, not for walls alone. */
+bool surface_reaches(const struct sph *s, int i);
+/* For the acoustic damper: removes the divergence from the gradients of u as far as the support
+ * lacks neighbours, from lambda = 1 (nothing) to 0.75 (all), since there it is an error and no
+ * sound. Where walls and no surface make lambda small it does so in water nearly at rest alone: in
+ * streams damper.c finds the error. */
 void surface_calm(struct sph *s);
 
 /* In transport.c: the last correction of u0 = u + delta in every stage, after wall terms. delta is

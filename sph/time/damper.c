@@ -37,8 +37,7 @@ void damper_correct(struct sph *s)
 /* Whether the rates of a particle are those of its pairs and walls, and its gradients whole. */
 static bool can_learn(const struct sph *s, int i)
 {
-    return s->p.zone[i] == ZONE_FREE && !particles_is_guard(&s->p, i) &&
-           !(s->surface && s->surface->is[i] != SURFACE_INNER);
+    return s->p.zone[i] == ZONE_FREE && !particles_is_guard(&s->p, i) && !surface_reaches(s, i);
 }
 
 void damper_learn(struct sph *s, double dt)
