@@ -1,9 +1,6 @@
 /* scene_files.c - see scene_files.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "scene_files.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "../base/base.h"
 #include "body_drive.h"
 #include "scene_fluid.h"

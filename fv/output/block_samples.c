@@ -3,8 +3,6 @@
  * they are. SPDX-License-Identifier: BSD-3-Clause */
 #include "mesh_output.h"
 
-#include <math.h>
-
 #include "../../common/base/base.h"
 #include "../../common/scene/scene.h"
 #include "../boundary/fv_boundary.h"

@@ -4,8 +4,6 @@
 
 #include "../../common/scene/scene.h"
 
-#include <math.h>
-
 /* Fall through the air above the water, and what weight and buoyancy make of a body in it. */
 static double fall_of(const struct scene *c, const struct body *b)
 {
@@ -73,10 +71,8 @@ static struct forced forced_by(const struct scene *c, const struct body *b)
     for (int i = 0; i < b->is->lines.n; i++) {
         const struct scene_line *l = b->is->lines.of + i;
         double arm[3], e[3];
-        for (int a = 0; a < 3; a++) {
-            arm[a] = l->from[a] - b->centre[a];
-            e[a] = l->to[a] - l->from[a];
-        }
+        vec3_from(b->centre, l->from, arm);
+        vec3_from(l->from, l->to, e);
         const double length = vec3_length(e), slack = l->length >= 0.0 ? l->length : length;
         for (int a = 0; a < 3; a++)
             e[a] /= length > 0.0 ? length : 1.0;
@@ -95,12 +91,18 @@ static struct forced forced_by(const struct scene *c, const struct body *b)
     return f;
 }
 
-double body_speed_of(const struct scene *c, const struct body *b)
+static double speed_of(const struct scene *c, const struct body *b, const struct forced *f)
 {
     const double told = body_drive_speed(&b->drive, b->reach, c->time.end);
     const double start =
         b->free ? vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega) : 0.0;
-    return hypot(fmax(told, start) + forced_by(c, b).speed, fall_of(c, b));
+    return hypot(fmax(told, start) + f->speed, fall_of(c, b));
+}
+
+double body_speed_of(const struct scene *c, const struct body *b)
+{
+    const struct forced f = forced_by(c, b);
+    return speed_of(c, b, &f);
 }
 
 struct body_pace bodies_pace(const struct scene *c, struct motion_files *files)
@@ -113,7 +115,7 @@ struct body_pace bodies_pace(const struct scene *c, struct motion_files *files)
         body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
         const struct forced f = forced_by(c, &b);
         const double length = (b.is->tank ? 2.0 : 1.0) * b.reach;
-        most.speed = fmax(most.speed, body_speed_of(c, &b));
+        most.speed = fmax(most.speed, speed_of(c, &b, &f));
         most.pressure = fmax(
             most.pressure, length * (f.acceleration + body_drive_acceleration(&b.drive, b.reach)));
         most.rate = fmax(most.rate, fmax(f.rate, body_drive_rate(&b.drive)));

@@ -190,6 +190,12 @@ static void add_to_lines(const struct sph *s, const struct sides *d, double line
     }
 }
 
+/* s: of sound through the domain, across a side. */
+static double transit(const struct sph *s, int side)
+{
+    return (s->hi[side / 2] - s->lo[side / 2]) / s->c0;
+}
+
 /* The pressure of an outlet is that at the domain's end; through buffer and transition it goes on
  * with the slope that it has in the free zone beside them. The slope follows over the time that
  * sound takes through the domain: at once it would answer its own change. Least squares over the
@@ -205,9 +211,8 @@ static void follow_slope(struct sph *s, struct sides *d, double dt)
     for (int side = 0; side < 2 * s->dim; side++) {
         const double *l = lines[side], W = fmax(l[LINE_W], 1e-300);
         const double spread = l[LINE_DD] - l[LINE_D] * l[LINE_D] / W;
-        const double memory = (s->hi[side / 2] - s->lo[side / 2]) / s->c0;
         if (spread > 0.01 * W * s->dx * s->dx)
-            d->fall[side] += (1.0 - exp(-dt / memory)) *
+            d->fall[side] += (1.0 - exp(-dt / transit(s, side))) *
                              ((l[LINE_DP] - l[LINE_D] * l[LINE_P] / W) / spread - d->fall[side]);
     }
 }
@@ -241,7 +246,6 @@ static void find_surges(struct sides *d, double dt)
     for (int side = 0; side < 2 * s->dim; side++) {
         const struct opening_side *of = d->of + side;
         const int n = of->is && of->is->kind == WALL_INFLOW ? of->bins[0] * of->bins[1] : 0;
-        const double transit = (s->hi[side / 2] - s->lo[side / 2]) / s->c0;
         double W = 0.0, now = 0.0;
         for (int k = of->first; k < of->first + n; k++) {
             W += d->table[(size_t)BIN * k + WEIGHT];
@@ -251,7 +255,7 @@ static void find_surges(struct sides *d, double dt)
             continue;
         now /= W;
         d->mean[side] = isnan(d->mean[side]) ? now : d->mean[side];
-        d->mean[side] += -expm1(-dt / (memory * transit)) * (now - d->mean[side]);
+        d->mean[side] += -expm1(-dt / (memory * transit(s, side))) * (now - d->mean[side]);
         d->surge[side] = now - d->mean[side];
     }
 }

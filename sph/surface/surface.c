@@ -250,9 +250,9 @@ void surface_calm(struct sph *s)
     const double beside_walls = s->mixed ? 1.0 : 1.0 - scheme_streams(s);
     for (int i = 0; i < s->p.n; i++) {
         const double lambda = s->surface->lambda[i];
-        const double share = surface_reaches(s, i) ? 1.0 : beside_walls;
         if (lambda >= 1.0)
             continue;
+        const double share = surface_reaches(s, i) ? 1.0 : beside_walls;
         const double out = share * (lambda < inside ? 1.0 : (1.0 - lambda) / (1.0 - inside)) / dim;
         double *g = slope_line(&s->p, i) + dim, divergence = 0.0;
         for (int a = 0; a < dim; a++)

@@ -5,13 +5,13 @@
  * What div u really is, the density says, which changes by the fluxes of the pairs themselves:
  * div u = (dw/dt)/w - (dm/dt)/m. So each particle has a slow mean e of what its trace exceeds this
  * by, the false divergence, and the damper acts on what is left:
- *   de/dt = (trace - div u - e)/T,   damper on trace - e.
+ *   de/dt = (f (trace - div u) - e)/T,   damper on trace - e.
  * Sound, faster than T, is damped as before; slow flow by what its density says, which in steady
  * flow is next to nothing. T is the time in which the fluid passes a quarter of R, for then it is
  * beside another part of the wall, but at least 2.5 R/c0: below, the damper follows the density
- * with a delay. In water nearly at rest the trace stays whole: what it sees there are currents that
- * shifts feed, and it holds them down (late in a 3D tank of 10 rows 0.6e-3 c0, else 1.2e-3). From
- * 0.002 to 0.012 c0 e counts more and more.
+ * with a delay. f, from 0 to 1, is how much the water streams (scheme_streams): nearly at rest the
+ * trace stays whole, for what it sees there are currents that shifts feed, and it holds them down
+ * (late in a 3D tank of 10 rows 0.6e-3 c0, else 1.2e-3).
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "damper.h"
 
@@ -45,7 +45,7 @@ void damper_learn(struct sph *s, double dt)
     const int dim = s->dim;
     if (!has_damper(s) || s->mixed) /* mixed sets have a damper of their own: mixed_pairs.c */
         return;
-    const double M = s->step.stray / s->c0, flows = scheme_streams(s);
+    const double M = s->step.stray / s->c0, f = scheme_streams(s);
     const double share = fmin(dt * s->c0 / s->R / fmax(0.25 / fmax(M, 1e-300), 2.5), 1.0);
     for (int i = 0; i < s->p.n; i++) {
         const double *y = state_row(&s->p, s->p.y, i), *rate = state_row(&s->p, s->p.rate, i);
@@ -59,6 +59,6 @@ void damper_learn(struct sph *s, double dt)
             trace += gu[(dim + 1) * a];
         const double is =
             rate[at_volume(dim)] / y[at_volume(dim)] - rate[at_mass(dim)] / y[at_mass(dim)];
-        *e += share * (flows * (trace - is) - *e);
+        *e += share * (f * (trace - is) - *e);
     }
 }

@@ -1,13 +1,11 @@
-/* sound.c - sound that runs to and fro between an inflow of given velocity and an outflow of given
- * pressure, each of which returns all of it. Through every section of a duct goes the same volume,
- * so the mean velocity of the fluid is constant whatever its eddies do; what it swings by is sound,
- * a quarter of a wave, with pressures of pi/2 rho c times that at the inflow.
+/* sound.c - sound that runs to and fro between an inflow of given velocity, which lets it out
+ * within some transits (sides.c), and an outflow of given pressure, which returns all of it.
+ * Through every section of a duct goes the same volume, so the mean velocity of the fluid is
+ * constant whatever its eddies do; what it swings by is sound, a quarter of a wave, with pressures
+ * of pi/2 rho c times that at the inflow.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_watch.h"
 
-#include <math.h>
-
-#include "../../common/base/base.h"
 #include "../particles/sph_particles.h"
 #include "../sph.h"
 

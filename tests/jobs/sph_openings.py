@@ -88,7 +88,7 @@ lib.write('uniform.cfg', lib.varied(parabola, 'profile = "parabolic";', ''))
 if start('sph', 'uniform.cfg', '--check', log='uniform.txt') != 0:
     bad('a uniform inlet that a mesh cuts is refused', 'uniform.txt')
 
-# A duct that narrows: the flow starts with sound, which inflow and outflow return to each other; one that absorbs lets it out.
+# A duct that narrows: the flow starts with sound, which needs some transits to leave by the inflow; an outflow that absorbs lets it out at once.
 duct = '''format = 1;
 time:    { end = 2.0; };
 domain:  { max = (4, 1); };
