@@ -414,7 +414,7 @@ static void *create(struct run *r, struct h5 *f)
     if (s && has_partner_flow(r))
         sph_coupling_create(s);
     if (s && f && has_partner_flow(r))
-        overlap_load(s->zones->watched, f);
+        overlap_restart(s->zones->watched, f);
     if (s && r->coupled)
         body_coupling_create(s);
     return s;

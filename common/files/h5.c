@@ -447,6 +447,42 @@ bool h5_read_parts(struct h5 *f, const char *name, int n, double *v)
     return read_each(f, name, n, v, true);
 }
 
+bool h5_writes(const struct h5 *f) { return f->writing; }
+
+bool h5_keep(struct h5 *f, const char *name, double *v)
+{
+    if (!f->writing)
+        return h5_read_attribute_real(f, name, v);
+    h5_attribute_real(f, name, *v);
+    return true;
+}
+
+bool h5_keep_same(struct h5 *f, const char *name, const char *unit, int n, double *v)
+{
+    if (!f->writing)
+        return h5_read_same(f, name, n, v);
+    h5_write_real(f, name, unit, n, 1, v, false);
+    return true;
+}
+
+bool h5_keep_parts(struct h5 *f, const char *name, const char *unit, int n, double *v)
+{
+    return f->writing ? h5_keep_same(f, name, unit, n, v) : h5_read_parts(f, name, n, v);
+}
+
+bool h5_keep_rows(struct h5 *f, const char *name, const char *unit, int64_t n, int ncomp, double *v)
+{
+    int64_t found = n;
+    double *rows = f->writing ? NULL : h5_read_all_real(f, name, ncomp, &found);
+    const bool fits = f->writing || (rows && found == n);
+    if (f->writing)
+        h5_write_real(f, name, unit, f->rank == 0 ? n : 0, ncomp, v, false);
+    else if (fits)
+        memcpy(v, rows, (size_t)n * (size_t)ncomp * sizeof *v);
+    mem_free(rows);
+    return fits;
+}
+
 /* The counts of the writers become their running sum, each before its own records. */
 int64_t *h5_first_rows(struct h5 *f, const char *name)
 {

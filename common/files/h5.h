@@ -71,6 +71,16 @@ int64_t *h5_read_all_int(struct h5 *f, const char *name, int64_t *n);
  * the others, which suits each rank's part of a global sum. false: length or name do not fit. */
 bool h5_read_same(struct h5 *f, const char *name, int n, double *v);
 bool h5_read_parts(struct h5 *f, const char *name, int n, double *v);
+/* What a restart file keeps, said once for both ways: one that is written takes v, one that is read
+ * gives it; false: it has none that fits, and v is as it was, or zero. In this order: a number that
+ * all ranks have; n numbers as of h5_read_same; as of h5_read_parts; n rows of ncomp numbers that
+ * all ranks have and the first one writes. h5_writes: which way it is. */
+bool h5_keep(struct h5 *f, const char *name, double *v);
+bool h5_keep_same(struct h5 *f, const char *name, const char *unit, int n, double *v);
+bool h5_keep_parts(struct h5 *f, const char *name, const char *unit, int n, double *v);
+bool h5_keep_rows(struct h5 *f, const char *name, const char *unit, int64_t n, int ncomp,
+                  double *v);
+bool h5_writes(const struct h5 *f);
 /* Number of the first record that each writing rank wrote, and their sum as a last element:
  * [h5_ranks(f) + 1], owned by the caller (mem_free). NULL if the file does not say. */
 int64_t *h5_first_rows(struct h5 *f, const char *name);

@@ -716,7 +716,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
     if (s->partners.past[0][0])
         save_ways(s->link, f);
     if (s->surface) {
-        water_budget_save(&s->link->of_water, f);
+        (void)water_budget_restart(&s->link->of_water, f);
         h5_attribute_real(f, "inflow", c->inflow);
     }
     if (c)
@@ -732,7 +732,7 @@ bool coupling_load(struct fv *s, struct h5 *f)
         return good;
     good = forced_load(s, f);
     if (s->surface)
-        good = good && water_budget_load(&s->link->of_water, f) &&
+        good = good && water_budget_restart(&s->link->of_water, f) &&
                h5_read_attribute_real(f, "inflow", &c->inflow);
     return good;
 }

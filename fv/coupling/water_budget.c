@@ -168,20 +168,9 @@ void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagn
         snprintf(d->where, sizeof d->where, "all water, %g m^%d, t = %.4g s", whole, s->dim, s->t);
 }
 
-void water_budget_save(const struct water_budget *w, struct h5 *f)
+bool water_budget_restart(struct water_budget *w, struct h5 *f)
 {
-    h5_attribute_real(f, "water_start", w->start);
-    h5_attribute_real(f, "water_missing", w->missing);
-    h5_attribute_real(f, "water_lasting", w->lasting);
-    h5_attribute_real(f, "water_drops", w->drops);
-    h5_attribute_real(f, "water_worst", w->watched.worst);
-}
-
-bool water_budget_load(struct water_budget *w, struct h5 *f)
-{
-    return h5_read_attribute_real(f, "water_start", &w->start) &&
-           h5_read_attribute_real(f, "water_missing", &w->missing) &&
-           h5_read_attribute_real(f, "water_lasting", &w->lasting) &&
-           h5_read_attribute_real(f, "water_drops", &w->drops) &&
-           h5_read_attribute_real(f, "water_worst", &w->watched.worst);
+    return h5_keep(f, "water_start", &w->start) && h5_keep(f, "water_missing", &w->missing) &&
+           h5_keep(f, "water_lasting", &w->lasting) && h5_keep(f, "water_drops", &w->drops) &&
+           h5_keep(f, "water_worst", &w->watched.worst);
 }

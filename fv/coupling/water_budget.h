@@ -33,9 +33,7 @@ void water_budget_take(struct fv *s, struct water_budget *w, const double water[
 void water_budget_close(struct fv *s, struct water_budget *w, double T);
 /* Sets d where too large a share of all water is missing. */
 void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagnosis *d);
-/* Writes the balance to a restart file. */
-void water_budget_save(const struct water_budget *w, struct h5 *f);
-/* Reads it back; false: the file does not have it. */
-bool water_budget_load(struct water_budget *w, struct h5 *f);
+/* The balance in a restart file, written or read; false: the file does not have it. */
+bool water_budget_restart(struct water_budget *w, struct h5 *f);
 
 #endif

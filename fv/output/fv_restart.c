@@ -102,7 +102,7 @@ void fv_checkpoint(void *state, struct h5 *f)
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->size, 1, fields[k], false);
     save_numbers(s, f);
-    watches_save(s->watches, f);
+    watches_restart(s->watches, f);
     moving_save(s, f);
     save_samples(s, f);
     if (s->wave_zones)
@@ -171,7 +171,7 @@ bool fv_restore(struct fv *s, struct h5 *f)
         poisson_rebuild(s);
     }
     outflow_restore(s);
-    watches_load(s->watches, f);
+    watches_restart(s->watches, f);
     load_samples(s, f);
     if (s->wave_zones)
         wave_zones_load(s->wave_zones, f);

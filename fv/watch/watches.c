@@ -245,19 +245,11 @@ void watches_summarise(const struct watches *w, struct summary *to)
                      "more cells");
 }
 
-void watches_save(struct watches *w, struct h5 *f)
-{
-    for (int k = 0; k < WATCHES; k++)
-        if (watch_of(w, k))
-            h5_attribute_real(f, watch_of(w, k)->key, watch_of(w, k)->worst);
-}
-
-/* Budgets start anew after a restart; the worst values go on. */
-void watches_load(struct watches *w, struct h5 *f)
+void watches_restart(struct watches *w, struct h5 *f)
 {
     struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
                                         &w->returned};
     for (int k = 0; k < WATCHES; k++)
         if (watch_of(w, k))
-            h5_read_attribute_real(f, all[k]->key, &all[k]->worst);
+            (void)h5_keep(f, all[k]->key, &all[k]->worst);
 }

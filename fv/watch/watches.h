@@ -79,10 +79,8 @@ int watches_values(const struct watches *w, double *values);
  * too much water. */
 void watches_summarise(const struct watches *w, struct summary *to);
 struct h5;
-/* Writes the worst values to a restart file. */
-void watches_save(struct watches *w, struct h5 *f);
-/* Reads them back; budgets start anew. */
-void watches_load(struct watches *w, struct h5 *f);
+/* The worst values in a restart file, written or read; budgets start anew. */
+void watches_restart(struct watches *w, struct h5 *f);
 
 /* fv_watches.c: the figures of a state on any grid. Collective, as the next two. */
 struct watches *fv_watches_create(const struct fv *s);

@@ -72,7 +72,7 @@ int bodies_columns(const struct run *r, int k, const char **names);
 /* Writes the values of these columns; returns the end of them. */
 double *bodies_row(const struct sph *s, int k, double *values);
 void bodies_summarise(const struct sph *s);
-void bodies_save(const struct sph *s, struct h5 *f);
-bool bodies_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool bodies_restart(struct sph *s, struct h5 *f);
 
 #endif

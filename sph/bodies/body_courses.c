@@ -54,11 +54,11 @@ static int degrees(const struct sph *s)
     return n;
 }
 
-void body_courses_save(const struct sph *s, struct h5 *f)
+bool body_courses_restart(struct sph *s, struct h5 *f)
 {
     const int n = degrees(s);
     if (n == 0)
-        return;
+        return true;
     double(*const rows)[COURSE_ROW] = mem_new((size_t)n, sizeof *rows), (*row)[COURSE_ROW] = rows;
     for (int k = 0; k < s->walls->nbodies; k++) {
         const struct body_course *c = s->walls->bodies[k].course;
@@ -69,30 +69,18 @@ void body_courses_save(const struct sph *s, struct h5 *f)
             memcpy(*row + 3, c->c[a], sizeof c->c[a]);
         }
     }
-    h5_write_real(f, "courses", "motion of bodies that partners move", s->run->rank == 0 ? n : 0,
-                  COURSE_ROW, rows[0], false);
-    mem_free(rows);
-}
-
-bool body_courses_load(struct sph *s, struct h5 *f)
-{
-    int64_t n = 0;
-    int found = 0;
-    const int wanted = degrees(s);
-    if (wanted == 0)
-        return true;
-    double *rows = h5_read_all_real(f, "courses", COURSE_ROW, &n);
-    for (int i = 0; rows && n == wanted && i < n; i++) {
-        const double *row = rows + (ptrdiff_t)COURSE_ROW * i;
-        struct body_course *c = s->walls->bodies[(int)row[0]].course;
-        if (!c || row[1] >= c->n)
+    bool fits =
+        h5_keep_rows(f, "courses", "motion of bodies that partners move", n, COURSE_ROW, rows[0]);
+    for (int i = 0; !h5_writes(f) && fits && i < n; i++) {
+        struct body_course *c = s->walls->bodies[(int)rows[i][0]].course;
+        fits = c && rows[i][1] < c->n;
+        if (!fits)
             continue;
-        c->at = row[2];
-        memcpy(c->c[(int)row[1]], row + 3, sizeof c->c[0]);
-        found++;
+        c->at = rows[i][2];
+        memcpy(c->c[(int)rows[i][1]], rows[i] + 3, sizeof c->c[0]);
     }
     mem_free(rows);
-    for (struct sph *q = s; q; q = q->finer)
+    for (struct sph *q = s; q && !h5_writes(f); q = q->finer)
         q->walls->t = -INFINITY; /* they stand where they stood without it */
-    return found == wanted;
+    return fits;
 }

@@ -16,8 +16,7 @@ void body_courses_create(struct sph *s);
 /* Lets the degrees of freedom go from where they are at t0 to to[0..n-1], m and rad, with the
  * velocities to[n..2n-1], at t1, s: a cubic in each, so that nothing jumps. */
 void body_course_set(struct body_course *c, double t0, double t1, const double *to);
-void body_courses_save(const struct sph *s, struct h5 *f);
-/* false: the file has none that fit. */
-bool body_courses_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool body_courses_restart(struct sph *s, struct h5 *f);
 
 #endif

@@ -145,50 +145,25 @@ static void take(struct body_free *f, const double *v)
     f->size = v[6];
 }
 
-void bodies_save(const struct sph *s, struct h5 *f)
+bool bodies_restart(struct sph *s, struct h5 *f)
 {
+    struct walls *w = s->walls;
     double *rows = NEW(double, KEPT *BODIES_MAX);
-    int n = 0;
-    for (int k = 0; k < s->walls->nbodies; k++)
-        if (s->walls->bodies[k].free)
-            flatten(s->walls->bodies[k].free, rows + (size_t)KEPT * n++);
-    h5_write_real(f, "bodies", "state of free bodies", s->run->rank == 0 ? n : 0, KEPT, rows,
-                  false);
+    int n = 0, at = 0;
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->bodies[k].free)
+            flatten(w->bodies[k].free, rows + (size_t)KEPT * n++);
+    const bool fits = n == 0 || h5_keep_rows(f, "bodies", "state of free bodies", n, KEPT, rows);
+    for (int k = 0; fits && !h5_writes(f) && k < w->nbodies; k++)
+        if (w->bodies[k].free)
+            take(w->bodies[k].free, rows + (size_t)KEPT * at++);
     mem_free(rows);
-    h5_write_real(f, "contacts", "m/s", s->run->rank == 0 ? BODIES_MAX : 0, BODIES_MAX + 1,
-                  &s->walls->approach[0][0], false);
-    h5_write_real(f, "contact gaps", "m", s->run->rank == 0 ? BODIES_MAX : 0, BODIES_MAX + 1,
-                  &s->walls->start_gap[0][0], false);
-    h5_write_real(f, "contact friction", "N", s->run->rank == 0 ? BODIES_MAX : 0, FRICTION,
-                  (const double *)s->walls->friction, false);
-}
-
-bool bodies_load(struct sph *s, struct h5 *f)
-{
-    int64_t n;
-    int at = 0, wanted = 0;
-    for (int k = 0; k < s->walls->nbodies; k++)
-        wanted += s->walls->bodies[k].free != NULL;
-    if (wanted == 0)
+    if (n == 0)
         return true;
-    double *rows = h5_read_all_real(f, "bodies", KEPT, &n);
-    for (int k = 0; rows && n == wanted && k < s->walls->nbodies; k++)
-        if (s->walls->bodies[k].free)
-            take(s->walls->bodies[k].free, rows + (size_t)KEPT * at++);
-    const bool fits = rows && n == wanted;
-    mem_free(rows);
-    rows = h5_read_all_real(f, "contacts", BODIES_MAX + 1, &n);
-    if (rows && n == BODIES_MAX)
-        memcpy(s->walls->approach, rows, sizeof s->walls->approach);
-    mem_free(rows);
-    rows = h5_read_all_real(f, "contact gaps", BODIES_MAX + 1, &n);
-    if (rows && n == BODIES_MAX)
-        memcpy(s->walls->start_gap, rows, sizeof s->walls->start_gap);
-    mem_free(rows);
-    rows = h5_read_all_real(f, "contact friction", FRICTION, &n);
-    if (rows && n == BODIES_MAX)
-        memcpy(s->walls->friction, rows, sizeof s->walls->friction);
-    mem_free(rows);
-    walls_move(s, s->t);
+    (void)h5_keep_rows(f, "contacts", "m/s", BODIES_MAX, BODIES_MAX + 1, &w->approach[0][0]);
+    (void)h5_keep_rows(f, "contact gaps", "m", BODIES_MAX, BODIES_MAX + 1, &w->start_gap[0][0]);
+    (void)h5_keep_rows(f, "contact friction", "N", BODIES_MAX, FRICTION, (double *)w->friction);
+    if (!h5_writes(f))
+        walls_move(s, s->t);
     return fits;
 }

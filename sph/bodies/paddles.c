@@ -151,7 +151,7 @@ void paddles_steer(struct sph *s, double dt)
 
 enum { PADDLE_ROW = 6 }; /* body, time, place, velocity, acceleration, mean */
 
-void paddles_save(const struct sph *s, struct h5 *f)
+bool paddles_restart(struct sph *s, struct h5 *f)
 {
     double rows[BODIES_MAX][PADDLE_ROW];
     int n = 0;
@@ -163,23 +163,14 @@ void paddles_save(const struct sph *s, struct h5 *f)
                                         p->steer.v, p->steer.a,  p->mean};
         memcpy(rows[n++], row, sizeof row);
     }
-    if (n > 0)
-        h5_write_real(f, "paddles", "state of paddles that absorb", s->run->rank == 0 ? n : 0,
-                      PADDLE_ROW, rows[0], false);
-}
-
-bool paddles_load(struct sph *s, struct h5 *f)
-{
-    int64_t n = 0;
-    int wanted = 0, found = 0;
-    for (int k = 0; s->walls && k < s->walls->nbodies; k++)
-        wanted += s->walls->bodies[k].paddle != NULL;
-    if (wanted == 0)
-        return true;
-    double *rows = h5_read_all_real(f, "paddles", PADDLE_ROW, &n);
-    for (int i = 0; rows && n == wanted && i < n; i++) {
-        const double *row = rows + (ptrdiff_t)PADDLE_ROW * i;
+    bool fits = n == 0 ||
+                h5_keep_rows(f, "paddles", "state of paddles that absorb", n, PADDLE_ROW, rows[0]);
+    if (n == 0 || h5_writes(f))
+        return fits;
+    for (int i = 0; fits && i < n; i++) {
+        const double *row = rows[i];
         struct paddle *p = s->walls->bodies[(int)row[0]].paddle;
+        fits = p != NULL;
         if (!p)
             continue;
         p->steer.at = row[1];
@@ -187,10 +178,8 @@ bool paddles_load(struct sph *s, struct h5 *f)
         p->steer.v = row[3];
         p->steer.a = row[4];
         p->mean = row[5];
-        found++;
     }
-    mem_free(rows);
     for (struct sph *q = s; q; q = q->finer)
         q->walls->t = -INFINITY; /* they stand where they stood without it */
-    return found == wanted;
+    return fits;
 }

@@ -20,8 +20,7 @@ void paddles_create(struct sph *s);
 /* Reads the gauges at s->t and sets the motion from then on; dt, s: the step that begins. Needs
  * prim. Collective. */
 void paddles_steer(struct sph *s, double dt);
-void paddles_save(const struct sph *s, struct h5 *f);
-/* false: the file has none that fit. */
-bool paddles_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool paddles_restart(struct sph *s, struct h5 *f);
 
 #endif

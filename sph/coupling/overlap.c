@@ -154,22 +154,15 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
 
 enum { KEPT = 2, MEANS = 3 }; /* numbers of each watch; of the means that are judged */
 
-void overlap_save(const struct overlap *o, struct h5 *f)
+void overlap_restart(struct overlap *o, struct h5 *f)
 {
-    const struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
+    struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
     double v[3 * KEPT + MEANS] = {[3 * KEPT] = o->looks, o->du_mean, o->dp_mean};
     for (int k = 0; k < 3; k++) {
         v[KEPT * k] = of[k]->worst;
         v[KEPT * k + 1] = of[k]->warned;
     }
-    h5_write_real(f, "overlap", "-", 3 * KEPT + MEANS, 1, v, false);
-}
-
-void overlap_load(struct overlap *o, struct h5 *f)
-{
-    struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};
-    double v[3 * KEPT + MEANS];
-    if (!h5_read_same(f, "overlap", 3 * KEPT + MEANS, v))
+    if (!h5_keep_same(f, "overlap", "-", 3 * KEPT + MEANS, v) || h5_writes(f))
         return;
     o->looks = v[3 * KEPT];
     o->du_mean = v[3 * KEPT + 1];

@@ -40,9 +40,8 @@ void overlap_row(const struct overlap *o, double *values);
 void overlap_summary(const struct overlap *o, struct summary *to);
 /* The differences for the progress line of the job, as soon as they are noticeable. */
 void overlap_tell(const struct overlap *o, struct summary *to);
-/* Writes the worst values and the means to a restart file. */
-void overlap_save(const struct overlap *o, struct h5 *f);
-/* Reads them back; what the file does not have stays as it is. */
-void overlap_load(struct overlap *o, struct h5 *f);
+/* The worst values and the means in a restart file, written or read; what the file does not have
+ * stays as it is. */
+void overlap_restart(struct overlap *o, struct h5 *f);
 
 #endif

@@ -263,19 +263,11 @@ void level_gap_summary(const struct sph *s, struct summary *to)
         summary_real(to, momentum[a], sums[3 + a]);
 }
 
-void level_gap_save(const struct sph *s, struct h5 *f)
-{
-    const struct level_gap *g = s->zones->gap;
-    h5_write_real(f, "level_at_rest", "m", 6, 1, g->at_rest, false);
-    h5_write_real(f, "level_outflow", "m/s", 6, 1, s->zones->outflow, false);
-    h5_write_real(f, "level_lasting", "m/s", 6, 1, g->lasting, false);
-}
-
-bool level_gap_load(struct sph *s, struct h5 *f)
+bool level_gap_restart(struct sph *s, struct h5 *f)
 {
     struct level_gap *g = s->zones->gap;
-    g->started = true;
-    return h5_read_same(f, "level_at_rest", 6, g->at_rest) &&
-           h5_read_same(f, "level_outflow", 6, s->zones->outflow) &&
-           h5_read_same(f, "level_lasting", 6, g->lasting);
+    g->started = g->started || !h5_writes(f);
+    return h5_keep_same(f, "level_at_rest", "m", 6, g->at_rest) &&
+           h5_keep_same(f, "level_outflow", "m/s", 6, s->zones->outflow) &&
+           h5_keep_same(f, "level_lasting", "m/s", 6, g->lasting);
 }

@@ -36,7 +36,7 @@ void level_gap_row(struct sph *s, double *values);
 /* Once a coupling step: fills d where the levels differ too much. */
 void level_gap_judge(struct sph *s, struct diagnosis *d);
 void level_gap_summary(const struct sph *s, struct summary *to);
-void level_gap_save(const struct sph *s, struct h5 *f);
-bool level_gap_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool level_gap_restart(struct sph *s, struct h5 *f);
 
 #endif

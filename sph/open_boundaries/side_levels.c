@@ -330,23 +330,16 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
 
 double side_levels_level(const struct side_levels *l, int side) { return l->of[side].level; }
 
-void side_levels_save(const struct side_levels *l, struct h5 *f)
+bool side_levels_restart(struct side_levels *l, struct h5 *f)
 {
     double all[6][KEPT];
     for (int side = 0; side < 6; side++)
         memcpy(all[side], l->of[side].kept, sizeof all[side]);
-    h5_write_real(f, "sides_levels", "m", 6 * KEPT, 1, all[0], false);
-    h5_write_real(f, "sides_time", "s", 1, 1, &l->t, false);
-}
-
-bool side_levels_load(struct side_levels *l, struct h5 *f)
-{
-    double all[6][KEPT];
-    if (!h5_read_same(f, "sides_levels", 6 * KEPT, all[0]) ||
-        !h5_read_same(f, "sides_time", 1, &l->t))
+    if (!h5_keep_same(f, "sides_levels", "m", 6 * KEPT, all[0]) ||
+        !h5_keep_same(f, "sides_time", "s", 1, &l->t))
         return false;
     for (int side = 0; side < 6; side++)
         memcpy(l->of[side].kept, all[side], sizeof all[side]);
-    l->started = true;
+    l->started = l->started || !h5_writes(f);
     return true;
 }

@@ -27,7 +27,7 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
 bool side_levels_given(const struct side_levels *l, int side);
 /* Level of the water outside, m against gravity. */
 double side_levels_level(const struct side_levels *l, int side);
-void side_levels_save(const struct side_levels *l, struct h5 *f);
-bool side_levels_load(struct side_levels *l, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool side_levels_restart(struct side_levels *l, struct h5 *f);
 
 #endif

@@ -510,20 +510,11 @@ double sides_level(const struct sph *s, int side)
     return d->levels && d->of[side].is ? side_levels_level(d->levels, side) : NAN;
 }
 
-void sides_save(const struct sph *s, struct h5 *f)
-{
-    const struct sides *d = s->zones->ctx;
-    h5_write_real(f, "sides_slope", "Pa/m", 6, 1, d->fall, false);
-    h5_write_real(f, "sides_mean", "Pa", 6, 1, d->mean, false);
-    if (d->levels)
-        side_levels_save(d->levels, f);
-}
-
-bool sides_load(struct sph *s, struct h5 *f)
+bool sides_restart(struct sph *s, struct h5 *f)
 {
     struct sides *d = s->zones->ctx;
-    d->t = s->t;
-    return h5_read_same(f, "sides_slope", 6, d->fall) &&
-           h5_read_same(f, "sides_mean", 6, d->mean) &&
-           (!d->levels || side_levels_load(d->levels, f));
+    d->t = h5_writes(f) ? d->t : s->t;
+    return h5_keep_same(f, "sides_slope", "Pa/m", 6, d->fall) &&
+           h5_keep_same(f, "sides_mean", "Pa", 6, d->mean) &&
+           (!d->levels || side_levels_restart(d->levels, f));
 }

@@ -13,7 +13,7 @@
 void sides_create(struct sph *s, struct zones *z);
 /* Level of the water outside a side under a free surface, m against gravity; NAN: there is none. */
 double sides_level(const struct sph *s, int side);
-void sides_save(const struct sph *s, struct h5 *f);
-bool sides_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool sides_restart(struct sph *s, struct h5 *f);
 
 #endif

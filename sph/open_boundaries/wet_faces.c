@@ -183,20 +183,10 @@ void wet_faces_water(struct sph *s, double water[2])
     MPI_Allreduce(MPI_IN_PLACE, water, 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
-void wet_faces_save(const struct openings *o, struct h5 *f)
+bool wet_faces_restart(struct openings *o, struct h5 *f)
 {
-    const double rain[6] = {o->rain[0], o->rain[1],       o->rain[2],
-                            o->rain[3], (double)o->drops, o->films};
-    h5_write_real(f, "zones_rain", "kg", 6, 1, rain, false);
-}
-
-bool wet_faces_load(struct sph *s, struct h5 *f)
-{
-    struct openings *o = s->zones->openings;
-    double rain[6];
-    if (!s->zones->gap && !s->zones->surface)
-        return true;
-    if (!h5_read_parts(f, "zones_rain", 6, rain))
+    double rain[6] = {o->rain[0], o->rain[1], o->rain[2], o->rain[3], (double)o->drops, o->films};
+    if (!h5_keep_parts(f, "zones_rain", "kg", 6, rain))
         return false;
     memcpy(o->rain, rain, sizeof o->rain);
     o->drops = llround(rain[4]);

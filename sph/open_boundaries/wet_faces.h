@@ -29,7 +29,7 @@ void wet_faces_ghosts(struct sph *s);
 /* water[0], m^dim: volume in zones_counted_box with drops that are over the water outside;
  * water[1]: drops that have left since the start. Collective. */
 void wet_faces_water(struct sph *s, double water[2]);
-void wet_faces_save(const struct openings *o, struct h5 *f);
-bool wet_faces_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool wet_faces_restart(struct openings *o, struct h5 *f);
 
 #endif

@@ -344,35 +344,12 @@ void zones_openings(struct sph *s, double dt)
         level_gap_look(s, dt);
 }
 
-/* Masses of faces once, from rank 0, as all have the same; fluxes and counts are sums over the
- * ranks, and each rank writes its part. */
-void zones_save(struct sph *s, struct h5 *f)
-{
-    const struct openings *o = s->zones->openings;
-    const int64_t rows = s->run->rank == 0 ? openings_faces(o) : 0;
-    h5_write_real(f, "faces_mass", "kg", rows, 1, o->mass, false);
-    h5_write_real(f, "faces_flux", "kg/s", openings_faces(o), 1, o->flux, false);
-    const double level[1] = {s->zones->level}, deficit[1] = {o->deficit};
-    const int64_t counted[3] = {o->born, o->gone, o->refused};
-    h5_write_real(f, "zones_through", "kg", 6, 1, o->through, false);
-    h5_write_real(f, "zones_level", "Pa", 1, 1, level, false);
-    h5_write_real(f, "zones_owed", "kg", 1, 1, deficit, false);
-    h5_write_int(f, "zones_counted", 3, counted);
-    h5_write_real(f, "zones_way", "m", 3, 1, s->zones->way, false);
-    if (s->prm.box_follows[0])
-        h5_write_real(f, "zones_chase", "m/s", 3, 1, s->zones->tracked, false);
-    if (s->zones->update)
-        sides_save(s, f);
-    if (s->zones->gap)
-        level_gap_save(s, f);
-    if (s->zones->surface)
-        wet_faces_save(o, f);
-}
-
 /* Counts of all ranks; on another number of ranks the first gets them. */
-static bool load_counts(struct sph *s, struct h5 *f, int64_t counted[3])
+static bool keep_counts(struct sph *s, struct h5 *f, int64_t counted[3])
 {
     int64_t n;
+    if (h5_writes(f))
+        return h5_write_int(f, "zones_counted", 3, counted), true;
     int64_t *all = h5_read_all_int(f, "zones_counted", &n);
     const bool same = n == 3 * s->run->size, fits = all && n % 3 == 0;
     const int64_t first = same ? 3 * s->run->rank : 0, end = same ? first + 3 : n;
@@ -384,25 +361,27 @@ static bool load_counts(struct sph *s, struct h5 *f, int64_t counted[3])
     return fits;
 }
 
-bool zones_load(struct sph *s, struct h5 *f)
+/* Masses of faces once, as all ranks have the same; fluxes and counts are sums over the ranks, and
+ * each rank writes its part. */
+bool zones_restart(struct sph *s, struct h5 *f)
 {
-    struct openings *o = s->zones->openings;
+    struct zones *z = s->zones;
+    struct openings *o = z->openings;
     const int faces = openings_faces(o);
-    double way[3];
-    int64_t counted[3], n;
-    double *mass = h5_read_all_real(f, "faces_mass", 1, &n);
-    const bool same_faces = mass && n == faces;
-    if (same_faces)
-        memcpy(o->mass, mass, (size_t)faces * sizeof *mass);
-    mem_free(mass);
-    if (!same_faces || !h5_read_parts(f, "faces_flux", faces, o->flux) ||
-        !h5_read_parts(f, "zones_through", 6, o->through) ||
-        !h5_read_same(f, "zones_level", 1, &s->zones->level) ||
-        !h5_read_same(f, "zones_owed", 1, &o->deficit) || !h5_read_same(f, "zones_way", 3, way) ||
-        (s->prm.box_follows[0] && !h5_read_same(f, "zones_chase", 3, s->zones->tracked)) ||
-        !load_counts(s, f, counted) || (s->zones->update && !sides_load(s, f)) ||
-        (s->zones->gap && !level_gap_load(s, f)) || !wet_faces_load(s, f))
+    double way[3] = {z->way[0], z->way[1], z->way[2]};
+    int64_t counted[3] = {o->born, o->gone, o->refused};
+    if (!h5_keep_rows(f, "faces_mass", "kg", faces, 1, o->mass) ||
+        !h5_keep_parts(f, "faces_flux", "kg/s", faces, o->flux) ||
+        !h5_keep_parts(f, "zones_through", "kg", 6, o->through) ||
+        !h5_keep_same(f, "zones_level", "Pa", 1, &z->level) ||
+        !h5_keep_same(f, "zones_owed", "kg", 1, &o->deficit) || !keep_counts(s, f, counted) ||
+        !h5_keep_same(f, "zones_way", "m", 3, way) ||
+        (s->prm.box_follows[0] && !h5_keep_same(f, "zones_chase", "m/s", 3, z->tracked)) ||
+        (z->update && !sides_restart(s, f)) || (z->gap && !level_gap_restart(s, f)) ||
+        (z->surface && !wet_faces_restart(o, f)))
         return false;
+    if (h5_writes(f))
+        return true;
     o->born = counted[0];
     o->gone = counted[1];
     o->refused = counted[2];

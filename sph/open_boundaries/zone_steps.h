@@ -26,7 +26,7 @@ void zones_blend(struct sph *s);
 /* After positions, and the box with them, moved by a step of dt, s: removals, fluxes of the faces,
  * creations [6.13-6.14]. Lists and slopes do not hold any longer. Collective. */
 void zones_openings(struct sph *s, double dt);
-void zones_save(struct sph *s, struct h5 *f);
-bool zones_load(struct sph *s, struct h5 *f);
+/* Restart files, written or read; false: the file has none that fit. */
+bool zones_restart(struct sph *s, struct h5 *f);
 
 #endif

@@ -316,7 +316,7 @@ static void save_levels(struct sph *s, struct h5 *f)
         h5_attribute_real(f, name(q, "skin"), q->lists.skin);
         h5_attribute_real(f, name(q, "signal"), q->step.signal);
     }
-    regions_save(s->refinement->regions, f);
+    (void)regions_restart(s->refinement->regions, f);
 }
 
 /* Called at the end of a step on all ranks; it leaves no trace in the run. */
@@ -339,24 +339,24 @@ void sph_checkpoint(void *state, struct h5 *f)
         save_levels(s, f);
     fit_save(&s->total.signal_fit, f, s->run->rank == 0);
     for (int k = 0; k < NUMBERS; k++)
-        h5_attribute_real(f, numbers[k].name, *number(s, k));
+        (void)h5_keep(f, numbers[k].name, number(s, k));
     write_region(s, f);
     wall_files_save(s, f);
     sph_watch_save(s, f);
     domain_save(s, f);
     if (s->zones)
-        zones_save(s, f);
+        (void)zones_restart(s, f);
     if (s->zones && s->zones->watched)
-        overlap_save(s->zones->watched, f);
+        overlap_restart(s->zones->watched, f);
     if (s->wave_zones)
         wave_zones_save(s->wave_zones, f, s->run->rank == 0);
     if (s->walls)
         forces_save(s, f);
     shut_waters_save(s, f);
     if (s->walls && s->walls->any_free)
-        bodies_save(s, f);
-    paddles_save(s, f);
-    body_courses_save(s, f);
+        (void)bodies_restart(s, f);
+    (void)paddles_restart(s, f);
+    (void)body_courses_restart(s, f);
 }
 
 /* Each rank reads its share of the file; domain_load sends particles to their owners afterwards.
@@ -408,7 +408,7 @@ static bool read_numbers(struct sph *s, struct h5 *f)
     if (s->walls && h5_read_parts(f, "put_back", 1, &back))
         s->walls->returned = (int64_t)back;
     for (int k = 0; k < NUMBERS; k++)
-        if (!h5_read_attribute_real(f, numbers[k].name, number(s, k)))
+        if (!h5_keep(f, numbers[k].name, number(s, k)))
             return false;
     sph_params_dt(&s->prm, s->nu, s->step.signal, &s->step.limited_by);
     return true;
@@ -459,7 +459,7 @@ static bool read_levels(struct sph *s, struct h5 *f)
         fits = read_next_id(q, f) && h5_read_attribute_real(f, name(q, "skin"), &q->lists.skin) &&
                h5_read_attribute_real(f, name(q, "signal"), &q->step.signal);
     }
-    return fits && regions_load(s->refinement->regions, f);
+    return fits && regions_restart(s->refinement->regions, f);
 }
 
 /* What the file lacks, NULL: nothing. Particles first, since everything else refers to them. The
@@ -479,7 +479,7 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "watches";
     if (!domain_load(s, f))
         return "partition";
-    if (s->zones && !zones_load(s, f))
+    if (s->zones && !zones_restart(s, f))
         return "open sides";
     if (s->wave_zones)
         wave_zones_load(s->wave_zones, f);
@@ -487,9 +487,9 @@ static const char *missing(struct sph *s, struct h5 *f)
         return "forces on walls";
     if (!shut_waters_load(s, f))
         return "waters that walls shut in";
-    if (s->walls && !bodies_load(s, f))
+    if (s->walls && !bodies_restart(s, f))
         return "free bodies";
-    if (!paddles_load(s, f) || !body_courses_load(s, f))
+    if (!paddles_restart(s, f) || !body_courses_restart(s, f))
         return "paddles";
     return NULL;
 }

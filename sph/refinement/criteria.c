@@ -366,59 +366,37 @@ void criteria_end(struct regions *g, double t, double sound)
 
 /* --- restart --- */
 
-void criteria_save(const struct regions *g, struct h5 *f)
-{
-    const struct criteria *c = g->criteria;
-    const bool mine = g->run->rank == 0;
-    if (!c)
-        return;
-    h5_attribute_real(f, "apr_next", c->next);
-    h5_attribute_real(f, "apr_factor", c->factor);
-    h5_attribute_real(f, "apr_speed", c->speed);
-    for (int n = 1; n <= c->levels; n++) {
-        const struct criteria_grid *q = c->grid + n;
-        const size_t cells = mine ? marks_count(&q->cells) : 0;
-        char name[32];
-        double(*row)[3] = mem_new(cells, sizeof *row);
-        for (size_t i = 0; i < cells; i++) {
-            row[i][0] = q->cells.mark[i];
-            row[i][1] = q->seed[i];
-            row[i][2] = q->until[i];
-        }
-        snprintf(name, sizeof name, "apr_cells_%d", n);
-        h5_write_real(f, name, "-", (int64_t)cells, 3, row[0], false);
-        mem_free(row);
-    }
-}
-
 /* false: the file has none for this grid. */
-static bool load_level(struct criteria_grid *q, int n, struct h5 *f)
+static bool keep_level(struct criteria_grid *q, int n, struct h5 *f)
 {
-    int64_t rows = 0;
-    char name[32];
-    snprintf(name, sizeof name, "apr_cells_%d", n);
-    double *row = h5_read_all_real(f, name, 3, &rows);
-    const bool fits = row && rows == (int64_t)marks_count(&q->cells);
-    for (int64_t i = 0; i < rows && fits; i++) {
-        q->cells.mark[i] = row[3 * i] > 0.0;
-        q->seed[i] = row[3 * i + 1] > 0.0;
-        q->until[i] = row[3 * i + 2];
+    const size_t cells = marks_count(&q->cells);
+    double(*row)[3] = mem_new(cells, sizeof *row);
+    for (size_t i = 0; i < cells; i++) {
+        row[i][0] = q->cells.mark[i];
+        row[i][1] = q->seed[i];
+        row[i][2] = q->until[i];
+    }
+    const bool fits = h5_keep_rows(f, key_text("apr_cells_%d", n), "-", (int64_t)cells, 3, row[0]);
+    for (size_t i = 0; !h5_writes(f) && i < cells && fits; i++) {
+        q->cells.mark[i] = row[i][0] > 0.0;
+        q->seed[i] = row[i][1] > 0.0;
+        q->until[i] = row[i][2];
     }
     mem_free(row);
-    marks_measure(&q->cells);
+    if (!h5_writes(f))
+        marks_measure(&q->cells);
     return fits;
 }
 
-/* The forecast is not saved; it comes with the next evaluation. */
-bool criteria_load(struct regions *g, struct h5 *f)
+/* The forecast is not kept; it comes with the next evaluation. */
+bool criteria_restart(struct regions *g, struct h5 *f)
 {
     struct criteria *c = g->criteria;
     if (!c)
         return true;
-    bool fits = h5_read_attribute_real(f, "apr_next", &c->next) &&
-                h5_read_attribute_real(f, "apr_factor", &c->factor) &&
-                h5_read_attribute_real(f, "apr_speed", &c->speed);
+    bool fits = h5_keep(f, "apr_next", &c->next) && h5_keep(f, "apr_factor", &c->factor) &&
+                h5_keep(f, "apr_speed", &c->speed);
     for (int n = 1; n <= c->levels; n++)
-        fits = load_level(c->grid + n, n, f) && fits;
+        fits = keep_level(c->grid + n, n, f) && fits;
     return fits;
 }

@@ -44,9 +44,8 @@ double criteria_forecast(const struct regions *g);
 
 /* For regions.c: the criteria of g, NULL if it has none; owned by g. */
 struct criteria *criteria_create(struct regions *g);
-/* What the next evaluation depends on, in restart files: the same on all ranks. false: the file has
- * none that fits. Collective. */
-void criteria_save(const struct regions *g, struct h5 *f);
-bool criteria_load(struct regions *g, struct h5 *f);
+/* What the next evaluation depends on, in restart files, written or read: the same on all ranks.
+ * false: the file has none that fits. Collective. */
+bool criteria_restart(struct regions *g, struct h5 *f);
 
 #endif

@@ -367,52 +367,24 @@ void regions_move(struct regions *g, double t)
 /* Numbers saved of a body: displacement and rotation matrix. */
 enum { POSE = 12 };
 
-static void save_rows(const struct regions *g, struct h5 *f, const char *name, int n, int width,
-                      const double *rows)
+/* Positions are kept as they are, not computed from t: what follows something has a history. Marks
+ * of criteria come last, for they hold only in the region as it stands. */
+bool regions_restart(struct regions *g, struct h5 *f)
 {
-    h5_write_real(f, name, "m", g->run->rank == 0 ? n : 0, width, rows, false);
-}
-
-/* Positions are saved as they are, not computed from t: what follows something has a history. */
-void regions_save(const struct regions *g, struct h5 *f)
-{
-    double(*shift)[3] = mem_new((size_t)g->nsets, sizeof *shift), pose[BODIES_MAX][POSE];
+    double shift[REGIONS_MAX][3], pose[BODIES_MAX][POSE], way[3];
+    memcpy(way, g->way, sizeof way);
     for (int n = 0; n < g->nsets; n++)
         memcpy(shift[n], g->sets[n].shift, sizeof shift[n]);
     for (int k = 0; k < BODIES_MAX; k++) {
         memcpy(pose[k], g->bodies[k].x, sizeof g->bodies[k].x);
         memcpy(pose[k] + 3, g->bodies[k].Q, sizeof g->bodies[k].Q);
     }
-    save_rows(g, f, "apr_shift", g->nsets, 3, shift[0]);
-    save_rows(g, f, "apr_bodies", BODIES_MAX, POSE, pose[0]);
-    if (g->goes)
-        save_rows(g, f, "apr_box", 1, 3, g->way);
-    mem_free(shift);
-    criteria_save(g, f);
-}
-
-/* n rows that all ranks get; false: the file has none, or others. */
-static bool load_rows(struct h5 *f, const char *name, int n, int width, double *rows)
-{
-    int64_t found = 0;
-    double *read = h5_read_all_real(f, name, width, &found);
-    const bool fits = read && found == n;
-    if (fits)
-        memcpy(rows, read, (size_t)n * (size_t)width * sizeof *rows);
-    mem_free(read);
-    return fits;
-}
-
-/* Marks of criteria come last, for they hold only in the region as it stands. */
-bool regions_load(struct regions *g, struct h5 *f)
-{
-    double shift[REGIONS_MAX][3], pose[BODIES_MAX][POSE];
-    if (!load_rows(f, "apr_shift", g->nsets, 3, shift[0]) ||
-        !load_rows(f, "apr_bodies", BODIES_MAX, POSE, pose[0]))
+    if (!h5_keep_rows(f, "apr_shift", "m", g->nsets, 3, shift[0]) ||
+        !h5_keep_rows(f, "apr_bodies", "m", BODIES_MAX, POSE, pose[0]) ||
+        (g->goes && !h5_keep_rows(f, "apr_box", "m", 1, 3, way)))
         return false;
-    double way[3];
-    if (g->goes && !load_rows(f, "apr_box", 1, 3, way))
-        return false;
+    if (h5_writes(f))
+        return criteria_restart(g, f);
     if (g->goes)
         regions_set_box(g, way);
     for (int n = 0; n < g->nsets; n++)
@@ -423,5 +395,5 @@ bool regions_load(struct regions *g, struct h5 *f)
     }
     move_shells(g);
     make_parts(g);
-    return criteria_load(g, f);
+    return criteria_restart(g, f);
 }

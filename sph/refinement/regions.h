@@ -41,9 +41,7 @@ bool regions_meet_zones(const struct regions *g, int side, double x[3]);
 bool regions_want_peak(const struct regions *g);
 void regions_set_peak(struct regions *g, const double *x, double p);
 
-/* All that a restart needs. regions_load returns false if the file has none, or others.
- * Collective. */
-void regions_save(const struct regions *g, struct h5 *f);
-bool regions_load(struct regions *g, struct h5 *f);
+/* All that a restart needs, written or read; false: the file has none, or others. Collective. */
+bool regions_restart(struct regions *g, struct h5 *f);
 
 #endif

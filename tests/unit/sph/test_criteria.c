@@ -258,11 +258,11 @@ TEST(a_restart_goes_on_the_same)
     evaluate(g, (const double[]){0.5, 0.5, 0.0}, 1.0, 0.0);
     evaluate(g, (const double[]){0.52, 0.5, 0.0}, 0.9, 0.01);
     struct h5 *f = h5_create_restart(MPI_COMM_WORLD, path);
-    regions_save(g, f);
+    assert_true(regions_restart(g, f));
     h5_close(&f);
     f = h5_open(MPI_COMM_WORLD, path);
     h = start(&c, 2, 2, 25000.0);
-    assert_true(regions_load(h, f));
+    assert_true(regions_restart(h, f));
     h5_close(&f);
     for (int turn = 0; turn < 3; turn++) {
         long different = 0;
