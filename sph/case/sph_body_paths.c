@@ -8,7 +8,7 @@
 #include "../walls/sph_walls.h"
 #include "sph_sense.h"
 
-enum { VERTICES = 2000, LEAST_TIMES = 20, MOST_TIMES = 2000 };
+enum { LEAST_TIMES = 20, MOST_TIMES = 2000 };
 
 /* A line of the scene that particles meet. */
 struct bound {
@@ -495,40 +495,6 @@ static bool check_places(const struct run *r, const struct sph_params *used,
     return f->n > before;
 }
 
-/* In 3D: vertices of a mesh beyond a side of the domain that is a wall. */
-static bool check_vertices(const struct run *r, const struct body *b, double t, struct faults *f)
-{
-    const struct scene_domain *d = &r->scene.domain;
-    const struct trimesh *m = &b->is->mesh->mesh;
-    const int stride = 1 + m->nvertices / VERTICES;
-    for (int v = 0; v < m->nvertices; v += stride) {
-        double x[3];
-        body_place(b, m->x[v], x);
-        for (int side = 0; side < 6; side++) {
-            const int a = side / 2;
-            const struct scene_wall *w = scene_wall_of(&r->scene, (enum scene_side)(side + 1));
-            const double out = side % 2 ? x[a] - d->max[a] : d->min[a] - x[a];
-            if (!w || w->kind >= WALL_INFLOW || out <= 1e-6 * (d->max[a] - d->min[a]))
-                continue;
-            params_fault(r->params, f, "bodies",
-                         "body %s goes through the side %c_%s at t = %.3g s, (%g, %g, %g) m",
-                         b->is->name, "xyz"[a], side % 2 ? "max" : "min", t, x[0], x[1], x[2]);
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool check_solids(const struct run *r, struct body *bodies, double t, struct faults *f)
-{
-    bool any = false;
-    for (int k = 0; k < r->scene.nbodies; k++) {
-        body_move(bodies + k, t);
-        any = (bodies[k].is->mesh && check_vertices(r, bodies + k, t, f)) || any;
-    }
-    return any;
-}
-
 /* Of one in 2D, as of meshes in 3D (sph_meshes.c). */
 static void check_size(const struct run *r, const struct sph_params *used, int k, struct faults *f)
 {
@@ -576,11 +542,6 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     const int times = speed > 0.0 ? (int)fmax(wanted, LEAST_TIMES) : 0;
     for (int i = 0; i <= times && plane; i++) {
         const double t = times ? c->time.end * i / times : 0.0;
-        if (c->domain.dim == 3) {
-            if (check_solids(r, bodies, t, f))
-                break;
-            continue;
-        }
         place_bodies(c, bodies, t, now);
         if (check_places(r, used, all, n, t, f))
             break;
