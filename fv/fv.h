@@ -224,27 +224,37 @@ enum { FV_RESTART_FIELDS = 40 }; /* of what a step starts from (time/fv_keep.c),
                      its_once_##c; its_once_##c = 0)
 
 /* The same of cells near water alone: of all without a surface. Elsewhere velocity, fluxes and
- * pressure are 0, and phi is beyond its band. */
-#define FLOW_NEAR(s, c, len) FLOW_NEAR_AT (s, its_part_##c, its_row_##c, c, len)
-#define FLOW_NEAR_AT(s, part_, j, c, len)                                                          \
+ * pressure are 0, and phi is beyond its band. WET: of water and one cell around, for what
+ * extension_apply makes anew in the air, or no one reads there. */
+#define FLOW_NEAR(s, c, len) FLOW_RUNS_AT(s, near, its_part_##c, its_row_##c, c, len)
+#define FLOW_NEAR_AT(s, part_, j, c, len) FLOW_RUNS_AT(s, near, part_, j, c, len)
+#define FLOW_WET(s, c, len) FLOW_RUNS_AT(s, wet, its_part_##c, its_row_##c, c, len)
+#define FLOW_RUNS_AT(s, runs, part_, j, c, len)                                                    \
     for (const struct part *part_ = (s)->grid.part; part_ < (s)->grid.part + (s)->grid.nparts;     \
          part_++)                                                                                  \
         for (int its_layer_##c = 0, j; its_layer_##c < part_->n[2]; its_layer_##c++)               \
             for (j = 0; j < part_->n[1]; j++)                                                      \
-                for (int64_t c = part_at(part_, part_near(part_, 0, j, its_layer_##c), j,          \
-                                         its_layer_##c),                                           \
-                             len = part_nears(part_, 0, 0, j, its_layer_##c), its_once_##c = 1;    \
+                for (int64_t                                                                       \
+                         c = part_at(part_, part_first(part_, part_->runs, 0, j, its_layer_##c),   \
+                                     j, its_layer_##c),                                            \
+                         len = part_count(part_, part_->runs, 0, 0, j, its_layer_##c),             \
+                         its_once_##c = 1;                                                         \
                      its_once_##c; its_once_##c = 0)
 /* Rows of the uniform grid, `more' layers around, likewise. */
-#define BLOCK_NEAR(s, more, c, len) BLOCK_NEAR_AT (s, more, its_row_##c, c, len)
-#define BLOCK_NEAR_AT(s, more, j, c, len)                                                          \
+#define BLOCK_NEAR(s, more, c, len) BLOCK_RUNS_AT(s, near, more, its_row_##c, c, len)
+#define BLOCK_NEAR_AT(s, more, j, c, len) BLOCK_RUNS_AT(s, near, more, j, c, len)
+#define BLOCK_WET(s, more, c, len) BLOCK_RUNS_AT(s, wet, more, its_row_##c, c, len)
+#define BLOCK_WET_AT(s, more, j, c, len) BLOCK_RUNS_AT(s, wet, more, j, c, len)
+#define BLOCK_RUNS_AT(s, runs, more, j, c, len)                                                    \
     for (int its_layer_##c = (s)->whole.g[2] ? -(more) : 0, j;                                     \
          its_layer_##c < (s)->whole.n[2] + ((s)->whole.g[2] ? (more) : 0); its_layer_##c++)        \
         for (j = -(more); j < (s)->whole.n[1] + (more); j++)                                       \
-            for (int64_t c = part_at(&(s)->whole, part_near(&(s)->whole, more, j, its_layer_##c),  \
-                                     j, its_layer_##c),                                            \
-                         len = part_nears(&(s)->whole, more, more, j, its_layer_##c),              \
-                         its_once_##c = 1;                                                         \
+            for (int64_t                                                                           \
+                     c = part_at(&(s)->whole,                                                      \
+                                 part_first(&(s)->whole, (s)->whole.runs, more, j, its_layer_##c), \
+                                 j, its_layer_##c),                                                \
+                     len = part_count(&(s)->whole, (s)->whole.runs, more, more, j, its_layer_##c), \
+                     its_once_##c = 1;                                                             \
                  its_once_##c; its_once_##c = 0)
 
 /* m/s: the largest |u| on blocks, component of u on uniform cells, of all ranks. */

@@ -21,23 +21,27 @@ struct part {
     /* First cell and number of the cells near water, of each line of cells along x, those of ghosts
      * included (surface/near_water.c); NULL: all are near. */
     int (*near)[2];
+    /* The same of cells that hold water and one more in all directions: what is computed for the
+     * water alone. */
+    int (*wet)[2];
 };
 
-/* Number of the line of cells (j, k), ghosts included, in near. */
+/* Number of the line of cells (j, k), ghosts included, in near and wet. */
 static inline int part_row(const struct part *p, int j, int k)
 {
     return j + p->g[1] + (k + p->g[2]) * (p->n[1] + 2 * p->g[1]);
 }
-/* Index along x of the first cell near water in the line (j, k), less `down' cells. */
-static inline int part_near(const struct part *p, int down, int j, int k)
+/* Index along x of the first cell of the line (j, k) in runs, which are near or wet, less `down'
+ * cells. */
+static inline int part_first(const struct part *p, int (*const runs)[2], int down, int j, int k)
 {
-    return (p->near ? p->near[part_row(p, j, k)][0] : 0) - down;
+    return (runs ? runs[part_row(p, j, k)][0] : 0) - down;
 }
-/* Number of cells near water in that line, with `down' and `up' more at its ends; 0: there are
- * none. */
-static inline int part_nears(const struct part *p, int down, int up, int j, int k)
+/* Number of cells in that line, with `down' and `up' more at its ends; 0: there are none. */
+static inline int part_count(const struct part *p, int (*const runs)[2], int down, int up, int j,
+                             int k)
 {
-    const int n = p->near ? p->near[part_row(p, j, k)][1] : p->n[0];
+    const int n = runs ? runs[part_row(p, j, k)][1] : p->n[0];
     return n > 0 ? n + down + up : 0;
 }
 
@@ -91,15 +95,18 @@ static const int no_layers[3] = {0, 0, 0};
                          its_once_##c = 1;                                                         \
                  its_once_##c; its_once_##c = 0)
 
-/* The same of cells near water alone. */
-#define PART_NEAR(p, down, up, c, len)                                                             \
+/* The same of cells near water alone, and of water with one cell around. */
+#define PART_NEAR(p, down, up, c, len) PART_RUNS(p, (p)->near, down, up, c, len)
+#define PART_WET(p, down, up, c, len) PART_RUNS(p, (p)->wet, down, up, c, len)
+#define PART_RUNS(p, runs, down, up, c, len)                                                       \
     for (int its_layer_##c = -(down)[2], its_row_##c; its_layer_##c < (p)->n[2] + (up)[2];         \
          its_layer_##c++)                                                                          \
         for (its_row_##c = -(down)[1]; its_row_##c < (p)->n[1] + (up)[1]; its_row_##c++)           \
-            for (int64_t c = part_at(p, part_near(p, (down)[0], its_row_##c, its_layer_##c),       \
-                                     its_row_##c, its_layer_##c),                                  \
-                         len = part_nears(p, (down)[0], (up)[0], its_row_##c, its_layer_##c),      \
-                         its_once_##c = 1;                                                         \
+            for (int64_t                                                                           \
+                     c = part_at(p, part_first(p, runs, (down)[0], its_row_##c, its_layer_##c),    \
+                                 its_row_##c, its_layer_##c),                                      \
+                     len = part_count(p, runs, (down)[0], (up)[0], its_row_##c, its_layer_##c),    \
+                     its_once_##c = 1;                                                             \
                  its_once_##c; its_once_##c = 0)
 
 /* Visits a part's cells and its ghosts: i (int[3]) has place c. */

@@ -114,8 +114,9 @@ static void change_gradient(struct fv *s, double *phi, double *const g[3])
 }
 
 /* layer[c] is 0 in water: both cells beside the face must be dry. Sides are set last. */
-static void dry_fluxes(struct fv *s)
+static void dry_fluxes(struct fv *s, bool stencils)
 {
+    (void)stencils;
     const unsigned char *layer = s->surface->layer;
     mesh_face_velocities(s, s->u, s->rhs);
     for (int a = 0; a < s->dim; a++)

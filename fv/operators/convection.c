@@ -38,10 +38,10 @@ void convection_face_values(const struct fv *s, const double *q, int a, double *
 {
     const struct block *b = &s->b;
     if (a == 1 && b->rows)
-        BLOCK_NEAR_AT (s, 1, j, c, n)
+        BLOCK_WET_AT (s, 1, j, c, n)
             weighted_row(q + c, b->rows->face[j], b->stride[a], n, out + c);
     else
-        BLOCK_NEAR (s, 1, c, n)
+        BLOCK_WET (s, 1, c, n)
             convection_face_row(q + c, b->stride[a], n, out + c);
 }
 
@@ -135,7 +135,7 @@ void convection(struct fv *s, double *const N[3])
                     tangent[nt++] = b->stride[t];
             convection_face_values(s, s->u[q], a, s->faces[0]);
             if (s->prm.upwind > 0.0)
-                BLOCK_NEAR (s, 1, c, n)
+                BLOCK_WET (s, 1, c, n)
                     convection_bias_row(s->u[q] + c, s->U[a] + c, along, n, s->prm.upwind,
                                         s->faces[0] + c);
             if (s->blocked)
@@ -143,11 +143,11 @@ void convection(struct fv *s, double *const N[3])
             convection_beside_walls(s, a, s->faces[0]);
             /* faces of the cells and the upper one */
             const int up[3] = {a == 0, a == 1, a == 2};
-            PART_NEAR (&s->whole, no_layers, up, c, n)
+            PART_WET (&s->whole, no_layers, up, c, n)
                 flux_row(s->U[a] + c, s->faces[0] + c, tangent, nt, n, s->flux + c);
             if (s->blocked)
                 blocked_fluxes(s, q, a, s->U[a], s->faces[0], s->flux);
-            BLOCK_NEAR_AT (s, 0, j, c, n)
+            BLOCK_WET_AT (s, 0, j, c, n)
                 add_divergence(s->flux + c, along, 1.0 / block_size(b, a, j), n, a == 0, N[q] + c);
         }
 }

@@ -2,7 +2,7 @@
  * for them, with imposed cells, boxes that are cut out and a free surface; convection.c, viscous.c
  * and gradient.c have the stencils. psi_ghosts and to_index are NULL: the solver sets the ghosts of
  * psi itself, and averages over volumes are those over indices. Loops go over the cells near water
- * alone (BLOCK_NEAR).
+ * alone (BLOCK_NEAR), most of them over those of water (BLOCK_WET).
  * SPDX-License-Identifier: BSD-3-Clause */
 
 #include "../boundary/fv_boundary.h"
@@ -89,7 +89,7 @@ static double *divergence(struct fv *s, double tau)
     for (int a = 0; a < b->dim; a++) {
         const int64_t d = b->stride[a];
         const double *restrict U = s->U[a];
-        BLOCK_NEAR_AT (s, 0, j, c, n)
+        BLOCK_WET_AT (s, 0, j, c, n)
             divide_row(U + c, d, 1.0 / (block_size(b, a, j) * tau), a == 0, n, div + c);
     }
     if (s->surface)
@@ -123,7 +123,7 @@ static void correct_fluxes(struct fv *s, double tau, double *psi)
         }
         if (s->forcing)
             forcing_zero(s->forcing, s->rhs[a]);
-        BLOCK_NEAR_AT (s, 1, j, c, n)
+        BLOCK_WET_AT (s, 1, j, c, n)
             subtract_row(s->U[a] + c, psi + c, b->stride[a], tau / block_step(b, a, j),
                          open ? open[a] + c : NULL, n);
     }
@@ -140,9 +140,9 @@ static void change_gradient(struct fv *s, double *phi, double *const g[3])
 }
 
 /* U of faces between dry cells from the extended velocity, then sides. */
-static void dry_fluxes(struct fv *s)
+static void dry_fluxes(struct fv *s, bool stencils)
 {
-    surface_dry_fluxes(s);
+    surface_dry_fluxes(s, stencils);
     if (s->blocked)
         blocked_face_velocities(s, s->u, s->U, true);
     bc_fluxes(s, BC_GIVEN, s->U);

@@ -37,8 +37,9 @@ struct flow_ops {
     void (*correct_fluxes)(struct fv *s, double tau, double *psi);
     /* g = grad phi, of a change of psi. */
     void (*change_gradient)(struct fv *s, double *phi, double *const g[3]);
-    /* With a surface: U of faces between dry cells, from u with its ghosts. */
-    void (*dry_fluxes)(struct fv *s);
+    /* With a surface: U of faces between dry cells, from u with its ghosts; stencils: of those
+     * alone that stencils of wet cells reach. */
+    void (*dry_fluxes)(struct fv *s, bool stencils);
     /* Sets s->max and what else bounds a step. push: m/s^2, from pressures on opposite sides;
      * motion: 1/s, cells per second that moving blocks pass. */
     void (*measure)(struct fv *s, double push, double motion);

@@ -19,11 +19,11 @@ void gradient(const struct fv *s, const double *q, int a, enum continuation how,
 {
     const struct block *b = &s->b;
     if (a == 1 && b->rows)
-        BLOCK_NEAR_AT (s, 0, j, c, n)
+        BLOCK_WET_AT (s, 0, j, c, n)
             for (int64_t i = c; i < c + n; i++)
                 out[i] = block_derivative(b, q + i, a, j);
     else
-        BLOCK_NEAR (s, 0, c, n)
+        BLOCK_WET (s, 0, c, n)
             row(q + c, b->stride[a], 1.0 / (12.0 * b->h[a]), n, out + c);
     if (s->forcing)
         forcing_gradient(s, a, how, s->surface ? s->surface->layer : NULL, q, out);

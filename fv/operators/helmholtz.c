@@ -26,14 +26,14 @@ double helmholtz_plain_tolerance(const struct fv *s) { return tolerance(s, 1e-3)
 double helmholtz_dot(const struct fv *s, const double *x, const double *y)
 {
     double sum = 0.0;
-    FLOW_NEAR (s, c, n)
+    FLOW_WET (s, c, n)
         sum += lanes_dot_any(x + c, y + c, n);
     return sum;
 }
 
 void helmholtz_add(const struct fv *s, double a, const double *restrict x, double *restrict y)
 {
-    FLOW_NEAR (s, c, n)
+    FLOW_WET (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             y[i] += a * x[i];
 }
@@ -41,7 +41,7 @@ void helmholtz_add(const struct fv *s, double a, const double *restrict x, doubl
 /* y = x + beta y */
 static void direct(const struct fv *s, const double *restrict x, double beta, double *restrict y)
 {
-    FLOW_NEAR (s, c, n)
+    FLOW_WET (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             y[i] = x[i] + beta * y[i];
 }
@@ -182,7 +182,7 @@ static void start(const struct fv *s, double f, double *const x[3], double *cons
         const double *restrict from = r[a];
         memset(to, 0, (size_t)s->size * sizeof(double));
         memset(y[a], 0, (size_t)s->size * sizeof(double));
-        FLOW_NEAR (s, c, n)
+        FLOW_WET (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 to[i] = f * from[i];
     }

@@ -58,7 +58,7 @@ static void laplace_row(const struct fv *s, int j, const double *q, int64_t n, d
 
 void viscous_apply(const struct fv *s, const double *q, double *out)
 {
-    BLOCK_NEAR_AT (s, 0, j, at, n)
+    BLOCK_WET_AT (s, 0, j, at, n)
         laplace_row(s, j, q + at, n, out + at);
 }
 
@@ -68,7 +68,7 @@ static void helmholtz(const struct fv *s, int q, double c, const double *x, doub
     viscous_apply(s, x, out);
     if (s->blocked)
         blocked_viscous(s, q, x, out);
-    BLOCK_NEAR (s, 0, at, n)
+    BLOCK_WET (s, 0, at, n)
         for (int64_t i = at; i < at + n; i++)
             out[i] = x[i] - c * out[i];
     if (s->forcing)
@@ -374,7 +374,7 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
         sums[0] += helmholtz_dot(s, rhs, rhs);
         return;
     }
-    BLOCK_NEAR_AT (s, 0, j, at, n) {
+    BLOCK_WET_AT (s, 0, j, at, n) {
         laplace_row(s, j, start + at, n, s->faces[0]);
         residual_row(start + at, s->faces[0], c, n, rhs + at, sums);
     }

@@ -269,13 +269,13 @@ static double remove_mean(const struct fv *s, double *restrict x)
     }
     if (!own(s)->singular)
         return dot(s, x, x);
-    BLOCK_NEAR (s, 0, c, n) {
+    BLOCK_WET (s, 0, c, n) {
         sums[0] += lanes_dot_any(x + c, x + c, n);
         sums[1] += lanes_total(x + c, n);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, s->comm);
     const double mean = sums[1] / own(s)->free_cells;
-    BLOCK_NEAR (s, 0, c, n)
+    BLOCK_WET (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             x[i] -= mean;
     zero_idle(s, x);
@@ -317,7 +317,7 @@ static double next_direction(const struct fv *s, double *r, double rz_last)
     }
     const double *restrict z = p->z;
     double *restrict d = p->p;
-    BLOCK_NEAR (s, 0, c, n)
+    BLOCK_WET (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++)
             d[i] = z[i] + beta * d[i];
     return rz;
@@ -329,13 +329,13 @@ static double advance(const struct fv *s, double rz, double *restrict x, double 
     struct pressure *p = own(s);
     double *restrict d = p->p, *restrict Ad = p->Ap, sum = 0.0;
     block_halo(&s->b, 1, &p->p);
-    BLOCK_NEAR_AT (s, 0, j, c, n) {
+    BLOCK_WET_AT (s, 0, j, c, n) {
         apply_row(s, d, j, c, n, Ad + c);
         sum += lanes_dot_any(d + c, Ad + c, n);
     }
     const double alpha = rz / ranks_sum(s->comm, sum);
     sum = 0.0;
-    BLOCK_NEAR (s, 0, c, n) {
+    BLOCK_WET (s, 0, c, n) {
         for (int64_t i = c; i < c + n; i++) {
             x[i] += alpha * d[i];
             r[i] -= alpha * Ad[i];
@@ -351,7 +351,7 @@ static double first_residual(const struct fv *s, double *psi, double *restrict d
     double *restrict row = own(s)->Ap, sum = 0.0;
     zero_idle(s, psi);
     block_halo(&s->b, 1, &psi);
-    BLOCK_NEAR_AT (s, 0, j, c, n) {
+    BLOCK_WET_AT (s, 0, j, c, n) {
         apply_row(s, psi, j, c, n, row);
         for (int64_t i = 0; i < n; i++)
             div[c + i] = -div[c + i] - row[i];
@@ -376,7 +376,7 @@ static void weight_rows(const struct fv *s, double *r)
 {
     const struct block *b = &s->b;
     if (b->rows)
-        BLOCK_NEAR_AT (s, 0, j, c, n)
+        BLOCK_WET_AT (s, 0, j, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] *= weight(b, j);
 }

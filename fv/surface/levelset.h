@@ -73,6 +73,9 @@ struct surface {
     double *open[3];      /* 1: both cells of the face are wet and free */
     int64_t ncut[3];
     struct cut *cut[3];
+    /* Uniform cells: wet ones whose gradient of psi along an axis would take dry ones. */
+    int64_t nleaving[3];
+    int64_t *leaving[3];
     int64_t ncarry[LAYERS + 1];
     struct carry *carry[LAYERS + 1];
     int64_t nstencil, stencil_room, ngrad, grad_room;
@@ -200,8 +203,8 @@ void surface_zero(const struct fv *s, double *q);
 void surface_add_pressure(const struct fv *s, double *div);
 /* Corrects U of the cut faces by tau times the slope of psi there, s: length of the stage. */
 void surface_fluxes(const struct fv *s, double tau, const double *psi);
-/* Sets U of dry faces from u. */
-void surface_dry_fluxes(const struct fv *s);
+/* Sets U of dry faces from u; stencils: of those next to water alone. */
+void surface_dry_fluxes(const struct fv *s, bool stencils);
 /* Slope of psi on a cut face, along its axis; change: of a variation, which is 0 on the surface. */
 double surface_cut_gradient(const struct cut *x, const double *psi, bool change);
 /* Gradient of psi along a in cells whose stencil leaves the water: the mean of the faces', except

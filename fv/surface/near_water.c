@@ -35,31 +35,35 @@ static bool is_near(const struct surface *f, int64_t c)
     return f->layer[c] != DEEP || (f->fraction && f->fraction->C[c] != 0.0);
 }
 
-/* First cell of each row, ghosts too, that is near, and the one behind the last. */
-static void scan(const struct fv *s, int (*ends)[2])
+static bool is_wet(const struct surface *f, int64_t c) { return f->layer[c] == 0; }
+
+/* First cell of each row, ghosts too, that is `wanted', and the one behind the last, with `reach'
+ * more on either side. */
+static void scan(const struct fv *s, bool (*wanted)(const struct surface *, int64_t), int reach,
+                 int (*ends)[2])
 {
     const struct part *p = &s->whole;
     for (int k = -p->g[2]; k < p->n[2] + p->g[2]; k++)
         for (int j = -p->g[1]; j < p->n[1] + p->g[1]; j++) {
             const int64_t c = part_at(p, 0, j, k);
             int first = -p->g[0], end = p->n[0] + p->g[0];
-            while (first < end && !is_near(s->surface, c + first))
+            while (first < end && !wanted(s->surface, c + first))
                 first++;
-            while (end > first && !is_near(s->surface, c + end - 1))
+            while (end > first && !wanted(s->surface, c + end - 1))
                 end--;
             int *e = ends[part_row(p, j, k)];
-            e[0] = first < end ? first - GHOSTS : INT_MAX;
-            e[1] = first < end ? end + GHOSTS : INT_MIN;
+            e[0] = first < end ? first - reach : INT_MAX;
+            e[1] = first < end ? end + reach : INT_MIN;
         }
 }
 
-/* Each row has what those within GHOSTS of it along axis a have. */
-static void widen(const struct part *p, int a, int (*from)[2], int (*to)[2])
+/* Each row has what those within `reach' of it along axis a have. */
+static void widen(const struct part *p, int a, int reach, int (*from)[2], int (*to)[2])
 {
     const int stride = a == 1 ? 1 : rows_of(p, 1), n = rows_of(p, a), rows = rows_in(p);
     for (int r = 0; r < rows; r++) {
-        const int at = r / stride % n, low = at < GHOSTS ? -at : -GHOSTS,
-                  up = n - 1 - at < GHOSTS ? n - 1 - at : GHOSTS;
+        const int at = r / stride % n, low = at < reach ? -at : -reach,
+                  up = n - 1 - at < reach ? n - 1 - at : reach;
         to[r][0] = INT_MAX;
         to[r][1] = INT_MIN;
         for (int m = low; m <= up; m++) {
@@ -135,24 +139,37 @@ static int (*make_rows(const struct part *p))[2]
     return near;
 }
 
+/* Rows of what is wanted, `reach' cells more in all directions. */
+static void find(const struct fv *s, bool (*wanted)(const struct surface *, int64_t), int reach,
+                 int (*rows)[2])
+{
+    const struct part *p = &s->whole;
+    int(*work)[2] = make_rows(p);
+    scan(s, wanted, reach, rows);
+    widen(p, 1, reach, rows, work);
+    if (s->dim == 3)
+        widen(p, 2, reach, work, rows);
+    else
+        memcpy(rows, work, bytes_of(p));
+    for (int r = 0; r < rows_in(p); r++)
+        round_ends(p->n[0], rows[r]);
+    mem_free(work);
+}
+
 void near_water_find(struct fv *s)
 {
     struct part *p = &s->whole;
     if (!is_wanted(s))
         return;
-    int(*now)[2] = make_rows(p), (*work)[2] = make_rows(p);
+    int(*now)[2] = make_rows(p);
     if (!p->near)
         p->near = mem_own(s, make_rows(p));
-    scan(s, now);
-    widen(p, 1, now, work);
-    if (s->dim == 3)
-        widen(p, 2, work, now);
-    else
-        memcpy(now, work, bytes_of(p));
-    for (int r = 0; r < rows_in(p); r++)
-        round_ends(p->n[0], now[r]);
+    if (!p->wet)
+        p->wet = mem_own(s, make_rows(p));
+    find(s, is_near, GHOSTS, now);
     change(s, now);
-    FREE(now, work);
+    find(s, is_wet, 1, p->wet);
+    mem_free(now);
 }
 
 void near_water_keep(struct fv *s)
@@ -169,8 +186,10 @@ void near_water_keep(struct fv *s)
 
 void near_water_back(struct fv *s)
 {
-    if (s->whole.near && s->surface->near_before)
+    if (s->whole.near && s->surface->near_before) {
         change(s, s->surface->near_before);
-    else
+    } else {
         DROP(s->whole.near);
+        DROP(s->whole.wet);
+    }
 }

@@ -7,11 +7,12 @@
 #include "../fv.h"
 
 /* From the present layers: sets the ranges that FLOW_NEAR, BLOCK_NEAR and PART_NEAR visit, and
- * clears cells that are no longer near. On uniform grids and layers of unequal height with closed
- * or periodic sides and rk3; elsewhere all cells are near. */
+ * those of FLOW_WET, BLOCK_WET and PART_WET; clears cells that are no longer near. On uniform grids
+ * and layers of unequal height with closed or periodic sides and rk3; elsewhere all cells are near.
+ */
 void near_water_find(struct fv *s);
-/* Takes note of the ranges; goes back to them, and clears cells that have become near since. The
- * values of those that were near are the caller's to restore. */
+/* Takes note of the former ranges; goes back to them, and clears cells that have become near since.
+ * The values of those that were near are the caller's to restore. */
 void near_water_keep(struct fv *s);
 void near_water_back(struct fv *s);
 

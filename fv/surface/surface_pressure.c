@@ -80,10 +80,32 @@ static void find_cuts(struct fv *s, int a)
         }
 }
 
+static bool dry_water_side(const struct fv *s, int64_t c)
+{
+    return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
+}
+
+static void find_leaving(struct fv *s, int a)
+{
+    struct surface *f = s->surface;
+    const int64_t d = s->b.stride[a];
+    f->nleaving[a] = 0;
+    BLOCK_WET (s, 0, c, n)
+        for (int64_t i = c; i < c + n; i++) {
+            if (f->layer[i] || !(dry_water_side(s, i - d) || dry_water_side(s, i + d) ||
+                                 dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d)))
+                continue;
+            ROOM_IN(f, f->leaving[a], f->nleaving[a] + 1);
+            f->leaving[a][f->nleaving[a]++] = i;
+        }
+}
+
 void level_find_cuts(struct fv *s)
 {
-    for (int a = 0; a < s->dim; a++)
+    for (int a = 0; a < s->dim; a++) {
         find_cuts(s, a);
+        find_leaving(s, a);
+    }
 }
 
 static void count(struct fv *s)
@@ -156,53 +178,75 @@ void level_cut_fluxes(const struct fv *s, double tau, const double *psi)
             s->U[a][f->cut[a][i].face] -= tau * surface_cut_gradient(f->cut[a] + i, psi, false);
 }
 
-void surface_dry_fluxes(const struct fv *s)
+/* U of dry faces of a row; w: weights of u of the four cells around. */
+static void dry_row(const double *restrict u, const unsigned char *layer, const double *w,
+                    int64_t d, int64_t n, double *restrict U)
 {
+    for (int64_t i = 0; i < n; i++)
+        if (layer[i] && layer[i - d])
+            U[i] = (w[1] * u[i - d] + w[2] * u[i]) + (w[0] * u[i - 2 * d] + w[3] * u[i + d]);
+}
+
+void surface_dry_fluxes(const struct fv *s, bool stencils)
+{
+    static const double even[4] = {-1.0 / 12.0, 7.0 / 12.0, 7.0 / 12.0, -1.0 / 12.0};
     const unsigned char *layer = s->surface->layer;
     for (int a = 0; a < s->b.dim; a++) {
+        double(*const w)[4] = a == 1 && s->b.rows ? s->b.rows->face : NULL;
         const int64_t d = s->b.stride[a];
-        const double *u = s->u[a];
-        BLOCK_NEAR_AT (s, 1, j, c, n) {
-            static const double even[4] = {-1.0 / 12.0, 7.0 / 12.0, 7.0 / 12.0, -1.0 / 12.0};
-            const double *w = a == 1 && s->b.rows ? s->b.rows->face[j] : even;
-            for (int64_t i = c; i < c + n; i++)
-                if (layer[i] && layer[i - d])
-                    s->U[a][i] =
-                        (w[1] * u[i - d] + w[2] * u[i]) + (w[0] * u[i - 2 * d] + w[3] * u[i + d]);
-        }
+        if (stencils)
+            BLOCK_WET_AT (s, 1, j, c, n)
+                dry_row(s->u[a] + c, layer + c, w ? w[j] : even, d, n, s->U[a] + c);
+        else
+            BLOCK_NEAR_AT (s, 1, j, c, n)
+                dry_row(s->u[a] + c, layer + c, w ? w[j] : even, d, n, s->U[a] + c);
     }
 }
 
-/* Gradient on the faces along a; p on the surface: what stands there, or 0. */
+/* Gradient of psi on a face along a; w: 1 over the step of the cells. */
+static double on_face(const struct fv *s, int a, int64_t face, const double *psi, double w)
+{
+    const double open = s->surface->open[a][face];
+    const int64_t below = face - s->b.stride[a];
+    if (open == 2.0) /* outflow: psi is 0 on the face */
+        return 2.0 * w * (s->forcing->forced[face] ? -psi[below] : psi[face]);
+    return open * w * (psi[face] - psi[below]);
+}
+
+/* The same on both faces of the cells whose stencil leaves the water. */
+static void leaving_gradient(const struct fv *s, int a, const double *psi, double *out)
+{
+    const struct block *b = &s->b;
+    const int64_t d = b->stride[a];
+    for (int64_t k = 0; k < s->surface->nleaving[a]; k++) {
+        const int64_t c = s->surface->leaving[a][k];
+        const int j = b->rows ? block_row(b, c) : 0;
+        out[c] = on_face(s, a, c, psi, 1.0 / block_step(b, a, j));
+        out[c + d] = on_face(s, a, c + d, psi, 1.0 / block_step(b, a, j + (a == 1)));
+    }
+}
+
+/* Gradient on the faces along a that count beside the surface, beside a partner on all; p on the
+ * surface: what stands there, or 0. */
 static void face_gradient(const struct fv *s, int a, const double *psi, bool change, double *out)
 {
     const struct surface *f = s->surface;
-    const int64_t d = s->b.stride[a];
-    BLOCK_NEAR_AT (s, 1, j, c, n) {
-        const double w = 1.0 / block_step(&s->b, a, j);
-        for (int64_t i = c; i < c + n; i++) {
-            out[i] = f->open[a][i] * w * (psi[i] - psi[i - d]);
-            if (f->open[a][i] == 2.0) /* outflow: psi is 0 on the face */
-                out[i] = 2.0 * w * (s->forcing->forced[i] ? -psi[i - d] : psi[i]);
-        }
-    }
+    if (f->forced)
+        BLOCK_WET_AT (s, 1, j, c, n)
+            for (int64_t i = c; i < c + n; i++)
+                out[i] = on_face(s, a, i, psi, 1.0 / block_step(&s->b, a, j));
+    else
+        leaving_gradient(s, a, psi, out);
     for (int64_t i = 0; i < f->ncut[a]; i++) {
         const struct cut *x = f->cut[a] + i;
         out[x->face] = surface_cut_gradient(x, psi, change);
     }
     if (!change)
         levels_face_gradient(s, a, out);
-    if (!f->forced)
-        return;
-    for (int64_t i = 0; i < s->forcing->nface[a]; i++) { /* into a partner's cells it goes on */
-        const int64_t face = s->forcing->face[a][i];
-        out[face] = out[face - s->forcing->sign[a][i] * d];
+    for (int64_t i = 0; f->forced && i < s->forcing->nface[a]; i++) { /* into a partner's cells */
+        const int64_t face = s->forcing->face[a][i];                  /* it goes on */
+        out[face] = out[face - s->forcing->sign[a][i] * s->b.stride[a]];
     }
-}
-
-static bool dry_water_side(const struct fv *s, int64_t c)
-{
-    return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
 }
 
 /* Cells beside a partner's whose one-sided stencil would leave the water, too. */
@@ -227,14 +271,13 @@ static void near_gradient(const struct fv *s, int a, const double *psi, bool cha
     const int64_t d = s->b.stride[a];
     double *F = f->rate;
     face_gradient(s, a, psi, change, F);
-    BLOCK_NEAR (s, 0, c, n)
-        for (int64_t i = c; i < c + n; i++) {
-            if (f->layer[i])
-                out[i] = 0.0;
-            else if (dry_water_side(s, i - d) || dry_water_side(s, i + d) ||
-                     dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d))
-                out[i] = 0.5 * (F[i] + F[i + d]);
-        }
+    BLOCK_WET (s, 0, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            out[i] = f->layer[i] ? 0.0 : out[i];
+    for (int64_t k = 0; k < f->nleaving[a]; k++) {
+        const int64_t c = f->leaving[a][k];
+        out[c] = 0.5 * (F[c] + F[c + d]);
+    }
     surface_line_slopes(s, a, psi, change, out);
     if (f->forced)
         gradient_beside_partner(s, a, F, out);

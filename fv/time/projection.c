@@ -27,6 +27,7 @@ static void end_surface_stage(struct fv *s, double tau, double *psi, bool last)
 void projection(struct fv *s, double t, int stage, double tau, double tol)
 {
     double *psi = s->stages.psi[stage];
+    const bool last = stage == 2 || s->prm.integrator == INTEGRATOR_BDF2;
     start(s, "operators");
     stage_predict_fluxes(s, t);
     stop(s, "operators");
@@ -38,15 +39,15 @@ void projection(struct fv *s, double t, int stage, double tau, double tol)
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict g = s->rhs[a];
-        FLOW_NEAR (s, c, n)
+        FLOW_WET (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 u[i] -= tau * g[i];
     }
     if (s->surface)
-        end_surface_stage(s, tau, psi, stage == 2 || s->prm.integrator == INTEGRATOR_BDF2);
+        end_surface_stage(s, tau, psi, last);
     sides_velocity(s, BC_GIVEN, s->u);
     if (s->surface)
-        s->ops->dry_fluxes(s);
+        s->ops->dry_fluxes(s, !last);
     stop(s, "operators");
 }
 
@@ -57,7 +58,7 @@ static bool add_increment(struct fv *s, double c, double t, double scale)
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict d = viscous ? s->delta[a] : s->rhs[a];
-        FLOW_NEAR (s, at, n)
+        FLOW_WET (s, at, n)
             for (int64_t i = at; i < at + n; i++)
                 u[i] += d[i];
     }
@@ -85,7 +86,7 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
             s->ops->viscous(s, a, r);
         else
             grid_clear_near(&s->grid, r);
-        FLOW_NEAR (s, c, n)
+        FLOW_WET (s, c, n)
             for (int64_t i = c; i < c + n; i++)
                 r[i] = dt * (ab * (r[i] - g[i] + drive) - gamma * N[i] - zeta * M[i]);
     }

@@ -149,7 +149,7 @@ void surface_extend(struct fv *s, int layers)
     extension_apply(s, s->u, EXTEND_SHEAR, layers);
     surface_set_pressure(s);
     sides_velocity(s, BC_GIVEN, s->u);
-    s->ops->dry_fluxes(s);
+    s->ops->dry_fluxes(s, layers <= STENCILS);
 }
 
 void surface_interface_moved(struct fv *s, double before)

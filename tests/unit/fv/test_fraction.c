@@ -66,7 +66,7 @@ static double there_and_back(struct fv *s, int steps, double dt)
     struct fraction *f = s->surface->fraction;
     double *first = NEW(double, s->size), off[2] = {0.0, 0.0}, worst = 0.0;
     const double before = sum_of(s);
-    DROP(s->whole.near); /* all cells move */
+    DROP(s->whole.near), DROP(s->whole.wet); /* all cells move */
     memcpy(first, f->C, (size_t)s->size * sizeof(double));
     for (int k = 0; k < 2 * steps; k++) {
         set_vortex(s, k < steps ? 1.0 : -1.0);

@@ -88,7 +88,7 @@ static double turned(int n, double *lost)
     const int steps = (int)ceil(1.0 / dt);
     double x[3];
     s->max.rate = 2.0 * M_PI / h;
-    DROP(s->whole.near); /* all cells move */
+    DROP(s->whole.near), DROP(s->whole.wet); /* all cells move */
     for (int j = -3; j < s->b.n[1] + 3; j++)
         for (int i = -3; i < s->b.n[0] + 3; i++) {
             const int64_t at = block_at(&s->b, i, j, 0);
@@ -425,8 +425,8 @@ TEST(disc_sinks_through_graded_rows)
     const double before = surface_level_volume(s, &area), dt = 0.005;
     assert_close(before, M_PI * 0.15 * 0.15, 2e-3);
     s->max.rate = 1.0 / s->b.h[1];
-    DROP(s->whole.near);           /* all cells move */
-    for (int k = 0; k < 80; k++) { /* by 0.4 */
+    DROP(s->whole.near), DROP(s->whole.wet); /* all cells move */
+    for (int k = 0; k < 80; k++) {           /* by 0.4 */
         for (int64_t i = 0; i < s->b.size; i++)
             s->u[1][i] = -1.0;
         surface_advance(s, dt);
