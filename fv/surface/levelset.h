@@ -45,6 +45,7 @@ struct surface_forced; /* phi in a partner's cells; surface_forced.h; NULL: none
 struct surface_mesh;   /* blocks as the surface sees them, mesh_view.h */
 struct level_ops;      /* what the cells offer to it, level_ops.h */
 struct window_ops;     /* and to the velocity of dry cells, extension_window.h */
+struct band;           /* cells that are reinitialised, reinit_band.h */
 struct reinit_ops;     /* the same to its reinitialisation, reinit_band.h */
 
 /* The free surface and all that follows from the present phi. Arrays are owned. */
@@ -96,6 +97,7 @@ struct surface {
     double through[3];     /* m^dim/s: at the start of a step, see flows() */
     double travelled;      /* -: cells that it has moved since the last reinitialisation */
     double least, largest; /* m: sizes of cells */
+    struct band *band;     /* scratch of reinit.c, owned */
     bool keeps;            /* slopes of phi behind inclined walls stay as they are */
     bool inclined[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
     bool any_inclined;              /* those of some block */

@@ -164,8 +164,9 @@ static void list_band(struct fv *s, int width, struct band *w)
             if ((mark[i] == 0.0 || is_blocked(s, i)) && fabs(phi[i]) < far)
                 phi[i] = copysign(far, phi[i]);
         }
-    w->strips = NEW(struct strip, cells);
-    w->spots = NEW(struct spot, cells);
+    ROOM_IN(w, w->strips, cells);
+    ROOM_IN(w, w->spots, cells);
+    w->nstrips = w->nspots = 0;
     surface_ghosts(s, phi);
     FLOW_NEAR_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++) {
@@ -234,14 +235,15 @@ static void pseudo_step(struct fv *s, const struct band *w)
 
 static void redistance(struct fv *s, int width, int steps)
 {
-    struct band w = {0};
-    list_band(s, width, &w);
-    set_exact(s, &w);
+    struct surface *f = s->surface;
+    if (!f->band)
+        f->band = mem_own(f, NEW(struct band, 1));
+    list_band(s, width, f->band);
+    set_exact(s, f->band);
     s->surface->keeps = true;
     for (int k = 0; k < steps; k++)
-        (steps > 1 && s->surface->reinit->is_known ? carry_step : pseudo_step)(s, &w);
+        (steps > 1 && s->surface->reinit->is_known ? carry_step : pseudo_step)(s, f->band);
     s->surface->keeps = false;
-    FREE(w.strips, w.spots);
 }
 
 void surface_reinit(struct fv *s, int steps)
