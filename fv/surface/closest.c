@@ -26,6 +26,7 @@ static const double EXACT = 1e-7;
 struct around {
     const double *phi;         /* at the cell */
     const unsigned char *none; /* the same: nothing is known there */
+    const unsigned char *bent; /* the same: surface_note_bends; NULL: not noted */
     int dim;
     int64_t stride[3];
     double x[3][NODES]; /* m: centres along each axis, from the cell's */
@@ -166,10 +167,60 @@ static double bend_at(const struct around *w, int a, const double *c, const doub
     return 2.0 / (X[1] - X[-1]) * ((c[d] - c[0]) / (X[1] - X[0]) - (c[0] - c[-d]) / (X[0] - X[-1]));
 }
 
+/* A bit for each axis along which phi bends too much at a cell, and one for cells without phi. */
+enum { BLANK = 8 };
+
+static void note_row(const double *restrict q, int64_t d, double per, double h, unsigned char bit,
+                     int64_t n, unsigned char *restrict bent)
+{
+    for (int64_t i = 0; i < n; i++) {
+        const double bend = per * per * (q[i + d] - 2.0 * q[i] + q[i - d]);
+        bent[i] |= fabs(bend) * h <= BENT ? 0 : bit;
+    }
+}
+
+void surface_note_bends(const struct fv *s, const double *phi)
+{
+    struct surface *f = s->surface;
+    const struct part *p = &s->whole;
+    if (!f->bent)
+        return;
+    PART_NEAR (p, p->g, p->g, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            f->bent[i] = f->none[i] ? BLANK : 0;
+    for (int a = 0; a < s->dim; a++) {
+        int more[3];
+        for (int t = 0; t < 3; t++)
+            more[t] = p->g[t] - (t == a);
+        PART_NEAR (p, more, more, c, n)
+            note_row(phi + c, p->stride[a], 1.0 / s->b.h[a], f->least, (unsigned char)(1 << a), n,
+                     f->bent + c);
+    }
+}
+
+/* is_resolved of what was noted. */
+static bool is_straight(const struct around *w, const struct cubic q[3])
+{
+    const unsigned char *corner = w->bent + corner_of(w, q);
+    int bad = 0;
+    for (int k = 0; k < q[2].n; k++)
+        for (int j = 0; j < q[1].n; j++) {
+            const unsigned char *row = corner + j * w->stride[1] + k * w->stride[2];
+            const int ends =
+                BLANK | (j > 0 && j < q[1].n - 1 ? 2 : 0) | (k > 0 && k < q[2].n - 1 ? 4 : 0);
+            bad |= (row[0] | row[q[0].n - 1]) & ends;
+            for (int i = 1; i < q[0].n - 1; i++)
+                bad |= row[i] & (ends | 1);
+        }
+    return bad == 0;
+}
+
 /* Whether the centres that the cubics at a point are through are known, and bent little. */
 static bool is_resolved(const struct around *w, const struct cubic q[3])
 {
     const int64_t corner = corner_of(w, q);
+    if (w->bent)
+        return is_straight(w, q);
     for (int k = 0; k < q[2].n; k++)
         for (int j = 0; j < q[1].n; j++)
             for (int i = 0; i < q[0].n; i++) {
@@ -243,6 +294,7 @@ static bool look_around(const struct fv *s, const struct part *p, const double *
     int at[3];
     *w =
         (struct around){.phi = phi + c, .none = s->surface->none + c, .dim = s->dim, .h = INFINITY};
+    w->bent = s->surface->bent ? s->surface->bent + c : NULL;
     part_index(p, c, at);
     for (int a = 0; a < s->dim; a++) {
         w->stride[a] = p->stride[a];

@@ -235,6 +235,8 @@ struct surface *levelset_create(const struct fv *s)
     for (int a = 0; a < s->dim; a++)
         f->open[a] = NEW_IN(f, double, s->size);
     f->layer = NEW_IN(f, unsigned char, s->size);
+    if (!s->m && !s->b.rows)
+        f->bent = NEW_IN(f, unsigned char, s->size);
     f->deep = NEW_IN(f, int64_t, s->size);
     f->closed = NEW_IN(f, bool, s->size);
     f->none = (const unsigned char *)f->closed;

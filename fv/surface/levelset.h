@@ -64,6 +64,7 @@ struct surface {
     struct surface_mesh *mesh;         /* NULL: even cells or layers of unequal height */
     double *phi, *phi_new, *rate;      /* m, m, m/s */
     double *kept;                      /* scratch of reinit */
+    unsigned char *bent;               /* uniform cells: surface_note_bends; NULL: others */
     double *before[FV_RESTART_FIELDS]; /* at the start of a step: surface_keep_state */
     int (*near_before)[2];             /* the cells near water that it is of; NULL: all */
     /* Implicit steps: phi at half time, while phi is that at the end of the step. */
@@ -161,7 +162,10 @@ double surface_distance(const struct fv *s, const double *x);
 /* The shape that the water at x belongs to; NULL: none. */
 const struct scene_shape *surface_shape(const struct fv *s, const double *x);
 
-/* closest.c: signed distance of cell c of a part from phi = 0, m; false: the cells around do not
+/* closest.c: on uniform cells takes note of where phi bends too much for surface_closest, which is
+ * to be asked about this phi; phi: with ghosts. Nothing on other cells. */
+void surface_note_bends(const struct fv *s, const double *phi);
+/* Signed distance of cell c of a part from phi = 0, m; false: the cells around do not
  * resolve the surface, or it is more than two cells away. phi: with ghosts. */
 bool surface_closest(const struct fv *s, const struct part *p, const double *phi, int64_t c,
                      double *distance);

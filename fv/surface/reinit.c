@@ -168,6 +168,7 @@ static void list_band(struct fv *s, int width, struct band *w)
     ROOM_IN(w, w->spots, cells);
     w->nstrips = w->nspots = 0;
     surface_ghosts(s, phi);
+    surface_note_bends(s, phi);
     FLOW_NEAR_AT (s, part, j, c, len)
         for (int64_t i = c; i < c + len; i++) {
             if (!(mark[i] > 0.0) || is_left_out(s, i))

@@ -171,6 +171,7 @@ static double moved_at_once(int n)
     double worst = 0.0, x[3], d;
     int known = 0;
     surface_ghosts(s, s->surface->phi);
+    surface_note_bends(s, s->surface->phi);
     BLOCK_CELLS (&s->b, i, j, k, at) {
         block_centre(&s->b, i, j, k, x);
         const double r = hypot(x[0] - 0.52, x[1] - 0.49) - 0.3;
