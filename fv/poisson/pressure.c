@@ -349,7 +349,10 @@ static double advance(const struct fv *s, double rz, double *restrict x, double 
 static double first_residual(const struct fv *s, double *psi, double *restrict div)
 {
     double *restrict row = own(s)->Ap, sum = 0.0;
-    zero_idle(s, psi);
+    if (s->forcing)
+        forcing_zero(s->forcing, psi);
+    if (s->surface)
+        surface_zero_all(s, psi);
     block_halo(&s->b, 1, &psi);
     BLOCK_WET_AT (s, 0, j, c, n) {
         apply_row(s, psi, j, c, n, row);
@@ -395,7 +398,8 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
         rr = advance(s, rz, psi, div);
         n++;
     }
-    remove_mean(s, psi);
+    if (!s->surface || own(s)->singular || (s->forcing && s->forcing->parted))
+        remove_mean(s, psi); /* else it has none, and idle cells are 0 */
     block_halo(&s->b, 1, &psi);
     s->totals.iterations += n;
     return true; /* the watches see what is left */

@@ -203,8 +203,9 @@ void surface_smooth(struct fv *s, double dt);
 void surface_rebuild(struct fv *s);
 /* Sets p/rho on the cut faces, with the viscous stress of the last extension. */
 void surface_set_pressure(struct fv *s);
-/* Sets q to 0 in dry cells of this rank. */
+/* Sets q to 0 in dry cells of this rank: next to water, where the solvers read it; of all. */
 void surface_zero(const struct fv *s, double *q);
+void surface_zero_all(const struct fv *s, double *q);
 /* Subtracts from div what the surface's pressure adds to the Laplacian of psi. */
 void surface_add_pressure(const struct fv *s, double *div);
 /* Corrects U of the cut faces by tau times the slope of psi there, s: length of the stage. */

@@ -142,12 +142,22 @@ void surface_set_pressure(struct fv *s)
         }
 }
 
+static void zero_row(const unsigned char *restrict layer, int64_t n, double *restrict q)
+{
+    for (int64_t i = 0; i < n; i++)
+        q[i] = layer[i] ? 0.0 : q[i];
+}
+
 void surface_zero(const struct fv *s, double *q)
 {
-    const unsigned char *layer = s->surface->layer;
+    FLOW_WET (s, c, n)
+        zero_row(s->surface->layer + c, n, q + c);
+}
+
+void surface_zero_all(const struct fv *s, double *q)
+{
     FLOW_NEAR (s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            q[i] = layer[i] ? 0.0 : q[i];
+        zero_row(s->surface->layer + c, n, q + c);
 }
 
 void surface_add_pressure(const struct fv *s, double *div)
