@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
+#include "face_share.h"
 #include "operators.h"
 
 /* Whether the cell holds no water. */
@@ -36,9 +37,48 @@ static double slope_at(const struct fv *s, int q, const struct side_face *f)
     return 15.0 * (u[0] - ghost[0]) - (u[f->in] - ghost[1]);
 }
 
+/* Change of phi over the cell along t; beside a side that is closed or a box, where ghosts mirror,
+ * from the other neighbour. */
+static double phi_slope(const struct fv *s, int64_t c, const int *at, int t)
+{
+    const struct block *b = &s->b;
+    const double *phi = s->surface->phi + c;
+    const int64_t d = b->stride[t];
+    const int i = b->lo[t] + at[t];
+    const bool below = (i > 0 || b->periodic[t]) && !is_blocked(s, c - d);
+    const bool above = (i < b->cells[t] - 1 || b->periodic[t]) && !is_blocked(s, c + d);
+    const double up = above ? phi[d] - phi[0] : 0.0, down = below ? phi[0] - phi[-d] : 0.0;
+    return above && below ? 0.5 * (up + down) : up + down;
+}
+
+/* Share of the face that is wet, as on blocks (mesh_forces.c). */
+static double wet_share(const struct fv *s, const struct side_face *f, const int *at, double xi[3],
+                        double edge[3])
+{
+    double slope[3] = {0.0};
+    if (!s->surface)
+        return 1.0;
+    for (int t = 0; t < s->dim; t++)
+        slope[t] = t == f->a ? 0.0 : phi_slope(s, f->cell, at, t);
+    return face_wet_share(s->dim, f->a, s->surface->phi[f->cell], slope, xi, edge);
+}
+
+/* Hydrostatic pressure at xi of the face, Pa. */
+static double still_at(const struct fv *s, const struct side_face *f, const int *at,
+                       const double xi[3])
+{
+    double x[3];
+    block_centre(&s->b, at[0], at[1], at[2], x);
+    for (int t = 0; t < s->dim; t++)
+        x[t] +=
+            block_size(&s->b, t, at[t]) * (t == f->a ? (f->side % 2 ? 0.5 : -0.5) : xi[t] - 0.5);
+    return fv_still_pressure(s, x);
+}
+
 /* The fluxes of the momentum equation, so that walls take what the flow loses. On a dry wall acts
- * nothing; beside one that is wet the cell's own pressure counts. With p the pressure on the wall,
- * out the outward direction and d/dn inwards,
+ * nothing; beside one that is wet the cell's own pressure counts; of a face that the surface
+ * crosses the wet share, whose water is at rest where the cell's centre is of air and has no
+ * pressure. With p the pressure on the wall, out the outward direction and d/dn inwards,
  *   F_a += out A (p + rho g.(x - level) + p_partners),   F_q += A mu du_q/dn. */
 void even_face_force(const struct fv *s, const struct side_face *f, double sum[4])
 {
@@ -46,22 +86,25 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
     const int64_t c = f->cell, in = f->in;
     const double out = f->side % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
     const bool slip = f->kind == MESH_SLIP;
-    double p[3], x[3];
+    double p[3], xi[3] = {0.5, 0.5, 0.5}, edge[3] = {0.5, 0.5, 0.5};
     int at[3];
     bool deep = true;
-    if (is_blocked(s, c) || is_dry_wall(s, c, in))
+    if (is_blocked(s, c))
         return;
     part_index(f->part, c, at);
+    const double share = wet_share(s, f, at, xi, edge), area = share * f->flow_area;
+    if (is_dry(s, c) && share > 0.0 && share < 1.0)
+        sum[f->a] += out * area * (still_at(s, f, at, xi) - still_at(s, f, at, edge));
+    if (is_dry_wall(s, c, in))
+        return;
     for (int n = 1; n < 4; n++)
         deep = deep && !is_dry(s, c + n * in) && !(f->body && is_blocked(s, c + n * in));
     for (int n = 0; n < 3; n++)
         p[n] = fv_pressure(s, deep ? c + n * in : c);
-    block_centre(b, at[0], at[1], at[2], x);
-    x[f->a] += 0.5 * out * block_size(b, f->a, at[f->a]);
-    sum[f->a] += out * f->flow_area *
-                 (wall_pressure(p, slip) + fv_still_pressure(s, x) + s->partners.pressure);
+    sum[f->a] +=
+        out * area * (wall_pressure(p, slip) + still_at(s, f, at, xi) + s->partners.pressure);
     for (int q = 0; q < b->dim; q++)
-        sum[q] += f->flow_area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s, q, f);
+        sum[q] += area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s, q, f);
 }
 
 /* The fluxes of energy, of pressure and of friction on the face: values there by the scheme's own

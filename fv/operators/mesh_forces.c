@@ -4,6 +4,7 @@
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
+#include "face_share.h"
 #include "mesh_ops.h"
 
 /* Derivatives of u with respect to the indices at the face f of a side, from cells and ghosts,
@@ -102,38 +103,21 @@ static double viscous_flux(const struct fv *s, const struct side_face *d, const 
     return s->nu * F;
 }
 
-/* Share of a face that is below the level set's 0, straight between its ends; xi: middle of that
- * share, edge: where it ends, in the face's cell. Along the second tangent at Gauss points. Without
- * a surface all of it. phi is taken linear on the face, from four cells around; its mean over the
- * two cells beside the face is that at the face. */
+/* Share of the face that is below the level set's 0 (face_wet_share). Without a surface all of it.
+ * phi is taken linear on the face, from four cells around; its mean over the two cells beside the
+ * face is that at the face. */
 static double wet_share(const struct fv *s, const struct side_face *d, double xi[3], double edge[3])
 {
-    static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
     const double *phi = s->surface ? s->surface->phi : NULL;
-    const int n = s->m->dim == 3 ? 2 : 1, along[2] = {d->a == 0, d->a == 2 ? 1 : 2};
     const int64_t c = d->cell;
-    double share = 0.0, at[2] = {0.0, 0.0}, end = 0.0, slope[2] = {0.0, 0.0};
+    double slope[3] = {0.0};
     if (!phi)
         return 1.0;
-    const double middle = 0.5 * (phi[c] + phi[c - d->in]);
-    for (int t = 0; t < n; t++) {
-        const int64_t b = d->part->stride[along[t]];
+    for (int t = 0; t < s->m->dim; t++) {
+        const int64_t b = d->part->stride[t];
         slope[t] = 0.25 * (phi[c + b] + phi[c + b - d->in] - phi[c - b] - phi[c - b - d->in]);
     }
-    for (int k = 0; k < n; k++) {
-        const double across = n == 2 ? gauss[k] : 0.5;
-        const double q = middle + (across - 0.5) * slope[1], half = 0.5 * fabs(slope[0]);
-        const double own = q <= -half ? 1.0 : q >= half ? 0.0 : 0.5 - q / (2.0 * half);
-        share += own / n;
-        at[0] += own / n * (slope[0] > 0.0 ? 0.5 * own : 1.0 - 0.5 * own);
-        at[1] += own / n * across;
-        end += own / n * (slope[0] > 0.0 ? own : 1.0 - own);
-    }
-    for (int t = 0; t < n && share > 0.0; t++)
-        edge[along[t]] = xi[along[t]] = at[t] / share;
-    if (share > 0.0)
-        edge[along[0]] = end / share;
-    return share;
+    return face_wet_share(s->m->dim, d->a, 0.5 * (phi[c] + phi[c - d->in]), slope, xi, edge);
 }
 
 /* Of water at rest, and a partner's level, Pa. */

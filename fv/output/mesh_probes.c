@@ -75,8 +75,23 @@ static double ground_at(const struct fv *s, const double *at, int up, double top
     return edge_between(s, at, up, end + (n - 1) * part, end + n * part);
 }
 
-/* Height against gravity, as keys of levels are, of the highest water over x, linear between
- * samples; of the ground if there is none, NAN where FV does not compute. */
+/* Length without water below sample n of a column of phi, in distances between samples, linear
+ * between them: under drops and jets, and of air that is shut in. Where no cells are, phi is 0, as
+ * in a body that water stands on. */
+static double dry_below(const double *phi, int n)
+{
+    double sum = 0.0;
+    for (int k = n; k < ALONG; k++) {
+        const double a = fmax(phi[k], 0.0), b = fmax(phi[k + 1], 0.0);
+        const double change = fabs(phi[k + 1] - phi[k]);
+        sum += phi[k] * phi[k + 1] < 0.0 ? (a + b) / change : phi[k] > 0.0 || phi[k + 1] > 0.0;
+    }
+    return sum;
+}
+
+/* Height against gravity of the highest water over x, linear between samples, as keys of levels
+ * are; of the ground if there is none, NAN where FV does not compute. What it stands on without
+ * water is taken off, so that a drop counts by its height, as in columns of even cells. */
 static double level_at(struct fv *s, int gauge, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
@@ -97,12 +112,12 @@ static double level_at(struct fv *s, int gauge, const double *x)
             continue;
         /* 0 before it is the surface itself, or no cell: then phi need not be near 0 here */
         const bool falls = n > 0 && (phi[n - 1] > 0.0 || (phi[n - 1] == 0.0 && -phi[n] < most));
-        const double place = top + (end - top) * n / ALONG;
+        const double step = (top - end) / ALONG, place = top - n * step;
+        const double dry = step * dry_below(phi, n);
         if (n > 0 && !falls) /* below a roof */
-            return sign *
-                   edge_between(s, x, up, sign * (place + (top - end) / ALONG), sign * place);
+            return sign * edge_between(s, x, up, sign * (place + step), sign * place) - dry;
         const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
-        return top + (end - top) * (n - back) / ALONG;
+        return place + back * step - dry;
     }
     return sign * (isnan(ground) ? ground_at(s, x, up, sign * top, sign * end) : ground);
 }
