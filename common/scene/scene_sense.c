@@ -6,6 +6,7 @@
 #include "scene_fluid.h"
 #include "scene_geometry.h"
 #include "scene_probe.h"
+#include "scene_speed.h"
 
 /* Triangles bound a fluid of three dimensions, outlines one of two. */
 static void check_surface(const struct scene *s, const struct params *p, struct faults *f,
@@ -319,6 +320,24 @@ static void warn_units(const struct scene *s)
         log_warn("fluid.nu: %g m^2/s looks like mm^2/s: all is SI, water has 1e-6", nu);
 }
 
+/* Openings of which none gives a flow, beside fluid that rests without a surface: they are at one
+ * pressure, and the run shows nothing. Bodies and blocks may move: they are not asked. */
+static void warn_rest(const struct scene *s, const struct params *p)
+{
+    int outflows = 0;
+    for (int k = 0; k < s->nwalls; k++) {
+        if (s->walls[k].kind == WALL_INFLOW)
+            return;
+        outflows += s->walls[k].kind == WALL_OUTFLOW && s->walls[k].side != SIDE_NONE;
+    }
+    if (outflows > 1 && !scene_has_surface(s) && s->nbodies == 0 &&
+        !params_has_group(p, "blocks") && !params_has_group(p, "coupling") &&
+        vec3_length(s->initial.velocity) == 0.0 && !scene_speed_of(s, 0.0, 0.0).moves)
+        log_warn("walls: nothing moves: all %d openings are outflows at one pressure: give one of "
+                 "them another, or a velocity at an inflow",
+                 outflows);
+}
+
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f)
 {
     const int before = f->n;
@@ -330,6 +349,8 @@ void scene_check_sense(const struct scene *s, const struct params *p, struct fau
     check_water(s, p, f);
     check_probes(s, p, f);
     check_names(s, p, f);
-    if (f->n == before)
+    if (f->n == before) {
         warn_units(s);
+        warn_rest(s, p);
+    }
 }

@@ -169,14 +169,10 @@ static void look_at(const struct fv *s, const struct flow_samples *f, const doub
     v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f->step;
 }
 
-/* The water that crosses a sample where cells keep their share of it: what crossed the
- * faces of its cell in the last advance, so that films and jets which phi does not resolve
- * count. All of the sample is wet. */
-static void look_at_shares(const struct fv *s, const struct flow_samples *f, const int *i,
-                           const double *w, double *v)
+/* The cell that a place is in, and how far from its lower faces, in its sizes. */
+static void within_cell(const struct fv *s, const int *i, const double *w, int cell[3],
+                        double at[3])
 {
-    int cell[3];
-    double at[3];
     for (int a = 0; a < 3; a++) {
         const double *e = a == 1 && s->b.rows ? s->b.rows->edge + s->b.lo[1] + i[1] : NULL;
         const double lower = e ? (e[1] - e[0]) / (e[2] - e[0]) : 0.5; /* of the way to the next */
@@ -184,10 +180,25 @@ static void look_at_shares(const struct fv *s, const struct flow_samples *f, con
         cell[a] = i[a] + up;
         at[a] = up ? 0.5 * (w[a] - lower) / (1.0 - lower) : 0.5 + 0.5 * w[a] / lower;
     }
-    for (int a = 0; a < s->dim; a++)
-        v[a] = f->across[a] == 0.0
-                   ? 0.0
-                   : fraction_passed(s, block_at(&s->b, cell[0], cell[1], cell[2]), a, at[a]);
+}
+
+/* What crosses a sample by the faces of its cell, so that a section has the discharge of what flows
+ * into and out of the scene, whatever the profile beside corners of boxes: the projected fluxes
+ * without a surface; where cells keep their share of water what crossed them in the last advance,
+ * so that films and jets which phi does not resolve count. All of the sample is wet. */
+static void look_at_faces(const struct fv *s, const struct flow_samples *f, const int *i,
+                          const double *w, double *v)
+{
+    int cell[3];
+    double at[3];
+    within_cell(s, i, w, cell, at);
+    const int64_t c = block_at(&s->b, cell[0], cell[1], cell[2]);
+    for (int a = 0; a < s->dim; a++) {
+        const double *U = s->U[a] + c;
+        v[a] = f->across[a] == 0.0 ? 0.0
+               : s->surface        ? fraction_passed(s, c, a, at[a])
+                                   : (1.0 - at[a]) * U[0] + at[a] * U[s->b.stride[a]];
+    }
     v[3] = -f->step;
 }
 
@@ -197,15 +208,16 @@ static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
     (void)gauge;
     struct flow_samples f = flow_samples_create(s, g);
     const struct fraction *fraction = s->surface ? s->surface->fraction : NULL;
-    const bool shares = fraction && fraction->carries > 0.0 && fraction->has_passed;
+    const bool faces = s->surface ? fraction && fraction->carries > 0.0 && fraction->has_passed
+                                  : s->blocked && s->step.dt > 0.0;
     for (int k = 0; k < f.n; k++) {
         int i[3];
         double w[3];
         f.value[k][3] = f.step;
         if (!locate(s, f.x[k], i, w) || is_blocked(s, host_at(s, i, w)))
             continue;
-        if (shares)
-            look_at_shares(s, &f, i, w, f.value[k]);
+        if (faces)
+            look_at_faces(s, &f, i, w, f.value[k]);
         else
             look_at(s, &f, f.x[k], i, w, f.value[k]);
     }

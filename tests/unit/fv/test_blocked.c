@@ -317,7 +317,8 @@ static double discharge(const struct fv *s, const double *open)
 }
 
 /* An inflow that starts at once through an orifice: the flow of the start and that of each step
- * carry the inflow's discharge through it, at no more than some times its mean speed there. */
+ * carry the inflow's discharge through it, at no more than some times its mean speed there, and a
+ * gauge reads it. */
 TEST(orifice_starts)
 {
     static const struct {
@@ -342,6 +343,10 @@ TEST(orifice_starts)
                                             : side == SIDE_X_MAX ? WALL_OUTFLOW
                                                                  : WALL_SLIP,
                                     .velocity = {side == SIDE_X_MIN ? of[k].u : 0.0, 0.0, 0.0}};
+        scene->probes[scene->nprobes++] = (struct scene_probe){.name = "q",
+                                                               .kind = PROBE_DISCHARGE,
+                                                               .at = {0.47, of[k].open[0], 0.0},
+                                                               .to = {0.47, of[k].open[1], 1.0}};
         if (of[k].open[0] > 0.0)
             BOX("lower", WALL_SLIP, 0.45, 0, 0, 0.55, of[k].open[0], 1);
         BOX("upper", WALL_SLIP, 0.45, of[k].open[1], 0, 0.55, 1, 1);
@@ -350,10 +355,14 @@ TEST(orifice_starts)
         nboxes = 0;
         struct fv *s = fv_case_start(&c, NULL);
         const double start = discharge(s, of[k].open);
+        double gauge;
         assert_close(start, of[k].u, 1e-5 * of[k].u);
         for (int n = 0; n < 3; n++) {
             assert_true(fv_case_run(&c, 5, 1.0));
             assert_close(discharge(s, of[k].open), of[k].u, 1e-3 * of[k].u);
+            fv_probe(s, &gauge); /* on rank 0; beside a corner, within the orifice */
+            MPI_Bcast(&gauge, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+            assert_close(gauge, of[k].u, 1e-3 * of[k].u);
             assert_true(s->max.u[0] > 0.9 * of[k].u / of[k].n &&
                         s->max.u[0] < 4.0 * of[k].u / of[k].n);
         }
