@@ -221,6 +221,12 @@ def box(words, change):
     faulty('basin', r's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/; ' + change, words, 'fv')
 
 
+edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.625); } );\n&/')
+holds(start('fv', 'case.cfg', '--check') == 0 and told('box "b": 4 cells along x between it and what is next: a jet'), 'a narrow gap')
+edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0, 0); max = (0.25, 0.25); } );\n&/')
+holds(start('fv', 'case.cfg', '--check') == 0 and not told('a jet out of'), 'a wide gap')
+
+
 box(r'blocked.\[0\].max: box "b": from 0.5 to 0.5 m along x: give max above min', 's/min = (0.25, 0)/min = (0.5, 0)/')
 box(r'blocked.\[0\].min: box "b": it lies outside the domain along y', 's/min = (0.25, 0); max = (0.5, 0.5)/min = (0.25, -1); max = (0.5, -0.5)/')
 box(r'blocked.\[0\].min: box "b": from -0.25 to 0.25 m along x it reaches over a periodic side: give its parts as two boxes, 0 to 0.25 m and 0.75 to 1 m', 's/min = (0.25, 0); max = (0.5, 0.5)/min = (-0.25, 0); max = (0.25, 0.5)/; s/max = (1, 1);/& periodic = (true, false);/; s/{ side = "x_min"; kind = "no_slip"; }, { side = "x_max"; kind = "no_slip"; },//')
@@ -338,6 +344,9 @@ sph:     { dx = 0.05; R_dx = 2.0; };
 tells('channel', 's/^initial.*//', 'the fluid rests, and an inflow of 1 m/s begins at once: its sound, rho c0 U = 15 Pa')
 edit('channel.cfg', 's/^$//')
 holds(start('sph', 'case.cfg', '--check') == 0 and not told('the fluid rests'), 'a flow that starts as it enters')
+tells('channel', 's/^initial.*//; s/kind = "inflow"; velocity = (1, 0)/kind = "outflow"/', 'walls: nothing moves: all 2 openings are outflows at one pressure')
+edit('channel.cfg', 's/^initial.*//; s/kind = "inflow"; velocity = (1, 0)/kind = "outflow"; pressure = 1.0/')
+holds(start('sph', 'case.cfg', '--check') == 0 and not told('nothing moves'), 'outflows at two pressures')
 # keys without use
 faulty('tank', 's/U = 3.0/U = 3.0; velocity = (1, 0)/', 'case.cfg:5: initial.velocity: is not used: ', 'sph')
 faulty('tank', 's/U = 3.0/U = 3.0; L = 2.0/', 'case.cfg:5: initial.L: is not used: ', 'sph')
