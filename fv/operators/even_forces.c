@@ -11,13 +11,6 @@ static bool is_dry(const struct fv *s, int64_t c)
 {
     return s->surface && s->surface->layer[c] != 0;
 }
-/* Whether no water stands at the wall: the level set, extrapolated from the first two cells to the
- * face by half a cell, is positive there. */
-static bool is_dry_wall(const struct fv *s, int64_t c, int64_t in)
-{
-    return is_dry(s, c) || (s->surface && 3.0 * s->surface->phi[c] > s->surface->phi[c + in]);
-}
-
 /* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are those of
  * the quadratic behind a no-slip wall, mirrored behind a slip wall (forcing_fixes.c). */
 static double wall_pressure(const double p[3], bool slip)
@@ -51,7 +44,8 @@ static double phi_slope(const struct fv *s, int64_t c, const int *at, int t)
     return above && below ? 0.5 * (up + down) : up + down;
 }
 
-/* Share of the face that is wet, as on blocks (mesh_forces.c). */
+/* Share of the face that is wet, as on blocks (mesh_forces.c); phi at its centre is extrapolated
+ * from the first two cells by half a cell. */
 static double wet_share(const struct fv *s, const struct side_face *f, const int *at, double xi[3],
                         double edge[3])
 {
@@ -60,7 +54,8 @@ static double wet_share(const struct fv *s, const struct side_face *f, const int
         return 1.0;
     for (int t = 0; t < s->dim; t++)
         slope[t] = t == f->a ? 0.0 : phi_slope(s, f->cell, at, t);
-    return face_wet_share(s->dim, f->a, s->surface->phi[f->cell], slope, xi, edge);
+    const double *phi = s->surface->phi + f->cell;
+    return face_wet_share(s->dim, f->a, 0.5 * (3.0 * phi[0] - phi[f->in]), slope, xi, edge);
 }
 
 /* Hydrostatic pressure at xi of the face, Pa. */
@@ -95,7 +90,7 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
     const double share = wet_share(s, f, at, xi, edge), area = share * f->flow_area;
     if (is_dry(s, c) && share > 0.0 && share < 1.0)
         sum[f->a] += out * area * (still_at(s, f, at, xi) - still_at(s, f, at, edge));
-    if (is_dry_wall(s, c, in))
+    if (is_dry(s, c))
         return;
     for (int n = 1; n < 4; n++)
         deep = deep && !is_dry(s, c + n * in) && !(f->body && is_blocked(s, c + n * in));

@@ -4,16 +4,19 @@
 #define FV_FACE_SHARE_H
 
 #include <math.h>
+#include <stdbool.h>
 
 /* Share of a face across axis a where phi < 0, straight between its ends: phi is `middle' in its
  * centre and changes by slope[t] over the face along t. xi: middle of that share, edge: where it
- * ends, both in [0, 1] of the face's cell and left alone along a. Along the second tangent at Gauss
- * points. */
+ * ends, both in [0, 1] of the face's cell and left alone along a. Exact along the tangent that
+ * phi changes most along, at Gauss points of the other. */
 static inline double face_wet_share(int dim, int a, double middle, const double slope[3],
                                     double xi[3], double edge[3])
 {
     static const double gauss[2] = {0.2113248654051871, 0.7886751345948129};
-    const int n = dim == 3 ? 2 : 1, along[2] = {a == 0, a == 2 ? 1 : 2};
+    const int n = dim == 3 ? 2 : 1, one = a == 0, other = a == 2 ? 1 : 2;
+    const bool turned = n == 2 && fabs(slope[other]) > fabs(slope[one]);
+    const int along[2] = {turned ? other : one, turned ? one : other};
     double share = 0.0, at[2] = {0.0, 0.0}, end = 0.0;
     for (int k = 0; k < n; k++) {
         const double across = n == 2 ? gauss[k] : 0.5, first = slope[along[0]];

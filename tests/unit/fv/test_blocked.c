@@ -279,6 +279,33 @@ TEST(bar_and_walls_take_the_weight)
 
 /* A stream through boxes in a periodic domain loses energy, whoever has it; the watch of what a
  * flow has over its mean knows that a box stirs it. */
+/* Water at rest on one side of a box presses on it by rho g h^2/2, wherever the surface lies in its
+ * cell: on a face, a little above it, in the centre, above that. */
+TEST(a_dam_bears_its_water)
+{
+    static const double level[] = {0.5, 0.51, 0.525, 0.54};
+    for (int dim = 2; dim < 4; dim++)
+        for (int k = 0; k < 4; k++) {
+            struct fv_case c;
+            const bool flat = dim == 2;
+            double force[FLOW_BODIES_MAX][4], all[4], box[2][3] = {{0.0}, {0.5, 1.0, 1.0}};
+            struct scene_shape water = {.form = SHAPE_BOX};
+            box[1][dim - 1] = level[k];
+            memcpy(water.box, box, sizeof box);
+            BOX("dam", WALL_SLIP, 0.5, 0, 0, 0.75, 1, 1);
+            struct fv *s = start(
+                &c, MPI_COMM_WORLD,
+                (const char *const[]){SURFACE, flat ? "domain.dim=2" : "domain.dim=3",
+                                      flat ? "fluid.gravity=(0,-10)" : "fluid.gravity=(0,0,-10)",
+                                      flat ? "fv.cells=(20,20)" : "fv.cells=(20,6,20)", NULL},
+                &water, WALL_SLIP);
+            flow_forces(s, force, all);
+            const double want = 5.0 * c.run.scene.fluid.rho * level[k] * level[k];
+            assert_close(force[0][0], want, 1e-9 * want);
+            end(&c);
+        }
+}
+
 TEST(stream_loses_energy)
 {
     for (int bdf2 = 0; bdf2 < 2; bdf2++) {
