@@ -150,7 +150,7 @@ static void check_probes(const struct run *r, const struct scene_mesh *m, double
     const struct scene *c = &r->scene;
     for (int k = 0; k < c->nprobes && m->mesh.closed; k++) {
         const struct scene_probe *g = c->probes + k;
-        if (g->kind != PROBE_PRESSURE || scene_mesh_holds(m, g->at) ||
+        if (!probe_is_point(g) || scene_mesh_holds(m, g->at) ||
             fabs(tree_nearest(m->tree, g->at, INFINITY).distance) <= behind_and_on(m, dx))
             continue;
         params_fault(r->params, f, key_text("probes.[%d].at", k),

@@ -2,9 +2,9 @@
  * column's cross-section, drops included, on top of the floor: the first wall or body below the
  * place (the first above it that holds fluid, where the place is in a wall itself), else the end of
  * the domain to which gravity draws. Where walls stand in the column it ends there, and where the
- * floor falls off as a cliff, below which there may be air; what water drowns above the place
- * counts as water, where no air is left below it. Heights are against gravity, along its axis, from
- * the origin.
+ * floor falls off as a cliff, below which there may be air; what of solids above the place lies
+ * below the level counts as water, where no air is left below them. Heights are against gravity,
+ * along its axis, from the origin.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gauge.h"
 
@@ -14,6 +14,13 @@
 #include "surface.h"
 
 enum { SAMPLES_2D = 16, SAMPLES_3D = 8 }; /* of a floor, along an axis */
+enum { HALVINGS = 50 };                   /* of what a level is searched in */
+
+/* A solid above one place of the section: its underside and how high it is, m; share: of the
+ * section. */
+struct above {
+    double share, under, height;
+};
 
 struct column {
     int up;              /* axis of gravity, else the last one */
@@ -28,7 +35,10 @@ struct column {
     double section, floor;
     double cliff;         /* m: a floor below this is another one than that below the place */
     double ground, crest; /* m: highest place of the floor, of solids above the place */
-    double roof, drowned; /* m: underside of a solid above the place, its mean height; NAN, 0 */
+    double roof;          /* m: mean underside of solids above the place; NAN: none */
+    struct above over;    /* the place; height 0: none */
+    int nabove;
+    struct above above[SAMPLES_3D * SAMPLES_3D];
 };
 
 /* Lines, meshes or bodies: sides alone leave the floor even and columns upright. */
@@ -69,8 +79,11 @@ static void rise_from_solid(const struct sph *s, struct column *c)
     const double step = 0.01 * s->dx;
     double way[3], y[3];
     memcpy(y, c->at, sizeof y);
-    for (int k = 0; k < 8 && walls_way(s, y, 1e30, way) < step; k++) {
-        lift(c, y, -2.0 * step);
+    for (int k = 0; k < 8; k++) {
+        const bool inside = walls_in_body(s, y);
+        if (!inside && walls_way(s, y, 1e30, way) >= step)
+            break;
+        lift(c, y, inside ? 0.0 : -2.0 * step); /* it may be on a face */
         lift(c, y, free_height(s, c, y, c->top - height_of(c, y)) + step);
         if (height_of(c, y) >= c->top)
             return;
@@ -102,11 +115,10 @@ static bool is_hidden(const struct sph *s, const struct column *c, const double 
     return floor < c->cliff;
 }
 
-/* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof, height. /
- * Where the solid above ends at the top of the domain it is a ceiling, not something that water can
- * drown. */
+/* Floor and roof over one place of the section; sums: weight, floor, roof's weight, roof. Where the
+ * solid above ends at the top of the domain it is a ceiling, not something that water can drown. */
 static void sound(const struct sph *s, const struct column *c, const double *across, double weight,
-                  double sums[5], struct column *to)
+                  double sums[4], struct column *to)
 {
     double x[3];
     memcpy(x, c->at, sizeof x);
@@ -129,18 +141,20 @@ static void sound(const struct sph *s, const struct column *c, const double *acr
         return;
     sums[2] += weight;
     sums[3] += weight * under;
-    sums[4] += weight * (height + eps);
+    to->above[to->nabove++] = (struct above){weight, under, height + eps};
     to->crest = fmax(to->crest, under + height);
 }
 
 /* Samples floor and roof over the section, 16 places in 2D and 8 x 8 in 3D, weighted by the hat
- * function, and takes means for the floor and what drowns, extremes for ground and crest. The
+ * function, and takes means for floor and roof, extremes for ground and crest. The
  * section shrinks by the share of places that walls hide. */
 static void sound_all(const struct sph *s, struct column *c)
 {
     const int n = s->dim == 2 ? SAMPLES_2D : SAMPLES_3D, m = s->dim == 2 ? 1 : n;
-    double sums[5] = {0.0}, all = 0.0;
-    struct column highest = {.ground = -INFINITY, .crest = -INFINITY};
+    double sums[4] = {0.0}, all = 0.0;
+    struct column highest = {.ground = -INFINITY, .crest = -INFINITY}, just = highest;
+    sound(s, c, (double[3]){0.0}, 1.0, sums, &just);
+    memset(sums, 0, sizeof sums);
     const double at = height_of(c, c->at);
     c->cliff = at + free_height(s, c, c->at, c->bottom - at) - c->half;
     for (int k = 0; k < n * m; k++) {
@@ -165,7 +179,12 @@ static void sound_all(const struct sph *s, struct column *c)
     c->ground = highest.ground;
     c->crest = highest.crest;
     c->roof = sums[3] / sums[2]; /* NAN: none */
-    c->drowned = sums[4] / sums[0];
+    c->over = just.nabove > 0 ? just.above[0] : c->over;
+    c->nabove = highest.nabove;
+    for (int k = 0; k < highest.nabove; k++) {
+        c->above[k] = highest.above[k];
+        c->above[k].share /= sums[0];
+    }
 }
 
 /* Sets which axis points upwards, with its sign, and the heights of the domain's two ends along
@@ -273,16 +292,40 @@ static void sum_column(const struct sph *s, const struct column *c, const struct
     MPI_Allreduce(MPI_IN_PLACE, sums, COLUMN, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
-/* Level as if the water filled the column's section; drowned solids count as water, but what stands
- * on one with air below it is another water. With roof NAN the comparisons are false, and nothing
- * drowns. */
+/* Height of the water's column below a level, without what solids take of it, m. */
+static double water_below(const struct column *c, double level)
+{
+    double water = level - c->floor;
+    for (int k = 0; k < c->nabove; k++) {
+        const struct above *a = c->above + k;
+        water -= a->share * fmax(0.0, fmin(level - a->under, a->height));
+    }
+    return water;
+}
+
+/* Level as if the water filled the column's section; what of solids lies below it counts as water,
+ * but what stands on one with air below it is another water. Below a hull that pierces the surface
+ * it is its underside. Under a roof over all of the section half a spacing more is noise. */
 static double level_of(const struct sph *s, const struct column *c, const double *sums)
 {
-    const double level = c->floor + sums[COLUMN_ALL] / c->section;
+    const double water = sums[COLUMN_ALL] / c->section, level = c->floor + water;
     const double under = c->floor + sums[COLUMN_UNDER] / c->section;
+    double low = level, high = level;
     if (c->covered && under < c->roof - s->dx)
         return under;
-    return level > c->roof + 0.5 * s->dx ? level + c->drowned : level; /* no roof: NAN */
+    if (c->nabove == 0 || (c->covered && level <= c->roof + 0.5 * s->dx))
+        return level;
+    for (int k = 0; k < c->nabove; k++)
+        high += c->above[k].share * c->above[k].height;
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = 0.5 * (low + high);
+        if (water_below(c, middle) < water)
+            low = middle;
+        else
+            high = middle;
+    }
+    const double top = c->over.under + c->over.height;
+    return high > c->over.under && high < top ? c->over.under : high;
 }
 
 /* Whether the water of the column can stand closer, or wider, than its volumes say: beside walls,

@@ -348,6 +348,46 @@ double walls_meet(const struct sph *s, const double *x, const double *d)
     return first;
 }
 
+/* Whether x, in the plane, is inside of the outline of a body where it is now, by the crossings of
+ * a ray. */
+static bool in_outline(const struct body *b, const double *x)
+{
+    const int n = body_corners(b);
+    double from[3], to[3];
+    bool in = false;
+    body_corner(b, n - 1, from);
+    for (int k = 0; k < n; k++, memcpy(from, to, sizeof from)) {
+        body_corner(b, k, to);
+        if ((from[1] > x[1]) != (to[1] > x[1]) &&
+            x[0] < from[0] + (to[0] - from[0]) * (x[1] - from[1]) / (to[1] - from[1]))
+            in = !in;
+    }
+    return in;
+}
+
+bool walls_in_body(const struct sph *s, const double *x)
+{
+    const struct walls *w = s->walls;
+    double near[3], middle[3];
+    bool in = false;
+    for (int k = 0; k < w->nbodies && s->dim == 2 && !in; k++) {
+        const struct body *b = w->bodies + k;
+        body_place(b, b->middle, middle);
+        for (int a = 0; a < s->dim; a++)
+            near[a] = s->periodic[a] ? middle[a] + remainder(x[a] - middle[a], s->hi[a] - s->lo[a])
+                                     : x[a];
+        in = !b->is->tank && in_outline(b, near);
+    }
+    for (int k = 0; k < w->nmeshes && s->dim == 3 && !in; k++) {
+        const struct wall_mesh *m = w->meshes + k;
+        if (m->thin || !m->of || m->of->owner != MESH_OF_BODY)
+            continue;
+        wall_mesh_to_own(m, x, near);
+        in = tree_nearest(m->tree, near, INFINITY).distance < 0.0;
+    }
+    return in;
+}
+
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
 {
     const int dim = s->dim;

@@ -202,6 +202,9 @@ struct wall_foot {
 double walls_way(const struct sph *s, const double *x, double reach, double *way);
 /* Fraction of the displacement d from x, m, at which it first meets a wall; 1: it meets none. */
 double walls_meet(const struct sph *s, const double *x, const double *d);
+/* Whether x, m, lies in a body, or an image of one; a tank has its water inside. Walls that a body
+ * stands on may be nearer than its own faces, so that walls_distance does not tell. */
+bool walls_in_body(const struct sph *s, const double *x);
 /* Puts local particle i back to 0.05 dx before f and removes the velocity that led there. */
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f);
 /* The same for local particle i found behind a wall. false, and counted in `gone', if it is farther

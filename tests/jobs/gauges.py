@@ -249,6 +249,16 @@ for case, water, deck, wanted in ('decks', '{ box = ((0, 0), (1, 0.16)); }, { bo
     for gauge, level in ('below', wanted), ('above', 0.5):
         near('%s: level %s the deck' % (case, gauge), column(case, gauge + ' [')[0], level, 0.1 * 0.02, case + '.txt')
 
+# Beside a hull that pierces the surface what of it lies above the water is none (all of it counted, up to its deck: 0.85 m for
+# 0.7), below it the level is its underside; a place in a body that stands flush on the floor is taken for the one above it
+# (the floor below it counted, 0.15 m for 0.3).
+run_case('hull', scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1.2, 1.1); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "below"; level = 0.7; } );
+bodies: ( { name = "hull"; box = ((0.4, 0.5), (0.8, 1)); }, { name = "block"; box = ((0.9, 0), (1.1, 0.4)); } ); probes: ( %s ); sph: { dx = 0.025; };
+''' % probes('level', 'a 0.375, 0', 'b 0.39, 0', 'c 0.3999, 0', 'under 0.405, 0', 'in 1, 0.1', 'on 1, 0')))
+for gauge, level, far in ('a', 0.7, 0.5), ('b', 0.7, 0.5), ('c', 0.7, 0.5), ('under', 0.5, 0.1), ('in', 0.7, 0.1), ('on', 0.7, 0.1):
+    near('hull: level at ' + gauge, column('hull', gauge + ' [')[0], level, far * 0.025, 'hull.txt')
+
 # The level under a body is its underside, also while an edge of refinement goes down through the rows of the column: each
 # of the two levels counts by its share there (by whole rows it was out by 0.4 dx, and a body was taken for drowned).
 run_case('edge', scene(0.6, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1.2, 1.2); };
