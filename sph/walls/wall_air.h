@@ -1,5 +1,6 @@
-/* wall_air.h - what normal flux walls do to drops and films of one particle, which have air around
- * them: a drop falls freely until it lands, and hangs from no roof.
+/* wall_air.h - what normal flux walls do where air comes to them: drops and films of one particle
+ * fall freely until they land and hang from no roof, and thicker water parts from a roof where that
+ * meets a free surface.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_WALL_AIR_H
 #define SPH_WALL_AIR_H
@@ -39,6 +40,28 @@ static inline double wall_air_share(const struct sph *s, const struct wall_touch
 {
     const double q = fmax(0.0, fmin(2.0 * t->height / s->dx - 1.0, 1.0));
     return 1.0 - open * q * q * (3.0 - 2.0 * q);
+}
+
+/* Of P, the pressure of a particle near a free surface and of the wall beside it together, Pa, what
+ * is left under a roof, of normal n out of the fluid, where it is tension: all of noise, none
+ * beyond the weight of a row, for air comes between. The jet under a gate as thick as its opening
+ * filled the room below the gate (eight rows: 0.84 of the opening deep behind it, 0.67 so), and a
+ * block of water hung until the air had come in. Where weight does not draw it away water stays at
+ * its wall: sound after an impact would push more than it pulls (impulse at the foot of a wall in a
+ * dam break off by 63 instead of 41 %). */
+static inline double wall_air_tension(const struct sph *s, const double *n, double P, int dim)
+{
+    double gravity = 0.0, away = 0.0;
+    const double tension = 2.0 * s->background - P;
+    for (int a = 0; a < dim && tension > 0.0; a++) {
+        gravity += s->gravity[a] * s->gravity[a];
+        away -= s->gravity[a] * n[a];
+    }
+    if (!(away > 0.0))
+        return P;
+    gravity = sqrt(gravity);
+    const double q = fmin(tension / (2.0 * s->rho0 * gravity * s->dx), 1.0);
+    return P + fmin(2.0 * away / gravity, 1.0) * tension * q * q * (3.0 - 2.0 * q);
 }
 
 /* Whether a film runs along a wall so fast that its weight is nothing to it: rho u^2/2 above

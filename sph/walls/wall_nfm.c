@@ -367,7 +367,8 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
     if (i->in_air && !wall_air_runs_along(s, i->u, uw, t->n, dim)) {
         P = fmax(P, 0.0);
         across = i->p > 0.0 ? across : fmin(across, 0.0);
-    }
+    } else if (i->film && !film)
+        P = wall_air_tension(s, t->n, P, dim);
     struct given to = {.w = W * across, .m = -W * m};
     for (int a = 0; a < dim; a++)
         to.q[a] = -W * (m * i->u[a] + P * t->n[a]);
