@@ -375,6 +375,21 @@ static void tell_times(const struct run *r, int k, const struct body *b)
     }
 }
 
+/* A load of a hundred weights is one in other units, or of a whole structure on a slice of it. */
+static void tell_load(const struct run *r, int k, const struct body *b)
+{
+    const struct scene_fluid *fluid = &r->scene.fluid;
+    const double weight =
+        b->free ? vec3_length(fluid->gravity) * (b->free->mass + fluid->rho * b->volume) : 0.0;
+    const double load = vec3_length(b->is->load), torque = vec3_length(b->is->torque) / b->reach;
+    const double much = weight > 0.0 ? fmax(load, torque) / weight : 0.0;
+    if (much > 100.0)
+        log_warn("bodies.[%d].%s: %.3g times what the weight of the body and of as much water "
+                 "would make: c0, and so the steps, follow the speed that it reaches%s",
+                 k, load >= torque ? "load" : "torque", much,
+                 b->dim == 2 ? "; in 2D it is per metre of width" : "");
+}
+
 double bodies_describe(const struct run *r, const struct sph_params *used, double dt)
 {
     const struct scene *c = &r->scene;
@@ -389,6 +404,7 @@ double bodies_describe(const struct run *r, const struct sph_params *used, doubl
                     "the case gives it",
                     k + 1, b.is->name, m.x[0], m.x[1], m.x[2], vec3_length(m.r));
         tell_times(r, k, &b);
+        tell_load(r, k, &b);
         const double step =
             b.free ? 2.0 / impedance_stopping_rate(&b, c->fluid.rho * used->c0,
                                                    c->fluid.rho * c->fluid.nu, used->dx)

@@ -450,6 +450,7 @@ for inertia in '1e-6', '1e6':
     faulty('tank', 's/"b"/' + free + '; mass = 40.0; inertia = %s; centre = (1, 0.3)/' % inertia, r'bodies.\[0\].inertia: .* a radius of gyration', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.9); to = (1, 0.3); stiffness = 3.0; } )/', r'lines.\[0\]: goes from a place outside of the body to one in it', 'sph')
 tells('tank', 's/"b"/' + free + '; density = 500.0; release = 9.0/', r'bodies.\[0\].release: 9 s is not before the end of the run')
+tells('tank', 's/"b"/' + free + '; density = 500.0; load = (1e7, 0)/', r'bodies.\[0\].load: .* times what the weight of the body')
 tells('tank', 's/"b"/' + free + '; density = 0.5/', r'bodies.\[0\]: of 0.04 kg over 0.08 m^2 .* times as many as the fluid', 'dt about .* (body)')
 faulty('tank', 's/"b"/' + free + '; mass = 3.0; density = 500.0/', r'bodies.\[0\].density: density or mass, not both', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; inertia = 1.0/', r'bodies.\[0\].inertia: is not used', 'sph')
