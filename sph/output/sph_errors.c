@@ -160,6 +160,15 @@ static double particles(const struct sph *s)
     return total(s, n);
 }
 
+/* Particles returned from behind walls so far, of all levels and ranks. Collective. */
+static double returned(const struct sph *s)
+{
+    double n = 0.0;
+    for (const struct sph *q = s; q && q->walls; q = q->finer)
+        n += (double)q->walls->returned;
+    return total(s, n);
+}
+
 /* Particles created at openings so far, all ranks. */
 static double births(const struct sph *s) { return total(s, (double)s->zones->openings->born); }
 /* Particles removed at openings so far, all ranks. */
@@ -450,7 +459,7 @@ void sph_finish(void *state)
     scene_meshes_summary(&s->run->scene, to);
     summary_int(to, "particles", llround(particles(s)));
     if (s->walls)
-        summary_int(to, "particles_returned", llround(total(s, (double)s->walls->returned)));
+        summary_int(to, "particles_returned", llround(returned(s)));
     summary_int(to, "particles_lost", llround(total(s, s->total.lost)));
     if (has_exact(s->run))
         summarise_errors(s);
