@@ -46,16 +46,22 @@ static double field_speed(const struct scene *s)
     }
 }
 
-/* The field and what shapes add to it. */
-static double first_speed(const struct scene *s)
+/* What carries the field. */
+static double carrying_speed(const struct scene *s)
 {
     const struct scene_initial *f = &s->initial;
     const bool carried = f->field == FIELD_UNIFORM || f->field == FIELD_TAYLOR_GREEN ||
                          f->field == FIELD_TWO_MODES || f->field == FIELD_BELTRAMI;
+    return carried ? vec3_length(f->velocity) : 0.0;
+}
+
+/* The field, what carries it and what shapes add to it. */
+static double first_speed(const struct scene *s)
+{
     double more = 0.0;
     for (int k = 0; k < s->nshapes; k++)
         more = fmax(more, s->shapes[k].hole ? 0.0 : vec3_length(s->shapes[k].velocity));
-    return field_speed(s) + (carried ? vec3_length(f->velocity) : 0.0) + more;
+    return field_speed(s) + carrying_speed(s) + more;
 }
 
 /* Area (in 2D length) of a side of the domain. */
@@ -106,13 +112,16 @@ static void body_centre(const struct scene_body *b, double centre[3])
         centre[a] = 0.5 * (lo[a] + hi[a]);
 }
 
-static double body_speed(const struct scene *s)
+/* Of all bodies, or of those alone whose velocity is given. */
+static double body_speed(const struct scene *s, bool free)
 {
     double speed = 0.0;
     for (int k = 0; k < s->nbodies; k++) {
         const struct scene_body *b = s->bodies + k;
         const struct scene_mesh *mesh = b->mesh;
         double reach = 0.0, centre[3];
+        if (b->free && !free)
+            continue;
         body_centre(b, centre);
         for (int i = 0; i < b->points.n; i++)
             reach =
@@ -443,9 +452,19 @@ static double sound_across(const struct scene *s, double depth)
     return across;
 }
 
+/* See struct scene_speed. */
+static double stream_speed(const struct scene *s)
+{
+    double pressure;
+    double speed = carrying_speed(s);
+    speed = fmax(speed, fmax(inflow_speed(s), openings_discharge_speed(s)));
+    speed = fmax(speed, fmax(wall_speed(s), body_speed(s, false)));
+    return fmax(speed, fmax(driven_speed(s), outlet_speed(s, &pressure)));
+}
+
 struct scene_speed scene_speed_of(const struct scene *s, double file, double spacing)
 {
-    struct scene_speed v = {.from = ""};
+    struct scene_speed v = {.from = "", .stream = stream_speed(s)};
     double depth, fall, g[3], central = 0.0, pressure;
     const double first = first_speed(s), size = weight(s, g);
     find_fall(s, &depth, &fall);
@@ -456,7 +475,7 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
     take(&v, inflow_speed(s), "the inflow");
     take(&v, openings_discharge_speed(s), "the discharge over the water at its side");
     take(&v, wall_speed(s), "the moving walls");
-    take(&v, fmax(body_speed(s), file), "the moving bodies");
+    take(&v, fmax(body_speed(s, true), file), "the moving bodies");
     take(&v, s->waves.made.speed, "the waves");
     take(&v, driven_speed(s), "the body force along periodic axes");
     take(&v, outlet_speed(s, &pressure), "the pressures of the outlets");

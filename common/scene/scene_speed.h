@@ -8,7 +8,10 @@
 
 /* The estimate, and which part of the scene it comes from. */
 struct scene_speed {
-    double speed;    /* m/s: largest to expect, > 0 */
+    double speed; /* m/s: largest to expect, > 0 */
+    /* m/s: of what is kept streaming: by the velocity that carries the field, openings, moving
+     * walls, bodies of given velocity, body forces along periodic axes; 0: nothing is. */
+    double stream;
     double pressure; /* m^2/s^2: largest static p/rho: hydrostatic, or given at an outflow */
     double viscous;  /* m^2/s^2: largest p/rho that friction makes in slow flow */
     double pushed; /* m^2/s^2: largest p/rho that bodies make by their acceleration: the caller's */

@@ -236,16 +236,16 @@ ends_at('1000 Pa press a sill 1 cm long, N/m', 'blocks', 'sill force y', -10, 0.
 ends_at('1000 Pa press a block, N/m', 'blocks', 'free force y', 0, 0.3)
 ends_at('buoyancy between outlets, N/m', 'hanging', 'free force x', 0.981, 0.03)
 
-# A stream meets a square of four particles in a duct, with c0 67 times its speed: what a gauge on its front reads above the
+# A stream meets a square of four particles in a duct, with c0 100 times its speed: what a gauge on its front reads above the
 # undisturbed stream is the dynamic pressure, 45 Pa, and behind it there is suction. Half of that is what a support as wide as
-# the square leaves room for; the damper, when it took errors of gradients for sound, made -166 Pa there and +11 Pa behind.
-stream = scene(3, 0.025, '''domain: { max = (1.6, 0.6); }; initial: { field = "uniform"; velocity = (0.3, 0); };
+# the square leaves room for; the damper, where it takes errors of gradients for sound, makes -72 Pa there.
+stream = scene(2, 0.025, '''domain: { max = (1.6, 0.6); }; initial: { field = "uniform"; velocity = (0.3, 0); };
 walls: ( { side = "x_min"; kind = "inflow"; velocity = (0.3, 0); }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; }, { side = "y_max"; } );
 bodies: ( { name = "pier"; box = ((0.75, 0.25), (0.85, 0.35)); } );
 probes: ( { name = "up"; at = (0.4, 0.3); }, { name = "front"; at = (0.75, 0.3); }, { name = "back"; at = (0.85, 0.3); } );
 ''')
-run_case('stream', varied(stream, 'dx = 0.025', 'dx = 0.025; c0 = 20'))
-up, front, back = (lib.mean('stream', gauge, 1.5) for gauge in ('up', 'front', 'back'))
+run_case('stream', varied(stream, 'dx = 0.025', 'dx = 0.025; c0 = 31'))
+up, front, back = (lib.mean('stream', gauge, 1) for gauge in ('up', 'front', 'back'))
 near('dynamic pressure before a square, Pa', front - up, 45, 22.5, 'stream.txt')
 lib.check(back < up, 'suction behind a square: %g Pa' % (back - up), 'stream.txt')
 

@@ -31,6 +31,24 @@ static struct scene column(double height)
     return s;
 }
 
+/* What something keeps streaming: not what falls, nor a body that is let go with a velocity. */
+TEST(a_stream_is_what_something_keeps_going)
+{
+    struct scene s = column(0.6);
+    s.nbodies = 1;
+    s.bodies[0] = (struct scene_body){.free = true, .velocity = {2.0}};
+    assert_true(scene_speed_of(&s, 0.0, 0.0).stream == 0.0);
+    s.bodies[0].free = false;
+    assert_close(scene_speed_of(&s, 0.0, 0.0).stream, 2.0, 1e-12);
+    s.nbodies = 0;
+    s.initial.field = FIELD_UNIFORM;
+    s.initial.velocity[0] = 0.3;
+    assert_close(scene_speed_of(&s, 0.0, 0.0).stream, 0.3, 1e-12);
+    s.nwalls = 1;
+    s.walls[0] = (struct scene_wall){.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5}};
+    assert_close(scene_speed_of(&s, 0.0, 0.0).stream, 0.5, 1e-12);
+}
+
 TEST(water_falls_from_its_top_to_the_bottom)
 {
     struct scene s = column(0.6);
