@@ -398,19 +398,41 @@ static void check_gauges(const struct run *r, const struct sph_params *used, str
     }
 }
 
-/* Gauges behind closed walls, where no fluid ever is; those on a wall may lie a little behind. */
+/* Whether x is more than dx behind the lines, and which open one is nearest. */
+static bool is_behind(const struct scene *c, const double *x, double dx, int *nearest)
+{
+    double least = INFINITY;
+    for (int m = 0; m < c->nwalls; m++) {
+        const struct line l = line_of(&c->walls[m].points, false);
+        const double far = l.n > 1 && !c->walls[m].closed ? line_distance(&l, x) : INFINITY;
+        if (far < least)
+            *nearest = m;
+        least = fmin(least, far);
+    }
+    return least > dx && isfinite(least) && scene_is_behind_lines(c, x);
+}
+
+/* Gauges behind walls, where no fluid ever is; those on a wall may lie a little behind. */
 static void check_hidden(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
-    for (int k = 0; k < c->nprobes; k++)
+    for (int k = 0; k < c->nprobes; k++) {
+        const double *at = c->probes[k].at;
+        int behind = -1;
+        if (!probe_is_point(c->probes + k))
+            continue;
+        if (c->domain.dim == 2 && !is_behind(c, at, used->dx, &behind))
+            behind = -1;
         for (int m = 0; m < c->nwalls; m++) {
             const struct line l = line_of(&c->walls[m].points, true);
-            const double *at = c->probes[k].at;
-            if (probe_is_point(c->probes + k) && c->walls[m].closed &&
-                line_inside(&l, at) != (line_area(&l) > 0.0) && line_distance(&l, at) > used->dx)
-                params_fault(r->params, f, key_text("probes.[%d].at", k),
-                             "%s is behind wall %d: put it before it", c->probes[k].name, m + 1);
+            if (c->walls[m].closed && line_inside(&l, at) != (line_area(&l) > 0.0) &&
+                line_distance(&l, at) > used->dx)
+                behind = m;
         }
+        if (behind >= 0)
+            params_fault(r->params, f, key_text("probes.[%d].at", k),
+                         "%s is behind wall %d: put it before it", c->probes[k].name, behind + 1);
+    }
 }
 
 /* As fill.c lays the lattice. */

@@ -450,7 +450,7 @@ for inertia in '1e-6', '1e6':
     faulty('tank', 's/"b"/' + free + '; mass = 40.0; inertia = %s; centre = (1, 0.3)/' % inertia, r'bodies.\[0\].inertia: .* a radius of gyration', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.9); to = (1, 0.3); stiffness = 3.0; } )/', r'lines.\[0\]: goes from a place outside of the body to one in it', 'sph')
 tells('tank', 's/"b"/' + free + '; density = 500.0; release = 9.0/', r'bodies.\[0\].release: 9 s is not before the end of the run')
-tells('tank', 's/"b"/' + free + '; density = 500.0; load = (1e7, 0)/', r'bodies.\[0\].load: .* times what the weight of the body')
+tells('tank', 's/"b"/' + free + '; density = 500.0; load = (1.5e5, 0); contact = { gap = 4.0; }/', r'bodies.\[0\].load: .* times what the weight of the body')
 tells('tank', 's/"b"/' + free + '; density = 0.5/', r'bodies.\[0\]: of 0.04 kg over 0.08 m^2 .* times as many as the fluid', 'dt about .* (body)')
 faulty('tank', 's/"b"/' + free + '; mass = 3.0; density = 500.0/', r'bodies.\[0\].density: density or mass, not both', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; inertia = 1.0/', r'bodies.\[0\].inertia: is not used', 'sph')
@@ -508,6 +508,7 @@ faulty('tank', 's/max = (2, 1)/max = (2, 1, 3)/', 'domain.max: z component 3', '
 faulty('tank', 's/U = 3.0/U = 0.0/', 'case.cfg:5: initial.U: 0 m', 'sph')
 faulty('tank', 's/(0, -9.81)/(0, -9.81); central = 1.0/; s/max = (2, 1)/max = (2, 1); periodic = (true, false)/; s/^walls.*/walls: ( { side = "y_min"; } );/', 'fluid.central: .*periodic', 'sph')
 faulty('tank', 's/at = (1, 0.1)/at = (1.9, 0.9)/; s/^walls.*/walls: ( { closed = true; points = ((0, 0), (1.5, 0), (1.5, 1), (0, 1)); } );/', r'probes.\[0\].at: p is behind wall 1', 'sph')
+faulty('tank', 's/^walls:   (/walls: ( { points = ((0.8, 0), (1, 0.4), (1.2, 0)); },/', r'probes.\[0\].at: p is behind wall 1', 'sph')
 faulty('tank', 's/^walls:   (/walls: ( { points = ((3, 0), (4, 0.3)); },/', r'walls.\[0\].points: is not used: .*outside', 'sph')
 # open sides
 faulty('channel', 's/{ side = "x_max"; kind = "outflow"; }/{ side = "x_max"; }/', r'walls.\[0\].kind: inflow into a closed box', 'sph')
