@@ -250,11 +250,18 @@ static bool whole_wave(const struct sph *s, const struct wall_touch *t)
 /* A body that moves takes less than one at rest: its drag falls, and first peaks of impacts, which
  * rise (by 12 %), are its own. Not of films that run along it, near a free surface, and part from
  * it: a jet on a plate clung to its edges and was drawn round them, 15 % of its force were missing,
- * 3 % at a plate at rest. What is slower is no film: it drew a light block down by a spacing. */
+ * 3 % at a plate at rest. What is slower is no film: it drew a light block down by a spacing.
+ *
+ * Water that streams through a room that it fills needs no holding at slip walls, and the whole
+ * wave is drag there, the faster sound is the more: what goes towards a corner has a velocity
+ * across the wall behind it. A channel that narrows to a half, ten particles wide, lost 15 % of the
+ * head of its throat with c0 15 times the speed before it and 32 % with 60, so 2 and 8 %. */
 static double share_of_wave(const struct sph *s, const struct wall_touch *t, bool film)
 {
-    if (whole_wave(s, t))
-        return 1.0;
+    if (whole_wave(s, t)) {
+        const bool held = s->surface || t->no_slip || !is_riemann(s);
+        return held ? 1.0 : 1.0 - scheme_streams(s) * (1.0 - t->near);
+    }
     return s->walls->bodies[t->body].moves && !film ? t->near * t->near : t->near;
 }
 
