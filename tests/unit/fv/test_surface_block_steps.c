@@ -4,16 +4,13 @@
  * all. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "mesh_case.h"
+#include "surface_blocks.h"
 
 #include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 
-#define SLIP_I "i_min = \"slip\"; i_max = \"slip\"; "
-#define SLIP_J "j_min = \"slip\"; j_max = \"slip\"; "
 #define ENDS "j_min = \"wall\"; j_max = \"slip\"; "
 #define AROUND "i_min = \"periodic\"; i_max = \"periodic\"; "
-#define HEAVY "fluid.gravity=(0,-9.81)"
 #define REST "initial.field=\"rest\""
 #define RK3 "fv.integrator=\"rk3\""
 #define BDF2 "fv.integrator=\"bdf2\""
@@ -25,37 +22,17 @@
 
 static const char *const steps[3] = {BDF2, NEWTON, RK3};
 
-static const char joined[] =
-    "{ name = \"l\"; cells = (10, 14); max = (0.5, 0.7); i_max = \"joined\"; i_min = "
-    "\"slip\"; " SLIP_J
-    "}, { name = \"r\"; cells = (10, 14); min = (0.5, 0.0); max = (1.0, 0.7); i_min = \"joined\"; "
-    "i_max = \"slip\"; " SLIP_J "}";
-static const char turned[] =
-    "{ name = \"back\"; cells = (30, 21); max = (1.0, 0.7); " SLIP_I SLIP_J
-    "}, { name = \"turned\"; cells = (14, 14); min = (0.3, 0.15); max = (0.7, 0.55); angle = 30.0; "
-    "centre = (0.5, 0.35); }";
-static const char canal[] = "{ name = \"v\"; cells = (32, 32); max = (1.2, 1.2); angle = 45.0; "
-                            "centre = (0.0, 0.0); " SLIP_I SLIP_J "}";
 static const char basin[] = "{ name = \"basin\"; mapping = \"annulus\"; radius = (0.3, 0.8); arc = "
                             "(180.0, 360.0); cells = (10, 40); " SLIP_I SLIP_J "}";
-
-static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
-                        const char *const *overrides, const struct scene_shape *water)
-{
-    mesh_case_read(c, comm, blocks, overrides);
-    if (water)
-        c->run.scene.shapes[c->run.scene.nshapes++] = *water;
-    return mesh_case_create(c, NULL);
-}
 
 static void is_still(const char *blocks, double level)
 {
     const struct scene_shape water = {.form = SHAPE_BELOW, .level = level};
     for (int k = 0; k < 2; k++) {
         struct mesh_case c;
-        struct fv *s =
-            start(&c, MPI_COMM_WORLD, blocks,
-                  (const char *const[]){HEAVY, REST, "fluid.nu=1e-3", steps[k], NULL}, &water);
+        struct fv *s = start_blocks(
+            &c, MPI_COMM_WORLD, blocks,
+            (const char *const[]){HEAVY, REST, "fluid.nu=1e-3", steps[k], NULL}, &water);
         const double volume = surface_volume(s);
         assert_true(s->surface->cuts > 0 && volume > 0.0);
         assert_true(mesh_case_run(s, 8, 100.0));
@@ -78,8 +55,8 @@ static void swings(const char *blocks, const char *step, const char *cfl, const 
                    double *period, double *damping)
 {
     struct mesh_case c;
-    struct fv *s =
-        start(&c, MPI_COMM_WORLD, blocks, (const char *const[]){WAVE, step, cfl, nu, NULL}, NULL);
+    struct fv *s = start_blocks(&c, MPI_COMM_WORLD, blocks,
+                                (const char *const[]){WAVE, step, cfl, nu, NULL}, NULL);
     c.run.summary = summary_create();
     const double volume = surface_volume(s), h = s->surface->least;
     assert_true(mesh_case_run(s, 1000, SANITIZED ? 1.0 : 10.0));
@@ -133,8 +110,8 @@ TEST(waves_swing_as_on_one_block)
 static double period_with_sound(const char *blocks, const char *c0)
 {
     struct mesh_case c;
-    struct fv *s = start(&c, MPI_COMM_WORLD, blocks,
-                         (const char *const[]){WAVE, NEWTON, "fv.cfl=0.3", c0, NULL}, NULL);
+    struct fv *s = start_blocks(&c, MPI_COMM_WORLD, blocks,
+                                (const char *const[]){WAVE, NEWTON, "fv.cfl=0.3", c0, NULL}, NULL);
     assert_true(mesh_case_run(s, 1000, 10.0));
     const double period = fit_period(&s->surface->oscillation);
     print_message("wave with sound, %s: %g s\n", c0, period);
@@ -222,19 +199,13 @@ static double farthest(const struct fv *s, double U)
     return most;
 }
 
-static const char two[] = "{ name = \"l\"; cells = (20, 24); max = (1.0, 1.0); i_max = \"joined\"; "
-                          "}, { name = \"r\"; cells = (20, 24); min = (1.0, 0.0); max = (2.0, "
-                          "1.0); i_min = \"joined\"; }";
-static const char stretched[] =
-    "{ name = \"one\"; mapping = \"stretched\"; stretch = (0.5, 0.5); focus = (1.0, 0.5); cells = "
-    "(40, 24); max = (2.0, 1.0); }";
 static const char over[] = "{ name = \"back\"; cells = (40, 24); max = (2.0, 1.0); }, { name = "
                            "\"over\"; cells = (17, 24); min = (0.525, 0.0); max = (1.375, 1.0); }";
 
 /* As uniform as it came. */
 TEST(currents_pass_openings)
 {
-    static const char *const blocks[3] = {two, stretched, over};
+    static const char *const blocks[3] = {halves, stretched, over};
     for (int k = 0; k < 9; k++) {
         struct mesh_case c;
         struct fv *s = start_current(&c, blocks[k / 3], steps[k % 3], false, false);
@@ -250,7 +221,7 @@ TEST(currents_pass_openings)
  * as much as on the uniform grid; joined blocks of the same cells are no other grid. */
 TEST(waves_between_openings_are_those_of_the_uniform_grid)
 {
-    static const char *const blocks[4] = {"", two, stretched, over};
+    static const char *const blocks[4] = {"", halves, stretched, over};
     static const double close[4] = {0.0, 5e-4, 5e-3, 5e-3};
     for (int q = 1; q < 2 && is_alone(); q++) {
         double volume[4], passed[4];
@@ -280,7 +251,7 @@ TEST(waves_between_openings_are_those_of_the_uniform_grid)
  * U H/c, c = sqrt(g H). */
 TEST(currents_are_carried_out)
 {
-    static const char *const blocks[4] = {"", two, stretched, over};
+    static const char *const blocks[4] = {"", halves, stretched, over};
     for (int k = 0; k < 12; k++) {
         struct mesh_case c;
         const bool rest = k % 3 == 2;
@@ -300,8 +271,6 @@ TEST(currents_are_carried_out)
 
 /* --- ranks and restarts --- */
 
-static const struct scene_shape column = {.form = SHAPE_BOX, .box = {{-1.0, -1.0}, {0.35, 0.45}}};
-
 TEST(ranks_agree)
 {
     if (is_alone())
@@ -311,8 +280,8 @@ TEST(ranks_agree)
             HEAVY,    REST, "fluid.nu=1e-3", k ? "fv.tol_newton=1e-9" : "fv.tol_pressure=1e-9",
             steps[k], NULL};
         struct mesh_case one, all;
-        struct fv *s = start(&one, MPI_COMM_SELF, turned, of, &column),
-                  *z = start(&all, MPI_COMM_WORLD, turned, of, &column);
+        struct fv *s = start_blocks(&one, MPI_COMM_SELF, turned, of, &column),
+                  *z = start_blocks(&all, MPI_COMM_WORLD, turned, of, &column);
         assert_true(mesh_case_run(s, 4, 100.0) && mesh_case_run(z, 4, 100.0));
         assert_close(surface_energy(z) / surface_energy(s), 1.0, 1e-7);
         assert_close(surface_volume(z) / surface_volume(s), 1.0, 1e-10);
@@ -326,7 +295,7 @@ TEST(restart_is_exact)
     for (int k = 0; k < 2; k++) {
         const char *const of[] = {HEAVY, REST, "fluid.nu=1e-3", steps[k], NULL};
         struct mesh_case one, again;
-        struct fv *s = start(&one, MPI_COMM_WORLD, turned, of, &column);
+        struct fv *s = start_blocks(&one, MPI_COMM_WORLD, turned, of, &column);
         mesh_case_read(&again, MPI_COMM_WORLD, turned, of);
         again.run.scene.shapes[again.run.scene.nshapes++] = column;
         assert_int_equal(mesh_case_restart(&one, s, &again, 3), 0);

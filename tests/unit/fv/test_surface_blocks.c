@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "mesh_case.h"
+#include "surface_blocks.h"
 
 #include "../../../fv/boundary/fv_boundary.h"
 #include "../../../fv/operators/flow_ops.h"
@@ -12,45 +12,21 @@
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
 
-#define SLIP_I "i_min = \"slip\"; i_max = \"slip\"; "
-#define SLIP_J "j_min = \"slip\"; j_max = \"slip\"; "
 #define SLIP_K "k_min = \"slip\"; k_max = \"slip\"; "
 #define MIDDLE "centre = (0.75, 0.35); "
-#define HEAVY "fluid.gravity=(0,-9.81)"
 #define REST "initial.field=\"rest\"", "fluid.nu=0"
 #define WAVE                                                                                       \
     "initial.field=\"standing_wave\"", "initial.U=0.01", "initial.L=4", "initial.amplitude=0.01",  \
         "initial.level=1", "fluid.nu=2e-3", "fluid.gravity=(0,-1)", "domain.max=(4,1.25)",         \
         "domain.periodic=(true,false)", "time.end=20"
 
-static const char joined[] =
-    "{ name = \"l\"; cells = (10, 14); max = (0.5, 0.7); i_max = \"joined\"; i_min = "
-    "\"slip\"; " SLIP_J
-    "}, { name = \"r\"; cells = (10, 14); min = (0.5, 0.0); max = (1.0, 0.7); i_min = \"joined\"; "
-    "i_max = \"slip\"; " SLIP_J "}";
-static const char turned[] =
-    "{ name = \"back\"; cells = (30, 21); max = (1.0, 0.7); " SLIP_I SLIP_J
-    "}, { name = \"turned\"; cells = (14, 14); min = (0.3, 0.15); max = (0.7, 0.55); angle = 30.0; "
-    "centre = (0.5, 0.35); }";
-static const char canal[] = "{ name = \"v\"; cells = (32, 32); max = (1.2, 1.2); angle = 45.0; "
-                            "centre = (0.0, 0.0); " SLIP_I SLIP_J "}";
-
-static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks,
-                        const char *const *overrides, const struct scene_shape *water)
-{
-    mesh_case_read(c, comm, blocks, overrides);
-    if (water)
-        c->run.scene.shapes[c->run.scene.nshapes++] = *water;
-    return mesh_case_create(c, NULL);
-}
-
 static void is_still(const char *blocks, double level, int dim)
 {
     struct mesh_case c;
     const struct scene_shape water = {.form = SHAPE_BELOW, .level = level};
-    struct fv *s =
-        start(&c, MPI_COMM_WORLD, blocks,
-              (const char *const[]){HEAVY, REST, dim == 3 ? "domain.dim=3" : NULL, NULL}, &water);
+    struct fv *s = start_blocks(
+        &c, MPI_COMM_WORLD, blocks,
+        (const char *const[]){HEAVY, REST, dim == 3 ? "domain.dim=3" : NULL, NULL}, &water);
     const double volume = surface_volume(s);
     assert_true(s->surface->cuts > 0 && volume > 0.0);
     assert_true(mesh_case_run(s, 20, 100.0));
@@ -117,8 +93,8 @@ TEST(rough_water_calms)
     for (int k = 0; k < (SHORT ? 1 : 7); k++) {
         struct mesh_case c;
         const struct scene_shape water = {.form = SHAPE_BELOW, .level = levels[k]};
-        struct fv *s =
-            start(&c, MPI_COMM_WORLD, blocks[k], (const char *const[]){HEAVY, REST, NULL}, &water);
+        struct fv *s = start_blocks(&c, MPI_COMM_WORLD, blocks[k],
+                                    (const char *const[]){HEAVY, REST, NULL}, &water);
         for (int64_t i = 0; i < s->size; i++)
             for (int a = 0; a < 2; a++)
                 s->u[a][i] = 1e-6 * sin(1e3 * (s->surface->mesh->x[0][i] + a) +
@@ -136,7 +112,8 @@ TEST(rough_water_calms)
 static void swings(const char *blocks, double *period, double *damping)
 {
     struct mesh_case c;
-    struct fv *s = start(&c, MPI_COMM_WORLD, blocks, (const char *const[]){WAVE, NULL}, NULL);
+    struct fv *s =
+        start_blocks(&c, MPI_COMM_WORLD, blocks, (const char *const[]){WAVE, NULL}, NULL);
     c.run.summary = summary_create();
     const double volume = surface_volume(s);
     assert_true(mesh_case_run(s, 1000, SHORT ? 1.3 : 13.2));
@@ -194,7 +171,7 @@ TEST(water_between_inclined_walls_swings)
     for (int k = 0; k < 4; k++)
         memcpy(water.points.x[k], corners[k], sizeof corners[k]);
     struct fv *s =
-        start(&c, MPI_COMM_WORLD, canal, (const char *const[]){HEAVY, REST, NULL}, &water);
+        start_blocks(&c, MPI_COMM_WORLD, canal, (const char *const[]){HEAVY, REST, NULL}, &water);
     double before = moment(s), t_before = 0.0, zeros[2] = {0.0, 0.0};
     int found = 0;
     while (found < 2 && s->t < 2.0) {
@@ -212,13 +189,12 @@ TEST(water_between_inclined_walls_swings)
 }
 
 static const char *const exactly[] = {HEAVY, REST, "fv.tol_pressure=1e-9", NULL};
-static const struct scene_shape column = {.form = SHAPE_BOX, .box = {{-1.0, -1.0}, {0.35, 0.45}}};
 
 TEST(ranks_agree)
 {
     struct mesh_case one, all;
-    struct fv *s = start(&one, MPI_COMM_SELF, turned, exactly, &column),
-              *z = start(&all, MPI_COMM_WORLD, turned, exactly, &column);
+    struct fv *s = start_blocks(&one, MPI_COMM_SELF, turned, exactly, &column),
+              *z = start_blocks(&all, MPI_COMM_WORLD, turned, exactly, &column);
     assert_true(mesh_case_run(s, 6, 100.0) && mesh_case_run(z, 6, 100.0));
     assert_close(surface_energy(z) / surface_energy(s), 1.0, 1e-8);
     assert_close(surface_volume(z) / surface_volume(s), 1.0, 1e-11);
@@ -229,7 +205,7 @@ TEST(ranks_agree)
 TEST(restart_is_exact)
 {
     struct mesh_case one, two;
-    struct fv *s = start(&one, MPI_COMM_WORLD, turned, exactly, &column);
+    struct fv *s = start_blocks(&one, MPI_COMM_WORLD, turned, exactly, &column);
     mesh_case_read(&two, MPI_COMM_WORLD, turned, exactly);
     two.run.scene.shapes[two.run.scene.nshapes++] = column;
     assert_int_equal(mesh_case_restart(&one, s, &two, 4), 0);
@@ -429,8 +405,8 @@ TEST(water_falls_over_a_join_of_turned_blocks)
                  "{ name = \"l\"; max = (0.5, 0.7); cells = (20, 28); i_max = \"joined\"; i_min "
                  "= \"slip\"; " SLIP_J "}, { name = \"r\"; %s}",
                  right[k]);
-        struct fv *s =
-            start(&c, MPI_COMM_WORLD, blocks, (const char *const[]){HEAVY, REST, NULL}, &water);
+        struct fv *s = start_blocks(&c, MPI_COMM_WORLD, blocks,
+                                    (const char *const[]){HEAVY, REST, NULL}, &water);
         const double volume = surface_volume(s);
         assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.02 : 0.2));
         energy[k] = surface_energy(s);

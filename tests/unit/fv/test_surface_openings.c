@@ -5,19 +5,12 @@
 #include "../../../fv/time/steps.h"
 #include "../../../fv/watch/watches.h"
 #include "../test.h"
-#include "mesh_case.h"
+#include "surface_blocks.h"
 
 #define G 9.81
 #define DEPTH 0.5 /* m: of the water at rest */
 #define LENGTH 2.0
 #define TRANSIT (LENGTH / sqrt(G * DEPTH)) /* s: of a wave from one opening to the other */
-
-static const char two[] = "{ name = \"l\"; cells = (20, 24); max = (1.0, 1.0); i_max = \"joined\"; "
-                          "}, { name = \"r\"; cells = (20, 24); min = (1.0, 0.0); max = (2.0, "
-                          "1.0); i_min = \"joined\"; }";
-static const char stretched[] =
-    "{ name = \"one\"; mapping = \"stretched\"; stretch = (0.5, 0.5); focus = (1.0, 0.5); cells = "
-    "(40, 24); max = (2.0, 1.0); }";
 
 static bool floor_is_of_block;           /* of the next start: y_min is no wall of the scene */
 static const struct blocked_params *box; /* of the next start; NULL: none */
@@ -83,9 +76,9 @@ static double mean_level(const struct fv *s) { return surface_volume(s) / LENGTH
 #define BDF2 "fv.integrator=\"bdf2\"", "fluid.nu=1e-3"
 static const struct {
     const char *blocks, *with[3];
-} grids[] = {{"", {RK3, NULL}},  {"", {RK3, "fv.graded=(0.4,16)"}},
-             {two, {RK3, NULL}}, {stretched, {RK3, NULL}},
-             {"", {BDF2, NULL}}, {two, {BDF2, NULL}}};
+} grids[] = {{"", {RK3, NULL}},     {"", {RK3, "fv.graded=(0.4,16)"}},
+             {halves, {RK3, NULL}}, {stretched, {RK3, NULL}},
+             {"", {BDF2, NULL}},    {halves, {BDF2, NULL}}};
 enum { GRIDS = sizeof grids / sizeof grids[0] };
 
 /* From rest the inlet opens at once: a bore runs through the outflow. What ten transits leave is
@@ -273,8 +266,8 @@ TEST(restart_is_exact)
         const struct scene_wall in = inlets[k / 4];
         const struct scene_wall out = {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .carried = k % 2};
         struct mesh_case one, again;
-        struct fv *s = start(&one, k / 2 % 2 ? two : "", grids[0].with, 0.0, &in, &out);
-        read_case(&again, k / 2 % 2 ? two : "", grids[0].with, 0.0, &in, &out);
+        struct fv *s = start(&one, k / 2 % 2 ? halves : "", grids[0].with, 0.0, &in, &out);
+        read_case(&again, k / 2 % 2 ? halves : "", grids[0].with, 0.0, &in, &out);
         assert_int_equal(mesh_case_restart(&one, s, &again, 8), 0);
     }
 }
@@ -337,7 +330,7 @@ TEST(steps_taken_back_leave_no_trace)
                                       .velocity = {k / 4 ? 3.0 : 0.5, 0.0, 0.0}},
                                 out = {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .carried = k % 2};
         struct mesh_case c;
-        struct fv *s = start(&c, k / 2 % 2 ? two : "", grids[0].with, 0.0, &in, &out);
+        struct fv *s = start(&c, k / 2 % 2 ? halves : "", grids[0].with, 0.0, &in, &out);
         struct kept *kept = kept_create(s);
         double *once = NEW(double, 3 * s->size);
         assert_true(mesh_case_run(s, 8, 100.0));
