@@ -329,8 +329,9 @@ static void find_pinned(const struct fv *s, struct wet_pressure *p)
 static void make_solver(const struct mesh *m, struct wet_pressure *p)
 {
     HYPRE(HYPRE_BoomerAMGCreate(&p->amg));
-    HYPRE(HYPRE_BoomerAMGSetCoarsenType(p->amg, 8));
-    HYPRE(HYPRE_BoomerAMGSetInterpType(p->amg, 6));
+    /* HMIS and direct interpolation: of what has few iterations the cheapest to set up */
+    HYPRE(HYPRE_BoomerAMGSetCoarsenType(p->amg, 10));
+    HYPRE(HYPRE_BoomerAMGSetInterpType(p->amg, 3));
     HYPRE(HYPRE_BoomerAMGSetPMaxElmts(p->amg, 4));
     HYPRE(HYPRE_BoomerAMGSetRelaxType(p->amg, 3));
     HYPRE(HYPRE_BoomerAMGSetNumSweeps(p->amg, 1));
