@@ -150,20 +150,13 @@ static double last_tolerance(const struct fv *s)
     return s->blocked ? 0.01 * s->prm.tol_pressure : s->prm.tol_pressure;
 }
 
-/* Of the other two, whose errors the last one takes away: ten times that, or a hundred where
- * shares of water are carried: they want its fluxes alone, and no wave is there to be damped. One
- * cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54 cells).
- */
-static double first_tolerance(const struct fv *s, double last)
-{
-    const bool fresh = s->surface && !(s->step.dt > 0.0);
-    const struct fraction *shares = s->surface ? s->surface->fraction : NULL;
-    return fresh ? last : fmin((shares && shares->carries > 0.0 ? 100.0 : 10.0) * last, 0.1);
-}
-
 static bool step_rk3(struct fv *s, double dt)
 {
-    const double last = last_tolerance(s), first = first_tolerance(s, last), t = s->t;
+    /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54
+     * cells) */
+    const bool fresh = s->surface && !(s->step.dt > 0.0);
+    const double last = last_tolerance(s);
+    const double first = fresh ? last : fmin(10.0 * last, 0.1), t = s->t;
     bool good = true;
     double before = (rk3_alpha[2] + rk3_beta[2]) * s->step.dt; /* the last stage's part of a step */
     begin_step(s);
