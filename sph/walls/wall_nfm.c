@@ -30,7 +30,8 @@ struct nfm {
     struct wall_list list;
     double crowding[RATIOS + 1]; /* wall_layers.h */
     double mu; /* Pa s: that of the pairs whose sum the weight of friction closes, else rho0 nu */
-    double *room; /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
+    double streams; /* 0 to 1: how much water streams through a room that it fills */
+    double *room;   /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
     double (*q)[3]; /* N/m^dim: fluxes of the touches of the particle at hand */
@@ -196,7 +197,7 @@ static void slopes(struct sph *s)
 /* A particle as the wall sees it. */
 struct seen {
     const double *x, *u, *u0, *grho, *gu;
-    double rho, p, c, w, damped, mu;
+    double rho, p, c, w, damped, mu, streams;
     bool in_air;               /* a layer one particle thick, or less */
     double open;               /* in air: see wall_air_open */
     bool film;                 /* near a free surface */
@@ -256,12 +257,11 @@ static bool whole_wave(const struct sph *s, const struct wall_touch *t)
  * wave is drag there, the faster sound is the more: what goes towards a corner has a velocity
  * across the wall behind it. A channel that narrows to a half, ten particles wide, lost 15 % of the
  * head of its throat with c0 15 times the speed before it and 32 % with 60, so 2 and 8 %. */
-static double share_of_wave(const struct sph *s, const struct wall_touch *t, bool film)
+static double share_of_wave(const struct sph *s, const struct wall_touch *t, double streams,
+                            bool film)
 {
-    if (whole_wave(s, t)) {
-        const bool held = s->surface || t->no_slip || !is_riemann(s);
-        return held ? 1.0 : 1.0 - scheme_streams(s) * (1.0 - t->near);
-    }
+    if (whole_wave(s, t))
+        return t->no_slip ? 1.0 : 1.0 - streams * (1.0 - t->near);
     return s->walls->bodies[t->body].moves && !film ? t->near * t->near : t->near;
 }
 
@@ -272,12 +272,12 @@ static const double most_of_wave = 2.0;
  * to 1.3 over a step beside single walls and corners. Under a body one particle above the bottom it
  * is 3.7, and the layer turned its velocity round at each step: Mach 0.12 in water at rest. The
  * factor on the waves that keeps it bearable. */
-INLINE double wave_factor(const struct sph *s, const struct wall_list *l, int k, bool film,
-                          double c_gamma, const int dim)
+INLINE double wave_factor(const struct sph *s, const struct wall_list *l, int k, double streams,
+                          bool film, double c_gamma, const int dim)
 {
     double rate[9] = {0.0}, most = 0.0;
     for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        const double W = t->is.W * share_of_wave(s, t, film);
+        const double W = t->is.W * share_of_wave(s, t, streams, film);
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++)
                 rate[dim * a + b] += W * t->n[a] * t->n[b];
@@ -368,7 +368,8 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
     }
     const double m = ale ? i->rho * drift : 0.0;
     const bool film = i->film && wall_air_runs_along(s, i->u, uw, t->n, dim);
-    const double near = wave * share_of_wave(s, t, false), held = wave * share_of_wave(s, t, film);
+    const double near = wave * share_of_wave(s, t, i->streams, false),
+                 held = wave * share_of_wave(s, t, i->streams, film);
     double P = i->p + wall_pressure(s, i, t->is.e, near, held, uw, t->n, dim) - 2.0 * i->damped;
     /* What walls do not hold: a drop under a roof falls, air comes between. */
     if (i->in_air && !wall_air_runs_along(s, i->u, uw, t->n, dim)) {
@@ -582,6 +583,7 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
         return 0.0;
     struct seen i = look(s, who, dim);
     i.mu = m->mu;
+    i.streams = m->streams;
     i.open = i.in_air ? wall_air_open(l, k, dim) : 1.0;
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
@@ -594,7 +596,7 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     }
     if (s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MORRIS)
         close_friction(s, l, k, &i, dim);
-    const double wave = wave_factor(s, l, k, i.film, i.c * gamma_1, dim);
+    const double wave = wave_factor(s, l, k, i.streams, i.film, i.c * gamma_1, dim);
     double closed[3];
     const struct given rim =
         l->rim ? rim_flux(s, wall_rims_close(s, l, k, closed), &i, dim) : (struct given){0};
@@ -645,6 +647,7 @@ static void rates(struct sph *s)
     if (s->places && !m->judged)
         judge(s, m);
     m->mu = s->prm.viscosity == VISCOSITY_MORRIS ? kernel_pair_viscosity(s) : s->rho0 * s->nu;
+    m->streams = s->surface || !is_riemann(s) ? 0.0 : scheme_streams(s);
     double made = 0.0;
     for (int k = 0; k < m->list.n; k++) {
         const double more = s->dim == 2 ? add_walls(s, m, k, 2) : add_walls(s, m, k, 3);
