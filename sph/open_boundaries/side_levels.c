@@ -300,9 +300,10 @@ static double velocity_in(const struct sph *s, const struct side_water *of, int 
 }
 
 /* Outside a given level stands water at rest, out of which nothing comes faster than its head
- * allows: that keeps water which runs back from gaining. The level of an inflow is in the opening.
- * As the level rises the water between x and the place whose velocity is known takes its share of
- * what flows: that is at the side itself where a discharge is given, else in the bins of sides.c.
+ * allows: that keeps water which runs back from gaining; beside what leaves still less. The level
+ * of an inflow is in the opening. As the level rises the water between x and the place whose
+ * velocity is known takes its share of what flows: that is at the side itself where a discharge is
+ * given, else in the bins of sides.c.
  */
 void side_levels_eval(const struct sph *s, const struct side_levels *l, int side, const double *x,
                       double *u, double *p, double *gp)
@@ -317,8 +318,9 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
     for (int a = 0; gp && a < 3; a++)
         gp[a] = a == l->up ? -s->rho0 * l->g * l->sign : 0.0;
     if (has_level(of->is)) {
-        const double in = fmin(out, 0.0), all = fmin(of->mean, 0.0);
-        *p += 0.5 * s->rho0 * ((of->is->kind == WALL_INFLOW ? all * all : 0.0) - in * in);
+        const double in = fmin(out, 0.0), all = fmin(of->mean, 0.0),
+                     held = of->mean > 0.0 ? outlet_holds : 1.0;
+        *p += 0.5 * s->rho0 * ((of->is->kind == WALL_INFLOW ? all * all : 0.0) - held * in * in);
     } else {
         for (int a = 0; a < s->dim; a++)
             u[a] = of->is->has_discharge ? 0.0 : of->is->velocity[a];

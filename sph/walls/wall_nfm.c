@@ -30,7 +30,7 @@ struct nfm {
     struct wall_list list;
     double crowding[RATIOS + 1]; /* wall_layers.h */
     double mu; /* Pa s: that of the pairs whose sum the weight of friction closes, else rho0 nu */
-    double streams; /* 0 to 1: how much water streams through a room that it fills */
+    double streams; /* 0 to 1: how much water streams, away from a surface */
     double *room;   /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
@@ -583,7 +583,7 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
         return 0.0;
     struct seen i = look(s, who, dim);
     i.mu = m->mu;
-    i.streams = m->streams;
+    i.streams = i.film ? 0.0 : m->streams;
     i.open = i.in_air ? wall_air_open(l, k, dim) : 1.0;
     const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
@@ -640,6 +640,17 @@ static void give_mass_back(struct sph *s, const struct nfm *m, double made)
     }
 }
 
+/* The same of a channel with openings under a surface, for what is not near that: 0 while the water
+ * in it stands still or runs uniformly, and its bed has nothing to lose. A sill of six spacings
+ * (0.5 m/s, 0.5 m deep) held back 20 mm of level with the whole wave and 6 with this. */
+static double channel_streams(const struct sph *s)
+{
+    const double moves = (s->step.stray / s->c0 - 0.001) / 0.002;
+    return scene_has_openings(&s->run->scene)
+               ? fmax(0.0, fmin(fmin(moves, 1.0), s->prm.speed.stream / (0.001 * s->c0) - 1.0))
+               : 0.0;
+}
+
 static void rates(struct sph *s)
 {
     struct nfm *m = s->walls->state;
@@ -647,7 +658,7 @@ static void rates(struct sph *s)
     if (s->places && !m->judged)
         judge(s, m);
     m->mu = s->prm.viscosity == VISCOSITY_MORRIS ? kernel_pair_viscosity(s) : s->rho0 * s->nu;
-    m->streams = s->surface || !is_riemann(s) ? 0.0 : scheme_streams(s);
+    m->streams = is_riemann(s) ? (s->surface ? channel_streams(s) : scheme_streams(s)) : 0.0;
     double made = 0.0;
     for (int k = 0; k < m->list.n; k++) {
         const double more = s->dim == 2 ? add_walls(s, m, k, 2) : add_walls(s, m, k, 3);
