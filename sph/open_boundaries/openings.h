@@ -24,12 +24,6 @@ struct birth_law {
     bool shares;
 };
 
-/* What runs back through an outlet beside what leaves meets so many times its head. With once, as
- * out of water at rest, an eddy feeds itself no longer, but in the wake of a sill it grew in the
- * opening for 20 s and took a tenth of it; water that stands there, with what leaves beside it,
- * passes too little. */
-static const double outlet_holds = 6.0;
-
 /* The faces of all open sides and their accumulators. All arrays are owned, one entry per face
  * where no other is said. */
 struct openings {

@@ -406,15 +406,15 @@ static void turn_along_walls(const struct sph *s, const double *x, double *u)
 }
 
 /* Of an outlet. What runs back through it, beside what leaves, comes out of fluid at rest and
- * brings less than the head there (outlet_holds): else an eddy in the opening feeds itself. What
- * runs in through the whole side is driven by the pressure that is given there. */
+ * brings no more than the head there: else an eddy in the opening feeds itself. What runs in
+ * through the whole side is driven by the pressure that is given there. */
 static double outlet_pressure(const struct sides *d, int side, const double *x, const double *in)
 {
     const struct opening_side *of = d->of + side;
     const double out = side % 2 ? in[VELOCITY + side / 2] : -in[VELOCITY + side / 2];
     const double back = fmin(out, 0.0);
     return of->pressure + d->fall[side] * zones_inside(d->s->lo, d->s->hi, side, x) -
-           0.5 * d->s->rho0 * outlet_holds * of->leaves * back * back;
+           0.5 * d->s->rho0 * of->leaves * back * back;
 }
 
 /* gp[3]: gradient of p, NULL: not wanted. */
