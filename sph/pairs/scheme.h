@@ -46,6 +46,13 @@ static inline double scheme_shift_speed(const struct sph *s, int i)
     return given && most > s->step.shift_speed ? most : s->step.shift_speed;
 }
 
+/* What the scene says of how much the water streams: 0 and less up to 0.001 c0 of what it keeps
+ * streaming, 1 and more from 0.002 c0 on. */
+static inline double scheme_kept(const struct sph *s)
+{
+    return s->prm.speed.stream / (0.001 * s->c0) - 1.0;
+}
+
 /* How much the water streams, 0 to 1: 1 where what holds particles in order errs by more than the
  * pressures of the stream, for it takes some per cent of c0 times the velocities of neighbours; 0
  * where water is nearly at rest and that order counts. The scene says so where something keeps the
@@ -54,8 +61,7 @@ static inline double scheme_shift_speed(const struct sph *s, int i)
  * c0: with less, a standing wave of 12 rows loses a tenth of its dissipation. */
 static inline double scheme_streams(const struct sph *s)
 {
-    const double kept = s->prm.speed.stream / (0.001 * s->c0) - 1.0;
-    const double share = fmax((s->step.stray / s->c0 - 0.002) / 0.01, kept);
+    const double share = fmax((s->step.stray / s->c0 - 0.002) / 0.01, scheme_kept(s));
     return share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
 }
 

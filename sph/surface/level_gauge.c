@@ -146,17 +146,16 @@ static void sound(const struct sph *s, const struct column *c, const double *acr
 }
 
 /* Samples floor and roof over the section, 16 places in 2D and 8 x 8 in 3D, weighted by the hat
- * function, and takes means for floor and roof, extremes for ground and crest. The
- * section shrinks by the share of places that walls hide. */
+ * function, and takes means for floor and roof, extremes for ground and crest. The section shrinks
+ * by the share of places that walls hide. */
 static void sound_all(const struct sph *s, struct column *c)
 {
     const int n = s->dim == 2 ? SAMPLES_2D : SAMPLES_3D, m = s->dim == 2 ? 1 : n;
-    double sums[4] = {0.0}, all = 0.0;
+    double sums[4] = {0.0}, unused[4] = {0.0}, all = 0.0;
     struct column highest = {.ground = -INFINITY, .crest = -INFINITY}, just = highest;
-    sound(s, c, (double[3]){0.0}, 1.0, sums, &just);
-    memset(sums, 0, sizeof sums);
     const double at = height_of(c, c->at);
     c->cliff = at + free_height(s, c, c->at, c->bottom - at) - c->half;
+    sound(s, c, (double[3]){0.0}, 1.0, unused, &just);
     for (int k = 0; k < n * m; k++) {
         int cell = k;
         double across[3] = {0.0, 0.0, 0.0}, weight = 1.0;

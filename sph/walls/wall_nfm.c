@@ -640,15 +640,14 @@ static void give_mass_back(struct sph *s, const struct nfm *m, double made)
     }
 }
 
-/* The same of a channel with openings under a surface, for what is not near that: 0 while the water
- * in it stands still or runs uniformly, and its bed has nothing to lose. A sill of six spacings
- * (0.5 m/s, 0.5 m deep) held back 20 mm of level with the whole wave and 6 with this. */
+/* How much the water of a channel with openings streams under a surface, for what is not near that:
+ * 0 while it stands still or runs uniformly, and the bed takes nothing from it. A sill of six
+ * spacings (0.5 m/s, 0.5 m deep) held back 20 mm of level with the whole wave and 6 with this. */
 static double channel_streams(const struct sph *s)
 {
     const double moves = (s->step.stray / s->c0 - 0.001) / 0.002;
-    return scene_has_openings(&s->run->scene)
-               ? fmax(0.0, fmin(fmin(moves, 1.0), s->prm.speed.stream / (0.001 * s->c0) - 1.0))
-               : 0.0;
+    return scene_has_openings(&s->run->scene) ? fmax(0.0, fmin(fmin(moves, 1.0), scheme_kept(s)))
+                                              : 0.0;
 }
 
 static void rates(struct sph *s)

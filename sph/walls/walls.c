@@ -348,20 +348,18 @@ double walls_meet(const struct sph *s, const double *x, const double *d)
     return first;
 }
 
-/* Whether x, in the plane, is inside of the outline of a body where it is now, by the crossings of
- * a ray. */
+/* Whether x, in the plane, is inside of the outline of a body where it is now. */
 static bool in_outline(const struct body *b, const double *x)
 {
     const int n = body_corners(b);
-    double from[3], to[3];
-    bool in = false;
-    body_corner(b, n - 1, from);
-    for (int k = 0; k < n; k++, memcpy(from, to, sizeof from)) {
-        body_corner(b, k, to);
-        if ((from[1] > x[1]) != (to[1] > x[1]) &&
-            x[0] < from[0] + (to[0] - from[0]) * (x[1] - from[1]) / (to[1] - from[1]))
-            in = !in;
+    double(*at)[2] = mem_new((size_t)n, sizeof *at);
+    for (int k = 0; k < n; k++) {
+        double corner[3];
+        body_corner(b, k, corner);
+        memcpy(at[k], corner, sizeof at[k]);
     }
+    const bool in = line_inside(&(struct line){n, (const double(*)[2])at, true}, x);
+    mem_free(at);
     return in;
 }
 

@@ -251,13 +251,15 @@ for case, water, deck, wanted in ('decks', '{ box = ((0, 0), (1, 0.16)); }, { bo
 
 # Beside a hull that pierces the surface what of it lies above the water is none (all of it counted, up to its deck: 0.85 m for
 # 0.7), below it the level is its underside; a place in a body that stands flush on the floor is taken for the one above it
-# (the floor below it counted, 0.15 m for 0.3).
-run_case('hull', scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1.2, 1.1); };
-walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "below"; level = 0.7; } );
-bodies: ( { name = "hull"; box = ((0.4, 0.5), (0.8, 1)); }, { name = "block"; box = ((0.9, 0), (1.1, 0.4)); } ); probes: ( %s ); sph: { dx = 0.025; };
-''' % probes('level', 'a 0.375, 0', 'b 0.39, 0', 'c 0.3999, 0', 'under 0.405, 0', 'in 1, 0.1', 'on 1, 0')))
-for gauge, level, far in ('a', 0.7, 0.5), ('b', 0.7, 0.5), ('c', 0.7, 0.5), ('under', 0.5, 0.1), ('in', 0.7, 0.1), ('on', 0.7, 0.1):
-    near('hull: level at ' + gauge, column('hull', gauge + ' [')[0], level, far * 0.025, 'hull.txt')
+# (the floor below it counted, 0.15 m for 0.3). The same where heights are below zero (-1.28 m for the underside at -1.5).
+for case, z in ('hull', 0), ('sunk', -2):
+    run_case(case, scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; min = (0, %g); max = (1.2, %g); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "below"; level = %g; } );
+bodies: ( { name = "hull"; box = ((0.4, %g), (0.8, %g)); }, { name = "block"; box = ((0.9, %g), (1.1, %g)); } ); probes: ( %s ); sph: { dx = 0.025; };
+''' % (z, z + 1.1, z + 0.7, z + 0.5, z + 1, z, z + 0.4, probes('level', *('%s, %g' % (place, z + up) for place, up in (
+        ('a 0.375', 0), ('b 0.39', 0), ('c 0.3999', 0), ('under 0.405', 0), ('in 1', 0.1), ('on 1', 0)))))))
+    for gauge, level, far in ('a', 0.7, 0.5), ('b', 0.7, 0.5), ('c', 0.7, 0.5), ('under', 0.5, 0.1), ('in', 0.7, 0.1), ('on', 0.7, 0.1):
+        near('%s: level at %s' % (case, gauge), column(case, gauge + ' [')[0], z + level, far * 0.025, case + '.txt')
 
 # The level under a body is its underside, also while an edge of refinement goes down through the rows of the column: each
 # of the two levels counts by its share there (by whole rows it was out by 0.4 dx, and a body was taken for drowned).
