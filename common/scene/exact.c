@@ -243,6 +243,24 @@ void exact_summarise_oscillation(const struct fit *samples, double period, doubl
     }
 }
 
+bool exact_until_end(const struct scene *s)
+{
+    bool exact = exact_at_all_times(s) && s->nbodies == 0;
+    if (!exact || !scene_has_steady_wave(s))
+        return exact;
+    const struct exact e = exact_create(s);
+    const bool solitary = s->initial.field == FIELD_SOLITARY;
+    const double crest = e.steady.x + e.steady.c * s->time.end;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        const bool end = (w->side == SIDE_X_MIN && !solitary) || w->side == SIDE_X_MAX;
+        const bool closed = end && w->kind < WALL_INFLOW && w->zone == ZONE_NONE;
+        const bool met = !solitary || crest > s->domain.max[0];
+        exact = exact && w->side != SIDE_NONE && !(closed && met);
+    }
+    return exact;
+}
+
 bool exact_has_past(const struct exact *e)
 {
     return e->field != FIELD_POISEUILLE && e->field != FIELD_COUETTE;

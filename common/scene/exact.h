@@ -40,6 +40,9 @@ struct exact {
 
 /* Whether the scene's field solves the equations at all times, not only at the start. */
 bool exact_at_all_times(const struct scene *s);
+/* Whether that solution is still the scene's at its end: nothing stands in the flow, and a wave of
+ * permanent form meets no line, mesh or closed end on its way. Errors are reported where it is. */
+bool exact_until_end(const struct scene *s);
 
 /* Whether the solution holds before t = 0, too, which it does not where the flow starts from
  * rest. */

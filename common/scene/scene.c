@@ -487,6 +487,10 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     if (field == FIELD_BELTRAMI && s->domain.dim < 3)
         params_fault(p, f, "initial.field", "beltrami: a field of three dimensions");
     const bool upright = check_upright(s, p, f);
+    if (s->nshapes > 0 && (scene_has_wave(s) || field == FIELD_PATCH || field == FIELD_DROP))
+        params_fault(p, f, "shapes",
+                     "initial.field has water of its own, which shapes would replace, with their "
+                     "surface under its velocities: leave shapes out");
     if (scene_has_steady_wave(s) && !(s->initial.level < LEVEL_TOP))
         params_fault(p, f, "initial.level", "a wave needs the level of the water at rest");
     else if (scene_has_steady_wave(s) && upright) {

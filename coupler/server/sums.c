@@ -65,7 +65,8 @@ void sums_summarise(const struct coupler *c, struct summary *to)
     const struct exact e = exact_create(&c->scene);
     const struct scene_domain *d = &c->scene.domain;
     double period, rate;
-    if (!c->sums || e.field != FIELD_STANDING_WAVE || !exact_oscillation(&e, &period, &rate))
+    if (!c->sums || c->scene.nbodies > 0 || e.field != FIELD_STANDING_WAVE ||
+        !exact_oscillation(&e, &period, &rate))
         return;
     exact_summarise_oscillation(&c->sums->fit, period, rate, to);
     const double enstrophy = c->sums->now[ENSTROPHY];

@@ -332,9 +332,9 @@ static void check_mode(const struct run *r, struct faults *f)
         params_fault(r->params, f, group, "not with graded layers (fv.graded)");
     if (prm->hole[1][0] > prm->hole[0][0])
         params_fault(r->params, f, group, "not with fv.hole");
-    if (field != FIELD_REST && field != FIELD_UNIFORM)
+    if (field != FIELD_REST && field != FIELD_UNIFORM && !scene_has_wave(&r->scene))
         params_fault(r->params, f, "initial.field",
-                     "its exact solution has no boxes: \"rest\" or \"uniform\" with them");
+                     "it has no boxes: \"rest\", \"uniform\" or a wave with them");
 }
 
 void blocked_check(const struct run *r, struct faults *f)

@@ -36,10 +36,12 @@ static bool has_own_forces(const struct run *r, const struct fv_params *prm, int
  * that of fv_forces. */
 int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {
-    static const char *const names[] = {"force x [N]", "force y [N]", "force z [N]",
-                                        "moment z [Nm]"};
+    static const char *const all[2][4] = {
+        {"force x [N/m]", "force y [N/m]", "", "moment z [N]"},
+        {"force x [N]", "force y [N]", "force z [N]", "moment z [N m]"}};
     static char own[FLOW_BODIES_MAX][4][PARAM_TEXT_SIZE + 24];
     const int dim = r->scene.domain.dim, moment = prm->blocks.n > 0;
+    const char *const *names = all[dim - 2];
     int n = 0;
     if (!has_forces(r, prm))
         return 0;

@@ -126,7 +126,8 @@ static void regular(struct fv *s, int n, const double *eta, const double *is)
 void steady_summarise(struct fv *s)
 {
     double *eta, *is;
-    if (!scene_has_steady_wave(&s->run->scene) || s->m || s->exact.height <= 0.0)
+    const struct scene *c = &s->run->scene;
+    if (!scene_has_steady_wave(c) || !exact_until_end(c) || s->m || s->exact.height <= 0.0)
         return;
     const int n = columns(s, &eta, &is);
     (s->exact.field == FIELD_SOLITARY ? solitary : regular)(s, n, eta, is);

@@ -23,27 +23,6 @@ enum { NORM_VELOCITY, NORM_PRESSURE, NORM_VORTICITY, NORM_WALL, NORMS };
 
 static const char *const norm_names[NORM_WALL] = {"velocity", "pressure", "vorticity"};
 
-/* Whether the exact solution holds until the end: a wave of permanent form meets no body, line,
- * mesh or closed end on its way. */
-static bool has_exact(const struct run *r)
-{
-    const struct scene *c = &r->scene;
-    bool exact = exact_at_all_times(c);
-    if (!exact || !scene_has_steady_wave(c))
-        return exact;
-    const struct exact e = exact_create(c);
-    const bool solitary = c->initial.field == FIELD_SOLITARY;
-    for (int k = 0; k < c->nwalls; k++) {
-        const struct scene_wall *w = c->walls + k;
-        const bool end = (w->side == SIDE_X_MIN && !solitary) || w->side == SIDE_X_MAX;
-        const double crest = e.steady.x + e.steady.c * c->time.end;
-        if (w->side == SIDE_NONE || (end && w->kind < WALL_INFLOW && w->zone == ZONE_NONE &&
-                                     (!solitary || crest > c->domain.max[0])))
-            exact = false;
-    }
-    return exact && c->nbodies == 0;
-}
-
 /* In 2D whether a wall lies within R of x. */
 static bool cut_by_wall(const struct sph *s, const double *x)
 {
@@ -235,7 +214,8 @@ static void summarise_oscillation(struct sph *s)
 {
     const struct exact e = exact_create(&s->run->scene);
     double period, rate;
-    if (s->run->coupled || !has_signal(s->run) || !exact_oscillation(&e, &period, &rate))
+    if (s->run->coupled || s->run->scene.nbodies > 0 || !has_signal(s->run) ||
+        !exact_oscillation(&e, &period, &rate))
         return;
     sample_signal(s);
     struct summary *to = s->run->summary;
@@ -292,7 +272,7 @@ int sph_columns(const struct run *r, const struct sph_params *prm, const char **
         if (k != 5 || r->scene.domain.dim == 3)
             names[n++] = columns[k];
     n += sph_watch_columns(r, prm, names + n);
-    if (has_exact(r))
+    if (exact_until_end(&r->scene))
         names[n++] = "error velocity l2 [-]";
     n += levels_columns(r, names + n);
     if (sph_params_zones(r, prm)) {
@@ -322,7 +302,7 @@ void sph_row(void *state, double *values)
     *values++ = particles(s);
     *values++ = least_spacing(s);
     values = sph_watch_row(s, values);
-    if (has_exact(s->run)) {
+    if (exact_until_end(&s->run->scene)) {
         struct norm n[NORMS];
         errors(s, n);
         *values++ = norm_relative_l2(n);
@@ -387,7 +367,7 @@ static void summarise_drifts(const struct sph *s)
         region *= s->hi[a] - s->lo[a];
         p2 += pow(sums[SUM_MOMENTUM + a] - s->start.momentum[a], 2.0);
     }
-    if (has_exact(s->run)) {
+    if (exact_until_end(&s->run->scene)) {
         const double expected = exact_kinetic(s);
         energy = (sums[SUM_KINETIC] - expected) / expected;
     } else {
@@ -461,7 +441,7 @@ void sph_finish(void *state)
     if (s->walls)
         summary_int(to, "particles_returned", llround(returned(s)));
     summary_int(to, "particles_lost", llround(total(s, s->total.lost)));
-    if (has_exact(s->run))
+    if (exact_until_end(&s->run->scene))
         summarise_errors(s);
     summarise_oscillation(s);
     if (s->walls)

@@ -170,7 +170,7 @@ TEST(closed_sides_carry_the_weight)
             const char *names[COLUMNS];
             double row[COLUMNS];
             const int n = last_row(scenes + q, block, row, names);
-            const char *up = q == 2 ? "force z [N]" : "force y [N]";
+            const char *up = q == 2 ? "force z [N]" : "force y [N/m]";
             assert_close(value(up, n, names, row), -scenes[q].scale, 1e-9 * scenes[q].scale);
         }
 }
@@ -193,8 +193,8 @@ TEST(films_press_on_nothing)
     double row[COLUMNS];
     const int n = last_row(&drum, true, row, names);
     const double tolerance = drum.tolerance * drum.scale;
-    assert_close(value("force x [N]", n, names, row), 0.0, tolerance);
-    assert_close(value("force y [N]", n, names, row), -drum.scale, tolerance);
+    assert_close(value("force x [N/m]", n, names, row), 0.0, tolerance);
+    assert_close(value("force y [N/m]", n, names, row), -drum.scale, tolerance);
 }
 
 /* Water at rest drawn flush with walls, or of several shapes that meet: its edges on walls of
@@ -262,10 +262,10 @@ TEST(walls_end_shapes_and_holes)
             fv_row(s, row);
             const double weight = 1e4 * value("volume [m^dim]", n, names, row);
             print_message("%s: force %.9g, %.9g of %.9g N\n", flush[q].name,
-                          value("force x [N]", n, names, row), value("force y [N]", n, names, row),
-                          -weight);
-            assert_close(value("force x [N]", n, names, row), 0.0, 1e-6 * weight);
-            assert_close(value("force y [N]", n, names, row), -weight,
+                          value("force x [N/m]", n, names, row),
+                          value("force y [N/m]", n, names, row), -weight);
+            assert_close(value("force x [N/m]", n, names, row), 0.0, 1e-6 * weight);
+            assert_close(value("force y [N/m]", n, names, row), -weight,
                          2e-3 * weight); /* 12 cells across the ring */
             assert_true(value("largest velocity [m/s]", n, names, row) < 1e-10);
             while (s->t < flush[q].end * (1.0 - 1e-9) && !d.bad)

@@ -121,9 +121,9 @@ TEST(blocks_know_the_whole_pressure)
     row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nfv: { };\nblocks: ( " BOX
                 ", " RING " );\n",
            row, columns);
-    assert_string_equal(columns[7], "box force y [N]");
-    assert_string_equal(columns[10], "ring force y [N]");
-    assert_string_equal(columns[11], "ring moment z [Nm]");
+    assert_string_equal(columns[7], "box force y [N/m]");
+    assert_string_equal(columns[10], "ring force y [N/m]");
+    assert_string_equal(columns[11], "ring moment z [N]");
     assert_close(row[7], -1000 * 9.81 * 4, 1e-6);
     assert_close(row[9], 0.0, 1e-6);
     assert_close(row[10], lift, 1e-3 * lift); /* a circle of 64 corners */
