@@ -70,7 +70,8 @@ static double image_from(const struct scene_domain *d, int a, double lo, double 
 }
 
 /* Whether a gauge lies in a box, which may reach over a periodic side; one of the level, whose
- * column ends there, by its place on the ground alone. */
+ * column ends there, by its place on the ground alone. On a face of the box inside the domain there
+ * are particles on one side alone, so it is the cells' there. */
 static bool holds(const struct scene *c, int up, double box[2][3], const struct scene_probe *g)
 {
     bool inside = true;
@@ -78,7 +79,10 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
         if (box[1][a] > box[0][a] && (a != up || probe_is_point(g))) {
             const double x =
                 probe_is_point(g) ? image_from(&c->domain, a, box[0][a], g->at[a]) : g->at[a];
-            inside = inside && x >= box[0][a] && x <= box[1][a];
+            const double eps = 1e-9 * (box[1][a] - box[0][a]);
+            const double low = box[0][a] > c->domain.min[a] + eps ? eps : -eps;
+            const double high = box[1][a] < c->domain.max[a] - eps ? eps : -eps;
+            inside = inside && x >= box[0][a] + low && x <= box[1][a] - high;
         }
     return inside;
 }

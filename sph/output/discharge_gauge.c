@@ -13,10 +13,11 @@
 #include "discharge_gauge.h"
 
 #include "../../common/scene/scene.h"
+#include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
 
-static const double half = 2.0, inside = 3.0; /* dx: half width of the hat; from open sides */
-static const double beside = 0.25;            /* dx: from an end, where walls are looked for */
+static const double half = 2.0;    /* dx: half width of the hat */
+static const double beside = 0.25; /* dx: from an end, where walls are looked for */
 
 /* direction.(x - from), or direction.x with from NULL. */
 static double project(const double *direction, const double *x, const double *from, int dim)
@@ -34,14 +35,6 @@ struct gauge_section {
     bool stands[2][2];   /* the lower and upper end along each direction: on a wall */
 };
 
-/* Whether nothing holds fluid back at a side of the region. */
-static bool is_passable(const struct sph *s, int side)
-{
-    const struct scene_wall *w =
-        scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-    return !s->periodic[side / 2] && (s->open[side] || !w || scene_wall_opens(w));
-}
-
 /* Whether a wall or a closed side is at an end of the section, in the middle of its breadth. */
 static bool stands_on_wall(const struct sph *s, const struct gauge_section *c, int k, int end)
 {
@@ -54,7 +47,7 @@ static bool stands_on_wall(const struct sph *s, const struct gauge_section *c, i
         d[a] = (end ? 1.0 : -1.0) * 2.0 * beside * s->dx * c->is.along[k][a];
         x[a] -= 0.5 * d[a];
         const int side = x[a] + d[a] < s->lo[a] ? 2 * a : x[a] + d[a] > s->hi[a] ? 2 * a + 1 : -1;
-        out = out || (side >= 0 && !s->periodic[a] && !is_passable(s, side));
+        out = out || (side >= 0 && !s->periodic[a] && !region_side_passes(s, side));
     }
     return out || (s->walls && walls_meet(s, x, d) < 1.0);
 }
@@ -63,17 +56,8 @@ static bool stands_on_wall(const struct sph *s, const struct gauge_section *c, i
 static struct gauge_section place(const struct sph *s, const struct scene_probe *g)
 {
     struct gauge_section c = {.is = probe_section_of(g, s->dim), .width = half * s->dx};
-    for (int a = 0; a < s->dim; a++) {
-        const double lo = s->lo[a], hi = s->hi[a], near = 1e-6 * s->dx, x = g->at[a];
-        const double depth = fmin(inside * s->dx, 0.5 * (hi - lo));
-        c.at[a] = x;
-        if (fabs(c.is.across[a]) != 1.0 || x < lo - near || x > hi + near)
-            continue;
-        if (x < lo + depth && is_passable(s, 2 * a))
-            c.at[a] = lo + depth;
-        if (x > hi - depth && is_passable(s, 2 * a + 1))
-            c.at[a] = hi - depth;
-    }
+    for (int a = 0; a < s->dim; a++)
+        c.at[a] = fabs(c.is.across[a]) == 1.0 ? region_clear(s, a, g->at[a]) : g->at[a];
     for (int k = 0; k < 2 * c.is.n; k++)
         c.stands[k / 2][k % 2] = stands_on_wall(s, &c, k / 2, k % 2);
     return c;

@@ -42,7 +42,9 @@ def lifted(folder):
 # water at rest, SPH in the right half, a strip in the middle, and a level that no row of particles ends on
 water = open(root + '/cases/still_water_crossing/case.cfg').read()
 still = 'time.end=1.5 sph.dx=0.05 fv.cells=(32,11) output.snapshots=false '
-gauges = 'probes: ( { name = "left"; kind = "level"; at = (1, 0); }, { name = "right"; kind = "level"; at = (3, 0); } );\n'
+gauges = '''probes:  ( { name = "left"; kind = "level"; at = (1, 0); }, { name = "right"; kind = "level"; at = (3, 0); },
+           { name = "edge"; kind = "level"; at = (2, 0); } );
+'''
 off = varied(water, 'level = 1.0;', 'level = 1.015;') + gauges
 job('right', water, still)
 job('strip', water, still + 'sph.box=((0.7,0),(3.3,1.4))')
@@ -146,7 +148,9 @@ for program in 'sph', 'fv':
 # the rows of their lattice had theirs at 1.0)
 gauge('off', 'fv', 'left', 1.015)
 gauge('off', 'sph', 'right', 1.015)
+gauge('off', 'fv', 'edge', 1.015)  # on the box's face, where half of sph's column would be outside
 not_read('off', sph='left', fv='right')
+not_read('off', sph='edge')
 back = last('off/fv-series.csv', 'volume put back')
 if not 1e-12 <= back <= 1e-3:
     bad("off: columns of fv's series are out of place: volume put back %g" % back)

@@ -32,8 +32,9 @@ channel = scene(2, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max =
 initial: { field = "uniform"; velocity = (0.35, 0); };
 walls: ( { side = "x_min"; kind = "inflow"; discharge = 0.07; }, { side = "x_max"; kind = "outflow"; level = 0.2; }, { side = "y_min"; } );
 shapes: ( { form = "below"; level = 0.2; } );
-probes: ( %s, %s );
-''' % (probes('discharge', 'flow 0.5, 0 to 0.5, 0.4', 'slant 0.4, 0 to 0.6, 0.4', 'turned 0.5, 0.4 to 0.5, 0',
+probes: ( %s, %s, %s );
+''' % (probes('level', 'inlet 0, 0', 'behind 0.03, 0', 'outlet 1, 0'),
+       probes('discharge', 'flow 0.5, 0 to 0.5, 0.4', 'slant 0.4, 0 to 0.6, 0.4', 'turned 0.5, 0.4 to 0.5, 0',
               'over 0.5, 0.26 to 0.5, 0.4'),
        probes('velocity', 'in 0.5, 0.1', 'air 0.5, 0.35')), series=2)
 run_case('cells', varied(channel, '{ side = "y_min"; }', '{ side = "y_min"; }, { side = "y_max"; }') + 'fv: { cells = (50, 20); };',
@@ -48,6 +49,10 @@ for case in 'cells', 'grains':
     ends_at(case, 'turned', -last(case + '/series.csv', 'flow'), 1e-9)
     for title, wanted, most in ('over', 0, 1e-6), ('in u', 0.35, 0.03 * 0.35), ('in v', 0, 0.01):
         ends_at(case, title, wanted, most)
+    for title in 'inlet', 'behind', 'outlet':  # beside open sides, too, where sph's rows are born and removed: 0.05 to 0.25 of it
+        levels = column(case, title)
+        near('%s: lowest level at %s' % (case, title), min(levels), 0.2, 0.01, case + '.txt')
+        near('%s: highest level at %s' % (case, title), max(levels), 0.2, 0.01, case + '.txt')
     if not math.isnan(last(case + '/series.csv', 'air u')):
         bad(case + ': a velocity of air')
     if not says('discharge  flow: 0.1[34]', case + '.txt'):

@@ -1,0 +1,15 @@
+/* region_sides.h - sides of the region where fluid comes and goes, and gauges near them.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_REGION_SIDES_H
+#define SPH_REGION_SIDES_H
+
+#include "../sph.h"
+
+/* Whether nothing holds fluid back at a side of the region (2a: low, 2a+1: high). */
+bool region_side_passes(const struct sph *s, int side);
+/* Coordinate x along axis a, m, where a gauge that sums volumes is read: x, but at least 3 dx
+ * inside sides that fluid passes, clear of the rows that are born and removed there. x outside of
+ * the region is left alone. */
+double region_clear(const struct sph *s, int a, double x);
+
+#endif
