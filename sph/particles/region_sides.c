@@ -9,7 +9,7 @@ bool region_side_passes(const struct sph *s, int side)
 {
     const struct scene_wall *w =
         scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-    return !s->periodic[side / 2] && (s->open[side] || !w || scene_wall_opens(w));
+    return !s->periodic[side / 2] && (s->open[side] || !w || w->kind >= WALL_INFLOW);
 }
 
 double region_clear(const struct sph *s, int a, double x)

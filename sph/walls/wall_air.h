@@ -23,7 +23,7 @@ static inline double wall_air_open(const struct wall_list *l, int k, const int d
 {
     double all = 0.0, along[3] = {0.0}, square = 0.0;
     for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        all += t->is.W;
+        all += wall_touch_counts(t);
         for (int a = 0; a < dim; a++)
             along[a] += t->is.W * t->n[a];
     }

@@ -344,7 +344,7 @@ static int lies_on_one(const struct sph *s, const struct wall_touch *begin,
 
 /* A face that stands on that of another owner is seen from behind by the fluid beside it, and the
  * other on through it. Together they are nothing, so both have one owner: that of the face which
- * goes on where the other ends. */
+ * goes on where the other ends, and one share of the wave to it. */
 static void own_covered(const struct sph *s, struct wall_list *l, int k)
 {
     struct wall_touch *begin = l->touch + l->first[k], *end = l->touch + l->first[k + 1], *next;
@@ -361,8 +361,12 @@ static void own_covered(const struct sph *s, struct wall_list *l, int k)
             t->on = before >= 0 ? before : behind >= 0 ? (int)(next - begin) + behind : -1;
         }
     }
-    for (struct wall_touch *t = begin; t < end; t++)
-        t->body = t->on < 0 ? t->body : owner_of(s->walls, begin + t->on, s->dim);
+    for (struct wall_touch *t = begin; t < end; t++) {
+        if (t->on < 0)
+            continue;
+        t->body = owner_of(s->walls, begin + t->on, s->dim);
+        t->near = begin[t->on].near;
+    }
 }
 
 void wall_list_measure(const struct sph *s, struct wall_list *l)

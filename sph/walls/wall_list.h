@@ -64,6 +64,13 @@ struct wall_list {
     struct wall_integrals *asked;
 };
 
+/* Its weight, m^(1-dim), negative where it lies on the face of another owner: as part of that face
+ * it takes away what is covered. */
+static inline double wall_touch_counts(const struct wall_touch *t)
+{
+    return t->on < 0 ? t->is.W : -t->is.W;
+}
+
 /* Lists the particles that can come within R of a wall in the step, with the pieces near each. */
 void wall_list_build(const struct sph *s, struct wall_list *l);
 /* Computes touch and gamma at the present positions of particles and walls, once a stage. */

@@ -288,6 +288,51 @@ TEST(body_in_still_water)
     float_in_still_water(INTEGRALS_NUMERICAL);
 }
 
+/* Rates of the momentum along y of shallow water in a tension that comes down on the floor at 0.1
+ * c0, beside a block on the floor or, without it, the tank's end at the same place. Keeps the
+ * values of the particles in the four rows beside it; returns their number. */
+static int fall_beside(bool block, double rate[64])
+{
+    struct sph_case c;
+    int n = 0;
+    tank(&c, 20, true, WALLS_NFM);
+    struct scene *e = &c.run.scene;
+    c.run.comm = MPI_COMM_SELF;
+    c.run.rank = 0;
+    c.run.size = 1;
+    e->shapes[0].level = 0.15;
+    e->domain.max[0] = block ? 1.0 : 0.4;
+    e->nbodies = block;
+    e->bodies[0].points.n = 4;
+    memcpy(e->bodies[0].points.x, (double[4][2]){{0.4, 0.0}, {0.4, 0.4}, {0.6, 0.4}, {0.6, 0.0}},
+           8 * sizeof(double));
+    struct sph *s = sph_case_start(&c, NULL);
+    for (int i = 0; i < s->p.n; i++) {
+        double *y = state_row(&s->p, s->p.y, i);
+        y[at_volume(2)] *= 1.004;
+        y[3] = -0.1 * s->c0 * y[at_mass(2)];
+    }
+    integrate_prepare(s);
+    integrate_rates(s);
+    for (int i = 0; i < s->p.n; i++)
+        if (prim_line(&s->p, i)[0] > 0.2 && prim_line(&s->p, i)[0] < 0.4 && n < 64)
+            rate[n++] = state_row(&s->p, s->p.rate, i)[3] / state_row(&s->p, s->p.y, i)[at_mass(2)];
+    DROP(c.s);
+    return n;
+}
+
+/* What a block covers of a floor is no floor and no roof: neither its wave nor a lack of tension is
+ * left there. */
+TEST(a_block_covers_the_floor)
+{
+    double of_block[64], of_end[64];
+    const int n = fall_beside(true, of_block);
+    assert_int_equal(fall_beside(false, of_end), n);
+    assert_true(n >= 12);
+    for (int i = 0; i < n; i++)
+        assert_close(of_block[i], of_end[i], 1e-6 * fabs(of_end[i]));
+}
+
 /* A star turned by `degrees' in the middle of a full tank: the least of what walls leave of the
  * supports. */
 static double least_room(double degrees)
