@@ -1,5 +1,5 @@
-/* ij_rows.h - matrices and vectors of hypre's IJ interface over the rows of s->poisson. All calls
- * that create or assemble are collective over s->comm.
+/* ij_rows.h - matrices and vectors of hypre's IJ interface over n rows of each rank, of which the
+ * first has a number among all. All calls that create or assemble are collective over comm.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_IJ_ROWS_H
 #define FV_IJ_ROWS_H
@@ -41,19 +41,19 @@ struct matrix {
 };
 
 /* Makes the matrix from ncols[n] entries of each row, one row behind the other in col and v. */
-static inline void matrix_create(struct matrix *A, const struct fv *s, HYPRE_Int *ncols,
-                                 const HYPRE_BigInt *col, const double *v)
+static inline void matrix_create(struct matrix *A, MPI_Comm comm, HYPRE_BigInt first, int n,
+                                 HYPRE_Int *ncols, const HYPRE_BigInt *col, const double *v)
 {
-    const HYPRE_BigInt first = s->poisson->first, last = first + s->poisson->n - 1;
-    HYPRE_BigInt *row = NEW(HYPRE_BigInt, s->poisson->n);
-    for (int k = 0; k < s->poisson->n; k++)
+    const HYPRE_BigInt last = first + n - 1;
+    HYPRE_BigInt *row = NEW(HYPRE_BigInt, n);
+    for (int k = 0; k < n; k++)
         row[k] = first + k;
-    HYPRE(HYPRE_IJMatrixCreate(s->comm, first, last, first, last, &A->ij));
+    HYPRE(HYPRE_IJMatrixCreate(comm, first, last, first, last, &A->ij));
     HYPRE(HYPRE_IJMatrixSetObjectType(A->ij, HYPRE_PARCSR));
     HYPRE(HYPRE_IJMatrixSetRowSizes(A->ij, ncols));
     HYPRE(HYPRE_IJMatrixInitialize(A->ij));
-    if (s->poisson->n > 0)
-        HYPRE(HYPRE_IJMatrixSetValues(A->ij, s->poisson->n, ncols, row, col, v));
+    if (n > 0)
+        HYPRE(HYPRE_IJMatrixSetValues(A->ij, n, ncols, row, col, v));
     HYPRE(HYPRE_IJMatrixAssemble(A->ij));
     HYPRE(HYPRE_IJMatrixGetObject(A->ij, (void **)&A->A));
     mem_free(row);
@@ -73,15 +73,21 @@ struct vector {
     int n;
 };
 
-static inline void vector_create(struct vector *v, const struct fv *s)
+static inline void vector_create(struct vector *v, MPI_Comm comm, HYPRE_BigInt first, int n)
 {
-    const HYPRE_BigInt first = s->poisson->first;
-    v->n = s->poisson->n;
-    HYPRE(HYPRE_IJVectorCreate(s->comm, first, first + v->n - 1, &v->ij));
+    v->n = n;
+    HYPRE(HYPRE_IJVectorCreate(comm, first, first + n - 1, &v->ij));
     HYPRE(HYPRE_IJVectorSetObjectType(v->ij, HYPRE_PARCSR));
     HYPRE(HYPRE_IJVectorInitialize(v->ij));
     HYPRE(HYPRE_IJVectorAssemble(v->ij));
     HYPRE(HYPRE_IJVectorGetObject(v->ij, (void **)&v->v));
+}
+
+static inline void vector_free(struct vector *v)
+{
+    if (v->ij)
+        HYPRE_IJVectorDestroy(v->ij);
+    v->ij = NULL;
 }
 
 static inline void vector_set(struct vector *v, const double *values)

@@ -215,11 +215,11 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
         }
         n += ncols[k];
     }
-    matrix_create(&p->whole, s, ncols, col, v);
+    matrix_create(&p->whole, s->comm, p->first, p->n, ncols, col, v);
     for (int q = 0; pinned_at >= 0 && q < ncols[pinned]; q++)
         v[pinned_at + q] = col[pinned_at + q] == p->pinned ? v[pinned_at + q] : 0.0;
     if (p->singular)
-        matrix_create(&p->solved, s, ncols, col, v);
+        matrix_create(&p->solved, s->comm, p->first, p->n, ncols, col, v);
     FREE(col, v, ncols, fringe);
     if (!m->moves)
         DROP(p->row_first);
@@ -368,9 +368,9 @@ static void close_hypre(void *of)
     free_safe(p);
     matrix_free(&p->whole);
     matrix_free(&p->solved);
-    HYPRE_IJVectorDestroy(p->b.ij);
-    HYPRE_IJVectorDestroy(p->x.ij);
-    HYPRE_IJVectorDestroy(p->r.ij);
+    vector_free(&p->b);
+    vector_free(&p->x);
+    vector_free(&p->r);
 }
 
 static void *create(struct fv *s)
@@ -384,9 +384,9 @@ static void *create(struct fv *s)
     p->singular = !mesh_bc_pressure_given(s);
     p->zw = NEW_IN(p, double, p->n);
     fill_matrices(s, p);
-    vector_create(&p->b, s);
-    vector_create(&p->x, s);
-    vector_create(&p->r, s);
+    vector_create(&p->b, s->comm, p->first, p->n);
+    vector_create(&p->x, s->comm, p->first, p->n);
+    vector_create(&p->r, s->comm, p->first, p->n);
     make_solver(p);
     mem_at_free(p, close_hypre);
     gcr_create(p, &p->gcr, m->comm, p->n, p, apply_rows, cycle_rows);

@@ -1,13 +1,13 @@
 /* wet_pressure.c - the pressure of blocks under a free surface; a matrix for each place of it. Rows
  * of wet computed cells: minus the sums of the fluxes of psi (surface_faces.c beside the surface);
- * of dry cells and holes: psi = 0. Wet cells that other blocks interpolate: psi less its linear
- * interpolation; beside the surface, where donors are dry, what psi has beyond the surface's
- * pressure P grows with the distance, psi = P + phi <(psi_k - P_k)/phi_k>, the mean over the wet
- * donors k, phi less what the surface rises within an implicit step (surface_pressure.c). Where all
- * donors are wet, what cubics of the start value have beyond the linear rows stands on the right:
- * psi is the whole pressure here, and linear donors half a cell off take (k h)^2/8 of a wave's,
- * which damps it. GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix regular.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * dry cells and holes, where psi = 0, have none. Wet cells that other blocks interpolate: psi less
+ * its linear interpolation; beside the surface, where donors are dry, what psi has beyond the
+ * surface's pressure P grows with the distance, psi = P + phi <(psi_k - P_k)/phi_k>, the mean over
+ * the wet donors k, phi less what the surface rises within an implicit step (surface_pressure.c).
+ * Where all donors are wet, what cubics of the start value have beyond the linear rows stands on
+ * the right: psi is the whole pressure here, and linear donors half a cell off take (k h)^2/8 of a
+ * wave's, which damps it. GMRES with a cycle of BoomerAMG; the surface's pressure makes the matrix
+ * regular. SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
 #include <HYPRE.h>
@@ -22,12 +22,14 @@
 #include "ij_rows.h"
 
 struct wet_pressure {
-    const struct poisson *rows; /* borrowed */
-    int n;                      /* of them */
+    int n; /* rows of this rank */
     HYPRE_BigInt first, pinned;
-    HYPRE_BigInt *row_of;     /* of each place, behind walls of the mirrored cell; -1: none */
-    double *value, *residual; /* of each row; borrowed */
-    unsigned char *whole;     /* of each place: interpolated from wet donors alone */
+    int64_t total;  /* rows of all ranks; 0: there is no matrix */
+    int64_t *place; /* [n] index of the row's cell in a field */
+    double *number; /* row of each place, behind walls of the mirrored cell; -1: psi is 0 there */
+    struct mesh_exchange ghosts; /* of the numbers */
+    double *value, *residual;    /* of each row; borrowed */
+    unsigned char *whole;        /* of each place: interpolated from wet donors alone */
     double *dry; /* right side of interpolated cells: what they have of the surface's pressure */
     double scale;
     struct matrix A;
@@ -39,41 +41,57 @@ struct wet_pressure {
     HYPRE_BigInt *col;
     double *entry;
     int64_t nentry, room;
-    /* donors of interpolated cells: phi and P of theirs stand behind the fields' own places */
+    /* donors of interpolated cells: phi, P and row of theirs stand behind the fields' own places */
     struct mesh_exchange donors;
-    double *beyond[2];
+    double *beyond[3];
 };
 
 static struct wet_pressure *own(const struct fv *s) { return s->poisson->of; }
 
 /* --- what stays --- */
 
-/* The row of a cell that may lie behind sides: behind walls that of its mirror image. */
-static HYPRE_BigInt row_of(const struct mesh *m, int block, const int *cell)
+/* The real cell of one that may lie behind sides: behind walls its mirror image; false: none. */
+static bool find_cell(const struct mesh *m, int *block, int *at)
 {
-    int at[3] = {cell[0], cell[1], cell[2]};
     double move[3] = {0.0, 0.0, 0.0};
-    if (!mesh_resolve(m, &block, at, move)) {
-        const int *n = m->block[block].n;
-        for (int a = 0; a < m->dim; a++)
-            at[a] = at[a] < 0 ? -1 - at[a] : at[a] >= n[a] ? 2 * n[a] - 1 - at[a] : at[a];
-        if (!mesh_resolve(m, &block, at, move))
-            return -1;
-    }
-    return (HYPRE_BigInt)mesh_row(m, block, at);
+    if (mesh_resolve(m, block, at, move))
+        return true;
+    const int *n = m->block[*block].n;
+    for (int a = 0; a < m->dim; a++)
+        at[a] = at[a] < 0 ? -1 - at[a] : at[a] >= n[a] ? 2 * n[a] - 1 - at[a] : at[a];
+    return mesh_resolve(m, block, at, move);
 }
 
-static void set_rows(const struct fv *s, struct wet_pressure *p)
+static bool is_ghost(const struct part *p, const int *i)
 {
-    const struct mesh *m = s->m;
+    bool ghost = false;
+    for (int a = 0; a < 3; a++)
+        ghost = ghost || i[a] < 0 || i[a] >= p->n[a];
+    return ghost;
+}
+
+/* Where ghosts have their row from. */
+static void make_ghosts(struct fv *s, struct wet_pressure *p)
+{
+    struct mesh *m = s->m;
+    struct mesh_request *request = NEW(struct mesh_request, s->size);
+    int64_t n = 0;
     for (int q = 0; q < m->nparts; q++) {
         const struct part *part = m->part + q;
         int i[3];
         PART_ALL (part, i, c) {
-            const int at[3] = {part->lo[0] + i[0], part->lo[1] + i[1], part->lo[2] + i[2]};
-            p->row_of[c] = row_of(m, part->block, at);
+            int block = part->block, at[3];
+            for (int a = 0; a < 3; a++)
+                at[a] = part->lo[a] + i[a];
+            if (!is_ghost(part, i) || !find_cell(m, &block, at))
+                continue;
+            request[n] = (struct mesh_request){.in = c};
+            mesh_owner(m, block, at, &request[n].rank, &request[n].out);
+            n++;
         }
     }
+    mesh_exchange_create(p, m, &p->ghosts, 1, n, request);
+    mem_free(request);
 }
 
 /* Where the donors of the fringe give their phi and P to. */
@@ -96,7 +114,7 @@ static void make_donors(struct fv *s, struct wet_pressure *p)
             mesh_owner(m, block, at, &q->rank, &q->out);
         }
     mesh_exchange_create(p, m, &p->donors, 1, each * m->nfringe, request);
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
         mem_free(p->beyond[k]);
         p->beyond[k] = NEW_IN(p, double, s->size + each * m->nfringe);
     }
@@ -119,16 +137,12 @@ static void free_solver(struct wet_pressure *p)
     HYPRE_ParCSRGMRESDestroy(p->gmres);
     HYPRE_BoomerAMGDestroy(p->amg);
     matrix_free(&p->A);
+    vector_free(&p->b);
+    vector_free(&p->x);
+    vector_free(&p->r);
 }
 
-static void close_hypre(void *of)
-{
-    struct wet_pressure *p = of;
-    free_solver(p);
-    HYPRE_IJVectorDestroy(p->b.ij);
-    HYPRE_IJVectorDestroy(p->x.ij);
-    HYPRE_IJVectorDestroy(p->r.ij);
-}
+static void close_hypre(void *of) { free_solver(of); }
 
 static void *create(struct fv *s)
 {
@@ -137,40 +151,69 @@ static void *create(struct fv *s)
         return NULL;
     struct wet_pressure *p = NEW(struct wet_pressure, 1);
     double sum[2] = {0.0, 0.0};
-    p->rows = s->poisson;
-    p->n = p->rows->n;
-    p->first = p->rows->first;
-    p->row_of = NEW_IN(p, HYPRE_BigInt, s->size);
-    p->value = p->rows->b;
-    p->residual = p->rows->x;
+    p->place = NEW_IN(p, int64_t, s->poisson->n);
+    p->number = NEW_IN(p, double, s->size);
+    p->value = s->poisson->b;
+    p->residual = s->poisson->x;
     p->dry = NEW_IN(p, double, s->size);
     p->whole = NEW_IN(p, unsigned char, s->size);
-    p->count = NEW_IN(p, HYPRE_Int, p->n);
+    p->count = NEW_IN(p, HYPRE_Int, s->poisson->n);
     for (int a = 0; a < m->dim; a++)
         p->special[a] = NEW_IN(p, int, s->size);
-    set_rows(s, p);
+    make_ghosts(s, p);
     if (m->has_fringe)
         make_donors(s, p);
-    for (int k = 0; k < p->n; k++)
-        if (m->status[p->rows->place[k]] == CELL_COMPUTED) {
-            sum[0] += 2.0 * m->dim * m->G[0][0][p->rows->place[k]];
-            sum[1] += 1.0;
-        }
+    FLOW_ROWS (s, c, n)
+        for (int64_t i = c; i < c + n; i++)
+            if (m->status[i] == CELL_COMPUTED) {
+                sum[0] += 2.0 * m->dim * m->G[0][0][i];
+                sum[1] += 1.0;
+            }
     MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, m->comm);
     p->scale = sum[0] / fmax(sum[1], 1.0);
-    vector_create(&p->b, s);
-    vector_create(&p->x, s);
-    vector_create(&p->r, s);
     mem_at_free(p, close_hypre);
     return p;
 }
 
 /* --- rows --- */
 
+/* Water: what is computed, and what other blocks interpolate. */
+static bool has_row(const struct fv *s, int64_t c)
+{
+    return s->free[c] > 0.0 || (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0);
+}
+
+/* Numbers of the rows, in the order of ranks. */
+static void number_rows(struct fv *s, struct wet_pressure *p)
+{
+    long long n = 0, before = 0;
+    for (int64_t c = 0; c < s->size; c++)
+        p->number[c] = -1.0;
+    p->n = 0;
+    FLOW_ROWS (s, c, len)
+        for (int64_t i = c; i < c + len; i++)
+            if (has_row(s, i))
+                p->place[p->n++] = i;
+    n = p->n;
+    MPI_Scan(&n, &before, 1, MPI_LONG_LONG, MPI_SUM, s->comm);
+    p->first = (HYPRE_BigInt)(before - n);
+    p->total = ranks_count(s->comm, n);
+    for (int k = 0; k < p->n; k++)
+        p->number[p->place[k]] = (double)(p->first + k);
+    mesh_exchange(s->m, &p->ghosts, 1, &p->number);
+}
+
+/* v times psi of a row; < 0: it is 0. */
+static void add_number(struct row *r, double number, double v)
+{
+    if (number >= 0.0)
+        row_add(r, (HYPRE_BigInt)number, v);
+}
+
 /* v times psi at a place with ghosts. */
 static void add_at(const struct fv *s, int64_t at, double v, struct row *r)
 {
-    row_add(r, own(s)->row_of[at], s->surface->mesh->out[at] == BEHIND_ODD ? -v : v);
+    add_number(r, own(s)->number[at], s->surface->mesh->out[at] == BEHIND_ODD ? -v : v);
 }
 
 /* weight times the flux of psi through the lower face along a of cell c. */
@@ -185,7 +228,7 @@ static void add_face(const struct fv *s, const struct part *part, int a, int64_t
     if (p->special[a][c]) {
         const struct wet_face *x = w->face[a] + p->special[a][c] - 1;
         for (int k = x->first; k < x->first + x->n; k++)
-            row_add(r, p->row_of[w->at[k]], weight * w->weight[k]);
+            add_number(r, p->number[w->at[k]], weight * w->weight[k]);
         return;
     }
     if (open == 0.0)
@@ -221,7 +264,7 @@ static double surface_pressure_near(const struct fv *s, const struct part *part,
     return -fv_still_pressure(s, foot) / s->run->scene.fluid.rho;
 }
 
-/* phi and the surface's pressure at the donors of the fringe. */
+/* phi, the surface's pressure and rows at the donors of the fringe. */
 static void ask_donors(struct fv *s, struct wet_pressure *p)
 {
     memset(p->beyond[1], 0, (size_t)s->size * sizeof(double));
@@ -230,7 +273,8 @@ static void ask_donors(struct fv *s, struct wet_pressure *p)
         for (int64_t i = c; i < c + n; i++)
             if (s->m->status[i] != CELL_HOLE && s->surface->layer[i] == 0)
                 p->beyond[1][i] = surface_pressure_near(s, part, i);
-    mesh_exchange(s->m, &p->donors, 2, p->beyond);
+    memcpy(p->beyond[2], p->number, (size_t)s->size * sizeof(double));
+    mesh_exchange(s->m, &p->donors, 3, p->beyond);
 }
 
 /* A wet cell of the fringe. */
@@ -238,7 +282,8 @@ static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, st
 {
     const struct mesh_fringe *f = s->m->fringes + k;
     const int each = 1 << s->m->dim;
-    const double *phi = p->beyond[0] + s->size + each * k, *P = p->beyond[1] + s->size + each * k;
+    const double *phi = p->beyond[0] + s->size + each * k, *P = p->beyond[1] + s->size + each * k,
+                 *number = p->beyond[2] + s->size + each * k;
     const double near = -0.2 * s->surface->least, rise = s->surface->rise * s->surface->g,
                  own = fmin(s->surface->phi[f->place], 0.0) - rise;
     double weights = 0.0, scale;
@@ -250,13 +295,11 @@ static void fringe_row(const struct fv *s, struct wet_pressure *p, int64_t k, st
     p->whole[f->place] = all;
     p->dry[f->place] = all ? 0.0 : p->scale * p->beyond[1][f->place];
     for (int d = 0; d < each; d++) {
-        const int at[3] = {f->from[0] + (d & 1), f->from[1] + (d >> 1 & 1),
-                           f->from[2] + (d >> 2 & 1)};
         if (f->weight[d] == 0.0 || (!all && (!(phi[d] < near) || !(weights > 0.2))))
             continue;
         scale = all ? 1.0 : own / ((phi[d] - rise) * weights);
         scale *= p->scale * f->weight[d];
-        row_add(r, row_of(s->m, f->donor, at), -scale);
+        add_number(r, number[d], -scale);
         p->dry[f->place] -= all ? 0.0 : scale * P[d];
     }
 }
@@ -274,7 +317,7 @@ static void make_row(const struct fv *s, struct wet_pressure *p, const struct pa
             return;
     }
     row_add(r, own, p->scale);
-    if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0)
+    if (s->m->status[c] == CELL_FRINGE)
         fringe_row(s, p, fringe[c], r);
 }
 
@@ -297,7 +340,6 @@ static void make_rows(struct fv *s, struct wet_pressure *p)
     const struct surface_mesh *w = s->surface->mesh;
     int64_t *fringe = NEW(int64_t, s->m->has_fringe ? s->size : 1);
     struct row r;
-    int k = 0;
     for (int64_t q = 0; q < s->m->nfringe; q++)
         fringe[s->m->fringes[q].place] = q;
     for (int a = 0; a < s->dim; a++) {
@@ -306,11 +348,13 @@ static void make_rows(struct fv *s, struct wet_pressure *p)
             p->special[a][w->face[a][q].face] = (int)q + 1;
     }
     p->nentry = 0;
-    FLOW_ROWS_AT (s, part, j, c, n)
-        for (int64_t i = c; i < c + n; i++, k++) {
-            make_row(s, p, part, i, p->first + k, fringe, &r);
-            keep_row(p, k, &r);
-        }
+    const struct part *part = s->grid.part;
+    for (int k = 0; k < p->n; k++) {
+        while (p->place[k] >= part->base + part->size)
+            part++;
+        make_row(s, p, part, p->place[k], p->first + k, fringe, &r);
+        keep_row(p, k, &r);
+    }
     mem_free(fringe);
 }
 
@@ -322,7 +366,7 @@ static void find_pinned(const struct fv *s, struct wet_pressure *p)
     if (s->surface->cuts > 0 || mesh_bc_pressure_given(s))
         return;
     for (int k = p->n - 1; k >= 0; k--)
-        mine = s->free[p->rows->place[k]] > 0.0 ? p->first + k : mine;
+        mine = s->free[p->place[k]] > 0.0 ? p->first + k : mine;
     MPI_Allreduce(&mine, &p->pinned, 1, HYPRE_MPI_BIG_INT, MPI_MIN, s->comm);
 }
 
@@ -350,11 +394,17 @@ static void rebuild(struct fv *s, void *of)
 {
     struct wet_pressure *p = of;
     free_solver(p);
+    number_rows(s, p);
     find_pinned(s, p);
     if (s->m->has_fringe)
         ask_donors(s, p);
     make_rows(s, p);
-    matrix_create(&p->A, s, p->count, p->col, p->entry);
+    if (p->total == 0)
+        return;
+    vector_create(&p->b, s->comm, p->first, p->n);
+    vector_create(&p->x, s->comm, p->first, p->n);
+    vector_create(&p->r, s->comm, p->first, p->n);
+    matrix_create(&p->A, s->comm, p->first, p->n, p->count, p->col, p->entry);
     make_solver(s->m, p);
 }
 
@@ -392,7 +442,7 @@ static void put_rows(const struct fv *s, struct wet_pressure *p, double *psi)
 {
     memset(psi, 0, (size_t)s->size * sizeof(double));
     for (int k = 0; k < p->n; k++)
-        psi[p->rows->place[k]] = p->residual[k];
+        psi[p->place[k]] = p->residual[k];
 }
 
 /* In rows with wet donors: what the start value, in x and of cubics there, has beyond linear. */
@@ -401,8 +451,8 @@ static void add_cubics(const struct fv *s, struct wet_pressure *p, double *b)
     HYPRE(HYPRE_ParCSRMatrixMatvec(1.0, p->A.A, p->x.v, 0.0, p->r.v));
     vector_get(&p->r, p->residual);
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->rows->place[k];
-        if (s->m->status[c] == CELL_FRINGE && s->surface->layer[c] == 0 && p->whole[c])
+        const int64_t c = p->place[k];
+        if (s->m->status[c] == CELL_FRINGE && p->whole[c])
             b[k] = p->residual[k];
     }
 }
@@ -414,15 +464,16 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
     double *b = p->value;
     HYPRE_Int its = 0;
     surface_mesh_add_pressure(s, tau, div);
+    if (p->total == 0) {
+        memset(psi, 0, (size_t)s->size * sizeof(double));
+        return true;
+    }
     if (s->m->has_fringe)
         mesh_fill(s->m, 1, &psi);
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->rows->place[k];
-        const bool wet = s->surface->layer[c] == 0;
-        b[k] = !wet || p->first + k == p->pinned ? 0.0
-               : s->free[c] > 0.0                ? -div[c] / tau
-                                                 : p->dry[c];
-        p->residual[k] = wet && s->m->status[c] != CELL_HOLE ? psi[c] : 0.0;
+        const int64_t c = p->place[k];
+        b[k] = p->first + k == p->pinned ? 0.0 : s->free[c] > 0.0 ? -div[c] / tau : p->dry[c];
+        p->residual[k] = psi[c];
     }
     vector_set(&p->x, p->residual);
     if (s->m->has_fringe)
@@ -446,8 +497,12 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
 static void cycle(struct fv *s, double *div, double *psi)
 {
     struct wet_pressure *p = own(s);
+    if (p->total == 0) {
+        memset(psi, 0, (size_t)s->size * sizeof(double));
+        return;
+    }
     for (int k = 0; k < p->n; k++) {
-        const int64_t c = p->rows->place[k];
+        const int64_t c = p->place[k];
         p->value[k] = s->free[c] > 0.0 && p->first + k != p->pinned ? div[c] : 0.0;
         p->residual[k] = 0.0;
     }
