@@ -99,26 +99,40 @@ static bool has_patterns(const struct fv *s)
     return !s->b.rows && !s->blocked && s->prm.integrator == INTEGRATOR_RK3;
 }
 
+/* Five bytes of a line of cells and three more, side by side. */
+static uint64_t bytes_at(const void *p)
+{
+    uint64_t x;
+    memcpy(&x, p, sizeof x);
+    return x;
+}
+
+/* A bit for each byte that is 1, in some order. */
+static uint64_t bits_of(uint64_t ones) { return ones * UINT64_C(0x0102040810204080) >> 56; }
+
+/* Cells of a line at once: layers are less than 128, and cells that hold nothing are DEEP. */
 static struct pattern_key pattern(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct block *b = &s->b;
     const unsigned char *known = s->surface->layer + c;
     const bool *out = s->surface->closed + c;
     const int reach = window_reach(s, layer), deep = b->dim == 3 ? reach : 0;
+    static const unsigned char wide[8] = {1, 1, 1, 1, 1}, narrow[8] = {0, 1, 1, 1};
+    const uint64_t ones = UINT64_C(0x0101010101010101), all = bytes_at(reach == 2 ? wide : narrow),
+                   less = ones * (unsigned)(127 + layer);
     struct pattern_key key = {.layer = (signed char)lesser(layer, 3)};
-    int shift[3], at = 0;
+    int shift[3], lines = 0;
     find_shift(s, p, shift);
     p->room = p->known = 0;
     for (int k = -deep; k <= deep; k++)
         for (int j = -reach; j <= reach; j++) {
             const int64_t row =
-                shift[0] + (j + shift[1]) * b->stride[1] + (k + shift[2]) * b->stride[2];
-            for (int i = -reach; i <= reach; i++, at++) {
-                const bool there = !out[row + i], is = there && known[row + i] < layer;
-                p->room += there;
-                p->known += is;
-                key.known[at / 64] |= (uint64_t)is << at % 64;
-            }
+                shift[0] - 2 + (j + shift[1]) * b->stride[1] + (k + shift[2]) * b->stride[2];
+            const uint64_t is = (less - bytes_at(known + row)) >> 7 & all;
+            p->room += __builtin_popcountll(all & ~bytes_at(out + row));
+            p->known += __builtin_popcountll(is);
+            key.known[lines / 8] |= bits_of(is) << lines % 8 * 8;
+            lines++;
         }
     for (int a = 0; a < 3; a++)
         key.shift[a] = (signed char)shift[a];

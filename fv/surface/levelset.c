@@ -234,11 +234,11 @@ struct surface *levelset_create(const struct fv *s)
         *fields[k] = NEW_IN(f, double, s->size);
     for (int a = 0; a < s->dim; a++)
         f->open[a] = NEW_IN(f, double, s->size);
-    f->layer = NEW_IN(f, unsigned char, s->size);
+    f->layer = NEW_IN(f, unsigned char, s->size + 8); /* read by eight (extension_even.c) */
     if (!s->m && !s->b.rows)
         f->bent = NEW_IN(f, unsigned char, s->size);
     f->deep = NEW_IN(f, int64_t, s->size);
-    f->closed = NEW_IN(f, bool, s->size);
+    f->closed = NEW_IN(f, bool, s->size + 8);
     f->none = (const unsigned char *)f->closed;
     if (s->prm.integrator != INTEGRATOR_RK3)
         f->half = NEW_IN(f, double, s->size);

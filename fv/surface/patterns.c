@@ -13,8 +13,8 @@ static uint64_t mixed(const struct pattern_key *key)
 {
     uint64_t rest, sum = 0;
     memcpy(&rest, key->shift, sizeof rest);
-    const uint64_t words[3] = {key->known[0], key->known[1], rest};
-    for (int k = 0; k < 3; k++) {
+    const uint64_t words[5] = {key->known[0], key->known[1], key->known[2], key->known[3], rest};
+    for (int k = 0; k < 5; k++) {
         sum = (sum ^ words[k]) * UINT64_C(0x9E3779B97F4A7C15);
         sum ^= sum >> 29;
     }

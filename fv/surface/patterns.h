@@ -9,7 +9,7 @@
 
 /* What decides the weights. */
 struct pattern_key {
-    uint64_t known[2];      /* a bit for each cell of the window, 5^dim at most */
+    uint64_t known[4];      /* a byte for each line of the window, a bit for each known cell */
     signed char shift[3];   /* of the window's middle from the cell */
     signed char layer;      /* the second, or one further out: 3 */
     signed char order;      /* of the polynomial */

@@ -169,23 +169,31 @@ static void list_band(struct fv *s, int width, struct band *w)
     w->nstrips = w->nspots = 0;
     surface_ghosts(s, phi);
     surface_note_bends(s, phi);
-    FLOW_NEAR_AT (s, part, j, c, len)
+    FLOW_NEAR_AT (s, part, j, c, len) {
+        struct strip *strip = NULL;
         for (int64_t i = c; i < c + len; i++) {
-            if (!(mark[i] > 0.0) || is_left_out(s, i))
+            if (!(mark[i] > 0.0) || is_left_out(s, i)) {
+                strip = NULL;
                 continue;
-            if (i == c || !(mark[i - 1] > 0.0) || is_left_out(s, i - 1))
-                w->strips[w->nstrips++] =
-                    (struct strip){.part = part,
-                                   .cell = i,
-                                   .row = j,
-                                   .dtau = s->surface->reinit->strip_step(s, j)};
-            w->strips[w->nstrips - 1].n++;
+            }
             exact[i] = phi[i];
-            if (is_known && is_known(s, part, phi, i, width == NARROW, exact + i))
+            if (is_known && is_known(s, part, phi, i, width == NARROW, exact + i)) {
                 w->spots[w->nspots++] = (struct spot){.part = part, .cell = i};
-            else if (beside_surface(s, part, phi, i))
+                strip = NULL;
+                continue;
+            }
+            if (!strip) {
+                strip = w->strips + w->nstrips++;
+                *strip = (struct strip){.part = part,
+                                        .cell = i,
+                                        .row = j,
+                                        .dtau = s->surface->reinit->strip_step(s, j)};
+            }
+            strip->n++;
+            if (beside_surface(s, part, phi, i))
                 w->spots[w->nspots++] = look(s, part, phi, i, j);
         }
+    }
 }
 
 /* Distances that are known take their places. */

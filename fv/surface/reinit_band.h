@@ -23,7 +23,8 @@ struct spot {
                            none */
 };
 
-/* The band on this rank: strips cover all of it, spots are the cells of it at the surface. */
+/* The band on this rank: strips cover what changes of it, spots are the cells of it at the surface.
+ */
 struct band {
     int64_t nstrips, nspots;
     struct strip *strips;
