@@ -5,6 +5,8 @@
  * (mesh_map_point), fourth order. Of blocks that move they are made where the case puts the block,
  * and turned afterwards (mesh_motion.c).
  * SPDX-License-Identifier: BSD-3-Clause */
+#include <float.h>
+
 #include "mesh.h"
 
 static const double gauss2[2] = {0.2113248654051871, 0.7886751345948129};
@@ -180,34 +182,114 @@ static double volume(const struct mesh_block *b, int dim, const int *i)
     return v;
 }
 
-/* S for all ghosts; G and V for all but the outermost layer at the low end, which has G = 0 and V =
- * 1. */
+/* --- cells of a line that are alike --- */
+
+enum { BELOW = 2 }; /* vertices that V and G of a cell take below its own, and above */
+
+/* Whether all edges from vertex m to the next along the first index that cells (., j, k) take are
+ * e. */
+static bool edges_are(const struct mesh_block *b, int dim, int m, int j, int k, const double *e,
+                      double rounding)
+{
+    const int deep = dim == 3 ? BELOW : 0;
+    double off = 0.0;
+    for (int q = k - deep; q <= k + deep; q++)
+        for (int r = j - BELOW; r <= j + BELOW; r++) {
+            const double *x = b->x[mesh_vertex(b, m, r, q)], *y = b->x[mesh_vertex(b, m + 1, r, q)];
+            for (int c = 0; c < dim; c++)
+                off = fmax(off, fabs(y[c] - x[c] - e[c]));
+        }
+    return off <= rounding;
+}
+
+/* Of cells least to most of the line (., j, k) of a block the first of those in a row whose V and G
+ * are the same: all edges along the line that they take are equal. On any number of ranks. */
+static void find_alike(const struct mesh_block *b, int dim, int j, int k, double rounding,
+                       int least, int most, int *first)
+{
+    int from = most + BELOW; /* edge from which on all are e */
+    double e[3];
+    for (int m = least - BELOW; m < most + BELOW; m++) {
+        if (from > m || !edges_are(b, dim, m, j, k, e, rounding)) {
+            const double *x = b->x[mesh_vertex(b, m, j, k)], *y = b->x[mesh_vertex(b, m + 1, j, k)];
+            for (int c = 0; c < dim; c++)
+                e[c] = y[c] - x[c];
+            from = edges_are(b, dim, m, j, k, e, rounding) ? m : most + BELOW;
+        }
+        const int i = m + 1 - BELOW; /* the cell whose last edge this is */
+        if (i >= least)
+            first[i - least] = from + BELOW <= i ? from + BELOW : i;
+    }
+}
+
+/* m: what rounding makes of a difference of vertices. */
+static double rounding_of(const struct mesh_block *b)
+{
+    const int64_t n = (int64_t)b->nv[0] * b->nv[1] * b->nv[2];
+    double most = 0.0;
+    for (int64_t v = 0; v < n; v++)
+        for (int c = 0; c < 3; c++)
+            most = fmax(most, fabs(b->x[v][c]));
+    return 8.0 * DBL_EPSILON * most;
+}
+
+/* V and G of a cell. */
+struct cell_metrics {
+    double V, G[3][3];
+};
+
+static struct cell_metrics metrics_of(const struct mesh_block *b, int dim, const int *at)
+{
+    struct cell_metrics x = {.V = volume(b, dim, at)};
+    for (int a = 0; a < dim; a++)
+        face_tensor(b, dim, at, a, x.G[a]);
+    return x;
+}
+
+/* Those of a line of a part: S for all ghosts; G and V for all but the outermost layer at the low
+ * end, which has G = 0 and V = 1. */
+static void line_metrics(struct mesh *m, const struct part *p, int j, int k, double rounding,
+                         int *first)
+{
+    const struct mesh_block *b = m->block[p->block].made;
+    const int G = MESH_GHOSTS, least = 1 - G, most = b->n[0] + G - 1;
+    int at[3] = {0, p->lo[1] + j, p->lo[2] + k}, made = most + 1;
+    struct cell_metrics x = {.V = 1.0};
+    bool near = true;
+    for (int a = 1; a < m->dim; a++)
+        near = near && at[a] >= 1 - G && at[a] <= b->n[a] + G - 1;
+    if (near)
+        find_alike(b, m->dim, at[1], at[2], rounding, least, most, first);
+    for (int i = -p->g[0]; i < p->n[0] + p->g[0]; i++) {
+        const int64_t c = part_at(p, i, j, k);
+        at[0] = p->lo[0] + i;
+        const int like = near && at[0] >= least && at[0] <= most ? first[at[0] - least] : most + 1;
+        if (like > most)
+            x = (struct cell_metrics){.V = 1.0};
+        else if (like != made)
+            x = metrics_of(b, m->dim, (const int[]){like, at[1], at[2]});
+        made = like;
+        m->V[c] = x.V;
+        for (int a = 0; a < m->dim; a++) {
+            double S[3];
+            face_vector(b, m->dim, at, a, S);
+            for (int q = 0; q < m->dim; q++) {
+                m->S[a][q][c] = S[q];
+                m->G[a][q][c] = x.G[a][q];
+            }
+        }
+    }
+}
+
 static void part_metrics(struct mesh *m, const struct part *p)
 {
     const struct mesh_block *b = m->block[p->block].made;
-    const int G = MESH_GHOSTS;
-    const int down[3] = {p->g[0], p->g[1], p->g[2]};
-    int i[3];
-    for (i[2] = -down[2]; i[2] < p->n[2] + down[2]; i[2]++)
-        for (i[1] = -down[1]; i[1] < p->n[1] + down[1]; i[1]++)
-            for (i[0] = -down[0]; i[0] < p->n[0] + down[0]; i[0]++) {
-                const int64_t c = part_at(p, i[0], i[1], i[2]);
-                const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-                bool near = true;
-                for (int a = 0; a < m->dim; a++)
-                    near = near && at[a] >= -G + 1 && at[a] <= b->n[a] + G - 1;
-                m->V[c] = near ? volume(b, m->dim, at) : 1.0;
-                for (int a = 0; a < m->dim; a++) {
-                    double S[3], g[3] = {0.0, 0.0, 0.0};
-                    face_vector(b, m->dim, at, a, S);
-                    if (near)
-                        face_tensor(b, m->dim, at, a, g);
-                    for (int k = 0; k < m->dim; k++) {
-                        m->S[a][k][c] = S[k];
-                        m->G[a][k][c] = g[k];
-                    }
-                }
-            }
+    const double rounding = rounding_of(b);
+    int *first = NEW(int, b->n[0] + 2 * MESH_GHOSTS);
+    for (int k = -p->g[2]; k < p->n[2] + p->g[2]; k++)
+        for (int j = -p->g[1]; j < p->n[1] + p->g[1]; j++)
+            line_metrics(m, p, j, k, rounding, first);
+    mem_free(first);
 }
 
 /* 1 or 0 for each lower face; imposed cells close theirs afterwards (mesh_given_close). */
