@@ -218,25 +218,35 @@ void body_drive_motion(const struct body_drive *v, double t, struct body_motion 
 }
 
 /* At even times, and between the rows of files. */
-double body_drive_speed(const struct body_drive *v, double reach, double end)
+static void take_speed(const struct body_drive *v, double reach, double t, struct body_speeds *most)
+{
+    struct body_motion m;
+    body_drive_motion(v, t, &m);
+    most->any = fmax(most->any, vec3_length(m.u) + reach * vec3_length(m.omega));
+    for (int a = 0; a < 3; a++)
+        most->along[a] = fmax(most->along[a], fabs(m.u[a]));
+}
+
+struct body_speeds body_drive_speeds(const struct body_drive *v, double reach, double end)
 {
     enum { TIMES = 2000 };
-    double most = 0.0;
-    struct body_motion m;
-    for (int i = 0; i <= TIMES; i++) {
-        body_drive_motion(v, end * i / TIMES, &m);
-        most = fmax(most, vec3_length(m.u) + reach * vec3_length(m.omega));
-    }
+    struct body_speeds most = {0.0, {0.0}};
+    for (int i = 0; i <= TIMES; i++)
+        take_speed(v, reach, end * i / TIMES, &most);
     for (int k = 0; k < v->nterms; k++)
         for (int i = 1; i < v->term[k].n; i++) {
             const double *p = v->term[k].rows + (ptrdiff_t)v->columns * (i - 1);
             const double t = 0.5 * (p[0] + p[v->columns]);
             if (p[0] >= end)
                 break;
-            body_drive_motion(v, t < end ? t : end, &m);
-            most = fmax(most, vec3_length(m.u) + reach * vec3_length(m.omega));
+            take_speed(v, reach, fmin(t, end), &most);
         }
     return most;
+}
+
+double body_drive_speed(const struct body_drive *v, double reach, double end)
+{
+    return body_drive_speeds(v, reach, end).any;
 }
 
 /* A column of a file: half of its range, and how often a second it falls from the upper quarter of

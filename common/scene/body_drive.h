@@ -55,6 +55,12 @@ static inline void body_course_add(const struct body_course *c, int a, double t,
     *ddd += 2.0 * p[2] + later * 6.0 * p[3];
 }
 
+/* Largest speeds, m/s, of a prescribed motion: of a point of the body, and of its centre along each
+ * axis. */
+struct body_speeds {
+    double any, along[3];
+};
+
 /* All terms of a body. Plain data, nothing to free. */
 struct body_drive {
     int dim, nterms, columns; /* columns of files: 4 in 2D, 7 in 3D */
@@ -89,8 +95,10 @@ double body_drive_step(const struct body_drive *v, double t);
 /* The next time after t, s, at which a term starts, ends or reaches its full size; INFINITY:
  * none. */
 double body_drive_event(const struct body_drive *v, double t);
-/* Largest speed, m/s, until the time `end' of a point at the distance `reach', m, from the centre;
+/* Largest speeds until the time `end', s, of points at the distance `reach', m, from the centre;
  * found by sampling. */
+struct body_speeds body_drive_speeds(const struct body_drive *v, double reach, double end);
+/* The first of them. */
 double body_drive_speed(const struct body_drive *v, double reach, double end);
 /* Largest acceleration, m/s^2, of such a point by harmonic terms and files that oscillate. A jump
  * of the velocity, as polynomials and files may have, makes sound, rho c u, whatever c is. */

@@ -91,9 +91,54 @@ static struct forced forced_by(const struct scene *c, const struct body *b)
     return f;
 }
 
-static double speed_of(const struct scene *c, const struct body *b, const struct forced *f)
+/* Whether the water that gives way to a body stays between the sides across axis a: not where it
+ * may rise over the body. */
+static bool is_shut(const struct scene *c, int a)
 {
-    const double told = body_drive_speed(&b->drive, b->reach, c->time.end);
+    double still[3];
+    const bool free =
+        scene_has_surface(c) && (scene_still_gravity(c, still) == 0.0 || still[a] != 0.0);
+    return !free && (c->domain.periodic[a] || (scene_side_is_wall(c, SIDE_X_MIN + 2 * a) &&
+                                               scene_side_is_wall(c, SIDE_X_MAX + 2 * a)));
+}
+
+/* Speed, m/s, of the water that runs past a body told to move along axis a with u: through what the
+ * sides leave of the section, S - B, it is u B/(S - B). 0 where it is a piston, before which no gap
+ * of a spacing is open. */
+static double passing_speed(const struct scene *c, const struct scene_body *b, int axis, double u,
+                            double spacing)
+{
+    double lo[3], hi[3], section = 1.0, body = 1.0;
+    bool open = false;
+    scene_body_box(b, lo, hi);
+    for (int a = 0; a < c->domain.dim && u > 0.0; a++) {
+        const double L = c->domain.max[a] - c->domain.min[a];
+        const double width = fmin(hi[a], c->domain.max[a]) - fmax(lo[a], c->domain.min[a]);
+        if (a == axis)
+            continue;
+        if (!is_shut(c, a) || !(width > 0.0))
+            return 0.0;
+        open = open || L - width > 0.9 * spacing;
+        section *= L;
+        body *= width;
+    }
+    return open ? u * body / (section - body) : 0.0;
+}
+
+/* Of prescribed motion: of the body, or of the water that it drives past itself. */
+static double told_speed(const struct scene *c, const struct body *b, double spacing)
+{
+    const struct body_speeds told = body_drive_speeds(&b->drive, b->reach, c->time.end);
+    double most = told.any;
+    for (int a = 0; a < c->domain.dim && spacing > 0.0 && !b->is->tank; a++)
+        most = fmax(most, passing_speed(c, b->is, a, told.along[a], spacing));
+    return most;
+}
+
+static double speed_of(const struct scene *c, const struct body *b, const struct forced *f,
+                       double spacing)
+{
+    const double told = told_speed(c, b, spacing);
     const double start =
         b->free ? vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega) : 0.0;
     return hypot(fmax(told, start) + f->speed, fall_of(c, b));
@@ -102,10 +147,10 @@ static double speed_of(const struct scene *c, const struct body *b, const struct
 double body_speed_of(const struct scene *c, const struct body *b)
 {
     const struct forced f = forced_by(c, b);
-    return speed_of(c, b, &f);
+    return speed_of(c, b, &f, 0.0);
 }
 
-struct body_pace bodies_pace(const struct scene *c, struct motion_files *files)
+struct body_pace bodies_pace(const struct scene *c, struct motion_files *files, double spacing)
 {
     struct body_pace most = {0.0, 0.0, 0.0};
     for (int k = 0; k < c->nbodies; k++) {
@@ -115,7 +160,7 @@ struct body_pace bodies_pace(const struct scene *c, struct motion_files *files)
         body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
         const struct forced f = forced_by(c, &b);
         const double length = (b.is->tank ? 2.0 : 1.0) * b.reach;
-        most.speed = fmax(most.speed, speed_of(c, &b, &f));
+        most.speed = fmax(most.speed, speed_of(c, &b, &f, spacing));
         most.pressure = fmax(
             most.pressure, length * (f.acceleration + body_drive_acceleration(&b.drive, b.reach)));
         most.rate = fmax(most.rate, fmax(f.rate, body_drive_rate(&b.drive)));

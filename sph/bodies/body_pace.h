@@ -7,14 +7,17 @@
 
 /* The largest of all bodies. */
 struct body_pace {
-    double speed; /* m/s: of prescribed motion, fall, loads and springs */
+    /* m/s: of prescribed motion and of the water that it drives through gaps, fall, loads, springs
+     */
+    double speed;
     /* m^2/s^2: p/rho of the fluid that harmonic motion, loads and springs accelerate: that times
      * the length of a tank, or times half of the length of a body with fluid around. */
     double pressure;
     double rate; /* 1/s: of harmonic motion, and of springs that a body swings on */
 };
 
-struct body_pace bodies_pace(const struct scene *c, struct motion_files *files);
+/* spacing, m, of the particles, which narrower gaps do not let through. */
+struct body_pace bodies_pace(const struct scene *c, struct motion_files *files, double spacing);
 /* m/s: the largest speed of a point of one body. */
 double body_speed_of(const struct scene *c, const struct body *b);
 

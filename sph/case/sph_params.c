@@ -116,7 +116,7 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
 
 static struct scene_speed speed_of(const struct run *r)
 {
-    const struct body_pace pace = bodies_pace(&r->scene, r->motions);
+    const struct body_pace pace = bodies_pace(&r->scene, r->motions, given.dx);
     struct scene_speed v = scene_speed_of(&r->scene, pace.speed, given.dx);
     v.pushed = pace.pressure;
     v.rate = pace.rate;

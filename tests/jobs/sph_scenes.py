@@ -123,6 +123,16 @@ told('lid', lid, '^warning: sph.c0 = 10 m/s: friction alone .* raise it to 100 m
 told('lid', lid, '^warning: 2 particles between the walls along x', '-p', 'sph.dx=0.5')
 told('lid', lid, 'sph.dx: 1 m: one particle has no room between the walls along x', '-p', 'sph.dx=1', code=2)
 
+# what a body drives past itself sets c0: through a tenth of the section at nine times its speed, along the other axis of a
+# full room, and not where water may rise over it or no gap is open
+for axis, body, velocity, roof, words in (('y', '((0.05, 0.7), (0.95, 0.85))', '(0, -0.5)', '', '4.5 m/s: the moving bodies'),
+                                          ('x', '((0.4, 0.2), (0.6, 1))', '(0.5, 0)', ' y_max', '1 m/s: the moving bodies'),
+                                          ('x', '((0.4, 0.2), (0.6, 1))', '(0.5, 0)', '', '0.5 m/s: the moving bodies'),
+                                          ('y', '((0, 0.7), (1, 0.85))', '(0, 0.5)', '', '0.5 m/s: the moving bodies')):
+    water = '' if roof else box(0, 0, 1, 0.65)
+    told('slab', scene(0.1, 0.025, 'max = (1, 1.2);', DOWN, sides('x_min x_max y_min' + roof), water, bodies='{ box = %s; velocity = %s; }' % (body, velocity)),
+         'expected speed ' + words)
+
 # water that nothing catches is told before it falls, and not where it is caught: by a tank of lines, of which "below"
 # is meant to fill the inside alone, by a bowl under a drop, by a side that gravity at a slant leads to
 FALLS = '^warning: nothing catches .* % of the water'

@@ -87,7 +87,7 @@ static inline struct sph *sph_case_start(struct sph_case *c, struct h5 *f)
     memcpy(c->prm.box[0], c->run.scene.domain.min, sizeof c->prm.box[0]);
     memcpy(c->prm.box[1], c->run.scene.domain.max, sizeof c->prm.box[1]);
     c->run.motions = motion_files_create(c->run.case_dir);
-    const struct body_pace pace = bodies_pace(&c->run.scene, c->run.motions);
+    const struct body_pace pace = bodies_pace(&c->run.scene, c->run.motions, 0.0);
     c->prm.speed = scene_speed_of(&c->run.scene, pace.speed, 0.0);
     c->s = sph_create(&c->run, &c->prm, f);
     return c->s;
