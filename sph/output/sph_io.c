@@ -17,6 +17,7 @@
 #include "../surface/sph_surface.h"
 #include "../time/sph_time.h"
 #include "../walls/sph_walls.h"
+#include "restart_eos.h"
 #include "sph_output.h"
 #include "wall_files.h"
 
@@ -341,6 +342,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     for (int k = 0; k < NUMBERS; k++)
         (void)h5_keep(f, numbers[k].name, number(s, k));
     write_region(s, f);
+    restart_eos_save(s, f);
     wall_files_save(s, f);
     sph_watch_save(s, f);
     domain_save(s, f);
@@ -506,6 +508,8 @@ bool sph_restore(struct sph *s, struct h5 *f)
                 lacks);
     else if (lacks)
         log_say("the restart file has no %s that fit this case", lacks);
+    else
+        restart_eos_load(s, f);
     for (struct sph *q = s; q; q = q->finer) {
         if (q->surface)
             read_surface(q, f);

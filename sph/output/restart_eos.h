@@ -1,0 +1,19 @@
+/* restart_eos.h - a run that goes on with another equation of state keeps its pressures.
+ * SPDX-License-Identifier: BSD-3-Clause */
+#ifndef SPH_RESTART_EOS_H
+#define SPH_RESTART_EOS_H
+
+#include "../sph.h"
+
+struct h5;
+
+/* Writes density, speed of sound and gamma. */
+void restart_eos_save(const struct sph *s, struct h5 *f);
+/* Where these differ from the file's, as the default speed of sound does in a longer run whose flow
+ * grows, all particles of all levels get the masses that give them the file's pressures in their
+ * volumes, as if they had started with what holds now; their velocities stay. What is compared with
+ * the start is scaled by the whole mass. Without it all pressures would change with c0^2 at once.
+ * After all else has been read. Collective. */
+void restart_eos_load(struct sph *s, struct h5 *f);
+
+#endif
