@@ -14,6 +14,7 @@
 #include "scene_facts.h"
 #include "scene_files.h"
 #include "scene_fluid.h"
+#include "scene_forms.h"
 #include "scene_geometry.h"
 #include "scene_groups.h"
 #include "scene_lines.h"

@@ -7,7 +7,14 @@
 
 /* Corners of a disc in the plane, most of a cylinder; levels of a sphere, 20 times 4^level facets.
  */
-enum { CORNERS = 96, SIDES_LEAST = 16, LEVEL_LEAST = 1, LEVEL = 3, LEVEL_MOST = 5 };
+enum {
+    CORNERS = 96,
+    CORNERS_LEAST = 32,
+    SIDES_LEAST = 16,
+    LEVEL_LEAST = 1,
+    LEVEL = 3,
+    LEVEL_MOST = 5
+};
 static const double edge_of_level = 1.15; /* of a sphere of radius 1 and level 0, a mean */
 
 static bool has_box(const struct scene_body *b)
@@ -105,10 +112,18 @@ static void circle(double radius, int n, double (*x)[2])
     }
 }
 
-static void make_points(struct scene_body *b, enum body_form form)
+/* Corners of a circle with edges of that length, m, 0: the most; a multiple of four, so that some
+ * lie on the axes. With fewer than 32 the area is more than 1e-3 too small. */
+static int sides_of(double radius, double edge, int least)
+{
+    const double wanted = edge > 0.0 ? 2.0 * M_PI * radius / edge : CORNERS;
+    return 4 * (int)ceil(0.25 * fmin(fmax(wanted, least), CORNERS));
+}
+
+static void make_points(struct scene_body *b, enum body_form form, double edge)
 {
     double x[CORNERS][2];
-    const int n = form == FORM_BOX ? 4 : CORNERS;
+    const int n = form == FORM_BOX ? 4 : sides_of(b->radius, edge, CORNERS_LEAST);
     if (form == FORM_BOX)
         rectangle(b, x);
     else
@@ -150,7 +165,7 @@ void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
         if (b->radius > 0.0)
             centre_on(b, k, p);
         if (s->domain.dim == 2 && form != FORM_PRISM) {
-            make_points(b, form);
+            make_points(b, form, 0.0);
         } else if (form == FORM_PRISM) {
             b->section = b->points;
             b->points.n = 0;
@@ -158,6 +173,18 @@ void scene_forms_make(struct scene *s, const struct params *p, struct faults *f)
             if (line_area(&l) < 0.0)
                 points_reverse(&b->section);
         }
+    }
+}
+
+void scene_forms_fit(struct scene *s, double edge)
+{
+    for (int k = 0; k < s->nbodies && s->domain.dim == 2; k++) {
+        struct scene_body *b = s->bodies + k;
+        if (scene_form_of(b) != FORM_ROUND || scene_body_bends(b) || b->cut)
+            continue;
+        make_points(b, FORM_ROUND, edge);
+        if (b->turned)
+            points_reverse(&b->points);
     }
 }
 
@@ -185,13 +212,6 @@ static int level_of(double radius, double facet)
     return level;
 }
 
-/* A multiple of four, so that corners lie on the axes. */
-static int sides_of(double radius, double facet)
-{
-    const double wanted = facet > 0.0 ? 2.0 * M_PI * radius / facet : CORNERS;
-    return 4 * (int)ceil(0.25 * fmin(fmax(wanted, SIDES_LEAST), CORNERS));
-}
-
 static struct trimesh sphere(double radius, double facet)
 {
     const double centre[3] = {0.0};
@@ -212,7 +232,7 @@ struct trimesh scene_form_mesh(const struct scene_body *b, double facet)
     case FORM_ROUND:
         return sphere(b->radius, facet);
     case FORM_CYLINDER:
-        return cylinder(b->radius, sides_of(b->radius, facet), b->length);
+        return cylinder(b->radius, sides_of(b->radius, facet, SIDES_LEAST), b->length);
     default:
         return prism(&b->section, b->length);
     }

@@ -773,5 +773,7 @@ void sph_meshes_read(struct scene *s, const char *case_dir, const struct params 
                      struct faults *f)
 {
     s->facet = given.dx;
+    if (!s->has_fv && !params_has_group(p, "apr"))
+        scene_forms_fit(s, 0.8 * given.dx);
     scene_meshes_read(s, case_dir, p, comm, f);
 }

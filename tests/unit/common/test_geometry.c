@@ -4,6 +4,7 @@
 #include "../test.h"
 
 #include "../../../common/scene/scene_fluid.h"
+#include "../../../common/scene/scene_forms.h"
 #include "../../../common/scene/scene_geometry.h"
 
 /* In [0, 1): the same on every machine (Numerical Recipes' quick generator). */
@@ -271,6 +272,28 @@ TEST(dykes_have_their_fluid_outside)
                 check_standing(side, trial % 3 == 1 ? hood : dyke, reversed,
                                trial % 3 == 2 ? 0.0 : 9.81, trial % 3 > 0);
             }
+}
+
+/* The area is the circle's, as far as corners stay within the radius; edges are the wanted ones,
+ * between 32 and 96 of them. */
+TEST(discs_have_edges_of_the_wanted_length)
+{
+    for (int turned = 0; turned < 2; turned++)
+        for (double edge = 0.005; edge < 0.03; edge += 0.001) {
+            struct scene s = {.domain.dim = 2, .nbodies = 1};
+            struct scene_body *b = s.bodies;
+            b->radius = 0.1;
+            b->surface.scale = 1.0;
+            b->surface.translate[0] = 3.0;
+            b->turned = turned;
+            scene_forms_fit(&s, edge);
+            const struct line l = line_of(&b->points, true);
+            assert_close(line_area(&l), (turned ? M_PI : -M_PI) * 0.01, 1e-3 * M_PI * 0.01);
+            const double first = hypot(l.x[1][0] - l.x[0][0], l.x[1][1] - l.x[0][1]);
+            assert_true(first < fmax(edge, 0.2 * M_PI / 96) * 1.01 &&
+                        first > 0.8 * fmin(edge, 0.02));
+            assert_int_equal(l.n % 4, 0);
+        }
 }
 
 TEST(bodies_have_their_fluid_outside)
