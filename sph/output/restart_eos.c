@@ -6,26 +6,33 @@
 #include "../particles/sph_particles.h"
 #include "../refinement/sph_refinement.h"
 
-/* Equation of state of a file. */
+/* What pressures go with: the equation of state, and the weight. */
 struct eos {
     double rho0, c0, gamma; /* kg/m^3, m/s, - */
+    double gravity;         /* m/s^2 */
 };
+
+static double gravity_of(const struct sph *s) { return vec3_length(s->run->scene.fluid.gravity); }
 
 void restart_eos_save(const struct sph *s, struct h5 *f)
 {
     h5_attribute_real(f, "rho0", s->rho0);
     h5_attribute_real(f, "c0", s->c0);
     h5_attribute_real(f, "gamma", s->gamma);
+    h5_attribute_real(f, "gravity", gravity_of(s));
 }
 
 /* Masses of one level; sums[0] and [1]: before and after, kg, this rank. */
 static void restate(struct sph *s, const struct eos *then, double sums[2])
 {
     const int dim = s->dim;
+    const double now = gravity_of(s);
+    const double weight =
+        s->rho0 / then->rho0 * (now > 0.0 && then->gravity > 0.0 ? now / then->gravity : 1.0);
     for (int i = 0; i < s->p.n; i++) {
         double *y = state_row(&s->p, s->p.y, i);
         const double rho = y[at_mass(dim)] / y[at_volume(dim)];
-        const double p = eos_p(rho, then->rho0, then->c0, then->gamma);
+        const double p = weight * eos_p(rho, then->rho0, then->c0, then->gamma);
         const double factor = eos_rho(p, s->rho0, s->c0, s->gamma) / rho;
         sums[0] += y[at_mass(dim)];
         y[at_mass(dim)] *= factor;
@@ -57,9 +64,11 @@ void restart_eos_load(struct sph *s, struct h5 *f)
     struct eos then;
     if (!h5_read_attribute_real(f, "rho0", &then.rho0) ||
         !h5_read_attribute_real(f, "c0", &then.c0) ||
-        !h5_read_attribute_real(f, "gamma", &then.gamma))
+        !h5_read_attribute_real(f, "gamma", &then.gamma) ||
+        !h5_read_attribute_real(f, "gravity", &then.gravity))
         return;
-    if (then.rho0 == s->rho0 && then.c0 == s->c0 && then.gamma == s->gamma)
+    if (then.rho0 == s->rho0 && then.c0 == s->c0 && then.gamma == s->gamma &&
+        then.gravity == gravity_of(s))
         return;
     double all[2] = {0.0, 0.0};
     for (struct sph *q = s; q; q = q->finer) {
@@ -70,7 +79,10 @@ void restart_eos_load(struct sph *s, struct h5 *f)
     }
     const double before = ranks_sum(s->run->comm, all[0]), after = ranks_sum(s->run->comm, all[1]);
     scale_start(s, after / before);
-    log_say("  the restart file has c0 %.4g m/s and %.5g kg/m^3, this run %.4g and %.5g: pressures "
-            "are kept, masses change by %.2g %%",
-            then.c0, then.rho0, s->c0, s->rho0, 100.0 * (after / before - 1.0));
+    log_say(
+        "  the restart file has c0 %.4g m/s, %.5g kg/m^3 and %.4g m/s^2, this run %.4g, %.5g and "
+        "%.4g: pressures are kept%s, masses change by %.2g %%",
+        then.c0, then.rho0, then.gravity, s->c0, s->rho0, gravity_of(s),
+        then.rho0 == s->rho0 && then.gravity == gravity_of(s) ? "" : " as a part of the weight",
+        100.0 * (after / before - 1.0));
 }
