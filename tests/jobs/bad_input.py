@@ -200,6 +200,7 @@ for sound in 'basin', 'block', 'tank':  # or the faults below could come from so
 # outputs shorter than steps: accepted, with a word
 tells('sph', 's/every = 0.01/every = 1e-5/', 'output.every = 1e-05 s is far below a step of .* take .* s or more')
 tells('sph', 's/dx = 0.02/dx = 0.02; c0 = 1500/', r'sph.c0 = 1500 m/s takes 1.5e.02 times the steps of 10 m/s')
+tells('sph', 's/dx = 0.02/dx = 0.02; R_dx = 1.6/', r'sph.R_dx = 1.6: particles have too few neighbours')
 tells('sph', 's/every = 0.01/checkpoint = 1e-5/', 'output.checkpoint = 1e-05 s is far below')
 # lengths in cm: accepted, with a word
 edit('tank.cfg', 's/gravity = (0, -9.81)/gravity = (0, -981)/')
