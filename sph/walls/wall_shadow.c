@@ -8,6 +8,8 @@
 
 enum { CORNERS = 12 };
 
+static const double thickness = 1e-9; /* of R: what lies so little behind a plane lies in it */
+
 bool shadow_caster_of(double (*v)[3], struct shadow_caster *c)
 {
     double e[2][3];
@@ -28,6 +30,33 @@ bool shadow_caster_of(double (*v)[3], struct shadow_caster *c)
             c->side[k][a] *= way;
     }
     return size > 0.0 && c->height > 1e-9 * sqrt(size);
+}
+
+bool shadow_alike(const struct shadow_caster *a, const struct shadow_caster *b)
+{
+    double turned = fabs(a->height - b->height) / a->height;
+    for (int k = 0; k < 3; k++)
+        turned = fmax(turned, fabs(a->n[k] - b->n[k]));
+    return turned < 1e-12;
+}
+
+bool shadow_is_before(const struct shadow_caster *c, int n, double (*y)[3], double R)
+{
+    double most = -INFINITY;
+    for (int k = 0; k < n; k++) {
+        const double size = fabs(y[k][0]) + fabs(y[k][1]) + fabs(y[k][2]);
+        most = fmax(most, vec3_dot(c->n, y[k]) - c->height + 1e-11 * (size + c->height));
+    }
+    return most <= thickness * R;
+}
+
+/* Whether some corner lies above the plane n.y = h. */
+static bool any_above(int corners, double (*y)[3], const double *n, double h)
+{
+    bool any = false;
+    for (int k = 0; k < corners && !any; k++)
+        any = vec3_dot(n, y[k]) - h > 0.0;
+    return any;
 }
 
 /* What of the polygon lies above the plane n.y = h, in place; returns the number of its corners. */
@@ -75,10 +104,12 @@ void shadow_add(const struct shadow_caster *c, int n, double (*y)[3], double R,
                 struct wall_integrals *to)
 {
     double x[CORNERS][3];
+    if (!any_above(n, y, c->n, c->height + thickness * R))
+        return;
     memcpy(x, y, (size_t)n * sizeof *x);
-    n = keep_above(n, x, c->n, c->height + 1e-9 * R);
+    n = keep_above(n, x, c->n, c->height + thickness * R);
     for (int k = 0; k < 3 && n > 0; k++)
-        n = keep_above(n, x, c->side[k], 1e-9 * R);
+        n = keep_above(n, x, c->side[k], thickness * R);
     if (n > 2)
         add_fan(n, x, R, to);
 }

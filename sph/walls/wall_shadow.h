@@ -15,6 +15,11 @@ struct shadow_caster {
 
 /* Sets *c to the triangle with the corners v; false: the point lies in its plane. */
 bool shadow_caster_of(double (*v)[3], struct shadow_caster *c);
+/* Whether both lie in one plane but for the last digits. */
+bool shadow_alike(const struct shadow_caster *a, const struct shadow_caster *b);
+/* Whether all of the polygon y[n], m, lies on the point's side of c's plane or in it, and so before
+ * the shadows of all that are alike; false where rounding could tell otherwise. */
+bool shadow_is_before(const struct shadow_caster *c, int n, double (*y)[3], double R);
 /* Adds to *to the integrals, of the kernel with the support R, over what of the convex polygon y[n]
  * lies behind c; its corners run as those of the facets of facet.h. */
 void shadow_add(const struct shadow_caster *c, int n, double (*y)[3], double R,

@@ -18,14 +18,19 @@ static bool any_thin(const struct walls *w)
 
 /* --- pairs --- */
 
-/* Whether the segment a -> b meets a triangle (Moeller & Trumbore, J. Graphics Tools 2, 1997). */
+/* Whether the segment a -> b meets a triangle (Moeller & Trumbore, J. Graphics Tools 2, 1997). Few
+ * do, so what lies on one side of its plane by more than rounding is not asked. */
 static bool meets(const struct facet *f, const double *a, const double *b)
 {
-    double e[2][3], d[3], h[3], s[3], q[3];
+    double e[2][3], d[3], h[3], s[3], q[3], to_b[3];
+    vec3_from(f->v[0], a, s);
+    vec3_from(f->v[0], b, to_b);
+    const double over[2] = {vec3_dot(f->n, s), vec3_dot(f->n, to_b)}, least = 1e-6 * f->longest;
+    if ((over[0] > least && over[1] > least) || (over[0] < -least && over[1] < -least))
+        return false;
     vec3_from(f->v[0], f->v[1], e[0]);
     vec3_from(f->v[0], f->v[2], e[1]);
     vec3_from(a, b, d);
-    vec3_from(f->v[0], a, s);
     vec3_cross(d, e[1], h);
     vec3_cross(s, e[0], q);
     const double det = vec3_dot(e[0], h);
@@ -48,13 +53,15 @@ static bool sees(const struct sph *s, const struct wall_list *l, int k, const do
 {
     const double *xi = prim_line(&s->p, l->who[k]);
     const double *const end[2] = {is_first(xi, xj) ? xi : xj, is_first(xi, xj) ? xj : xi};
+    double own[2][3];
+    int in = -1; /* the mesh in whose frame the ends are */
     for (int j = l->first[k]; j < l->first[k + 1]; j++) {
         const struct wall_touch *t = l->touch + j;
-        double own[2][3];
         if (!s->walls->meshes[t->of].thin)
             continue;
-        for (int e = 0; e < 2; e++)
+        for (int e = 0; e < 2 && t->of != in; e++)
             wall_list3_to_own(s, t, end[e], own[e]);
+        in = t->of;
         if (meets(wall_list3_facet(l, t), own[0], own[1]))
             return false;
     }
@@ -90,6 +97,7 @@ struct thin_piece {
     struct shadow_caster is;
     int touch; /* from the particle's first */
     bool thin;
+    int alike;    /* this and those after it in its plane; 0: not the first of them */
     double share; /* -: of it, what nothing hides */
 };
 
@@ -122,6 +130,18 @@ static void turn_face(const struct sph *s, struct wall_touch *t)
         t->is = (struct wall_integrals){0};
 }
 
+/* Counts the pieces in a row that lie in one plane, whose shadows begin behind it. */
+static void join_alike(struct thin_piece *piece, int pieces)
+{
+    struct thin_piece *first = piece;
+    for (struct thin_piece *c = piece; c < piece + pieces; c++) {
+        if (!shadow_alike(&first->is, &c->is))
+            first = c;
+        c->alike = 0;
+        first->alike++;
+    }
+}
+
 /* The pieces within the support that show the particle their face. */
 static int gather(const struct sph *s, struct wall_list *l, int k)
 {
@@ -146,6 +166,7 @@ static int gather(const struct sph *s, struct wall_list *l, int k)
             t->is = (struct wall_integrals){0};
         }
     }
+    join_alike(l->piece, pieces);
     return pieces;
 }
 
@@ -155,6 +176,10 @@ static void add_hidden(const struct sph *s, const struct wall_list *l, int piece
 {
     for (const struct thin_piece *c = l->piece; c < l->piece + pieces; c++) {
         struct wall_integrals is = {0};
+        if (c->alike > 1 && shadow_is_before(&c->is, n, y, s->R)) {
+            c += c->alike - 1;
+            continue;
+        }
         if (c->touch == j || (thin_alone && !c->thin) || c->share == 0.0)
             continue;
         shadow_add(&c->is, n, y, s->R, &is);
