@@ -307,6 +307,69 @@ def period_level_edge(rng):
     return s
 
 
+def period_across_edge(rng):
+    """A region that lies across the period, on the floor or not."""
+    s = tank2(rng, "period")
+    a, low = s.n[0] - rng.randint(5, 9), rng.choice([-1, -1, rng.randint(1, 4)])
+    top = rng.choice([s.hi[1], (max(low, 0) + rng.randint(10, 12)) * s.dx])
+    s.regions.append(([a * s.dx, low * s.dx], [(a + 14) * s.dx, top]))
+    s.gauges([s.dx * rng.uniform(2, s.n[0] - 2)])
+    return s
+
+
+def nested_side(rng):
+    """Two nested regions in a corner or on the floor, cut by the walls there."""
+    s = tank2(rng, rng.choice(["sides", "line"]), wide=(26, 34), deep=(15, 18))
+    a = rng.choice([-1, rng.randint(2, 5)])  # from the side or off it
+    b, c, low = rng.randint(14, 16), rng.randint(4, 6), max(a, -1)
+    s.regions.append(([a * s.dx, -s.dx], [(low + b) * s.dx, rng.randint(9, 12) * s.dx]))
+    inner = a if a < 0 else a + 4
+    s.regions.append(([inner * s.dx, -s.dx], [(max(inner, 0) + c + 2) * s.dx, c * s.dx], " level = 2; "))
+    s.gauges([s.dx * rng.uniform(2, s.n[0] - 2)])
+    return s
+
+
+def around(s, body, rng, more=""):
+    """A region whose edges are 4.6 dx and more from a body, so that guards, which are R deep, stay away from it."""
+    (x0, x1), (y0, y1) = ((min(p[a] for p in body["points"]), max(p[a] for p in body["points"])) for a in range(2))
+    x, y = [v / s.dx for v in (x0, x1)], [v / s.dx for v in (y0, y1)]
+    lo = [math.floor(x[0] - rng.uniform(4.6, 7)), math.floor(y[0] - rng.uniform(4.6, 7))]
+    hi = [math.ceil(x[1] + rng.uniform(4.6, 7)), rng.choice([s.n[1], math.ceil(y[1] + rng.uniform(4.6, 7))])]
+    s.regions.append(([a * s.dx for a in lo], [a * s.dx for a in hi], more))
+
+
+def free_edge(rng):
+    """A free body as heavy as water in a refined region, which may follow it."""
+    s = tank2(rng, wide=(34, 44), deep=(18, 26))
+    block_at(s, rng, rng.choice([["floor"], []]), more="free = true; density = 1000.0;")
+    s.laws["stays"] = s.laws.pop("solids")
+    around(s, s.bodies[0], rng, rng.choice(["", ' follow = "b"; ']))
+    return s
+
+
+def afloat_edge(rng):
+    """A free body half as heavy as water, wider than high, afloat over a refined region and in it: the level it lies at is kept."""
+    s = tank2(rng, wide=(34, 44), deep=(16, 24))
+    w, h = rng.uniform(10, 14) * s.dx, rng.uniform(5, 7) * s.dx
+    lo, hi = [0.5 * (s.hi[0] - w), s.depth - 0.5 * h], [0.5 * (s.hi[0] + w), s.depth + 0.5 * h]
+    s.block("b", lo, hi, "free = true; density = 500.0;")
+    s.laws["stays"] = s.laws.pop("solids")
+    around(s, s.bodies[0], rng)
+    s.gauges([0.25 * (s.hi[0] - w)])
+    return s
+
+
+def driven_edge(rng):
+    """A body that is driven slowly by up to two spacings in a refined region, which may follow it."""
+    s = tank2(rng, wide=(36, 46), deep=(18, 26))
+    block_at(s, rng, rng.choice([["floor"], []]))
+    around(s, s.bodies[0], rng, rng.choice(["", ' follow = "b"; ']))
+    s.end *= 2.0
+    for k, (lo, hi, *more) in enumerate(s.regions):
+        s.regions[k] = ([lo[0] - 2 * s.dx, lo[1]], [hi[0] + 2 * s.dx, hi[1]], *more)
+    return driven(s, rng.choice([[1.0, 0.0], [-1.0, 0.0]]), rng.uniform(0.5, 2) * s.dx)
+
+
 def side_surface(rng):
     s = tank2(rng, rng.choice(["sides", "line", "period"]))
     s.gauges([s.dx * rng.uniform(1, s.n[0] - 1)])
@@ -615,6 +678,17 @@ def opening_level_edge(rng):
     return s
 
 
+def opening_corner_edge(rng):
+    """A region in the stream, on a side, off it or across the period."""
+    s = stream(rng, "sph")
+    s.n = [2 * 16 + 14 + rng.randint(2, 8), rng.randint(20, 24)]  # transition, buffer and R at each end
+    s.hi = [n * s.dx for n in s.n]
+    s.end = 0.8 * s.hi[0] / s.velocity[0]
+    a, b = rng.randint(16, s.n[0] - 30), rng.randint(-6, s.n[1] - 7)
+    s.regions.append(([a * s.dx, b * s.dx], [(a + 14) * s.dx, (b + 13) * s.dx]))
+    return s
+
+
 def absorbing_side(rng):
     s = stream(rng, "sph")
     s.sides[0, 1] = {"kind": "absorbing", "velocity": s.velocity}
@@ -687,6 +761,11 @@ PAIRS = [
     ("body-edge", "body x level edge", 1, body_level_edge),
     ("side-edge", "side or line x level edge", 1, side_level_edge),
     ("period-edge", "period x level edge", 1, period_level_edge),
+    ("period-across-edge", "region across a period", 1, period_across_edge),
+    ("nested-side", "two nested regions x sides or lines", 0, nested_side),
+    ("free-edge", "free body as heavy as water x level edge, which may follow it", 1, free_edge),
+    ("afloat-edge", "body afloat x level edge", 1, afloat_edge),
+    ("driven-edge", "body that is driven slowly x level edge, which may follow it", 0, driven_edge),
     ("side-surface", "side, line or period x free surface", 1, side_surface),
     ("ghost-surface", "ghost side x free surface", 1, ghost_surface),
     ("line-line", "line x line", 1, line_line),
@@ -709,6 +788,7 @@ PAIRS = [
     ("box-body", "SPH box side x body", 1, box_body),
     ("opening-side", "inlet, outlet x side or period", 1, opening_side),
     ("opening-edge", "inlet, outlet x level edge", 1, opening_level_edge),
+    ("opening-corner-edge", "inlet, outlet x corners of a region, on a side or across a period", 1, opening_corner_edge),
     ("opening-body", "inlet, outlet x body that goes with the stream", 1, opening_body),
     ("body-moving-edge", "inlet, outlet, side or period x body x level edge that follows it", 1, body_moving_edge),
     ("absorbing-side", "absorbing side x inlet, side or period", 1, absorbing_side),

@@ -118,7 +118,7 @@ class Scene:
                 '{ name = "%s"; kind = "%s"; at = %s; }' % (n, k, t(self.point(p))) for n, k, p in self.probes))
         if self.regions:
             out.append("apr:    { regions = ( %s ); };" % ", ".join(
-                "{ level = 1; min = %s; max = %s; %s}" % (*map(t, self.box(*r[:2])), "".join(r[2:])) for r in self.regions))
+                "{ min = %s; max = %s; %s}" % (*map(t, self.box(*r[:2])), "".join(r[2:])) for r in self.regions))
         if self.program != "fv":
             box = ""
             if self.program == "coupled":
