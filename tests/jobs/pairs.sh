@@ -5,7 +5,7 @@
 . "$(dirname "$0")/lib.sh"
 # one of them may break a law by other roundings
 python3 "$root/tests/properties/pairs.py" --build "$b" --most 1 body-floor:5 body-side:13 body-corner:32 body-period:53 line-period:45 line-period:46 body-body:44 body-sunk:1 body-sunk:34 \
-    polygon-floor:60 wedge-floor:1 wedge-floor:2 wedge-body:1 body-stack:1 body-stack:5 flap-floor:2 flap-floor:5 body-surface:38 body-lid:46 body-roof:1 shut-slab:2 shut-slab:8 body-edge:32 side-edge:32 period-edge:53 side-surface:44 ghost-surface:13 \
+    polygon-floor:60 wedge-floor:1 wedge-floor:2 wedge-body:1 body-stack:1 body-stack:5 flap-floor:2 flap-floor:5 body-surface:38 body-lid:46 body-roof:1 shut-slab:2 shut-slab:8 body-edge:32 side-edge:32 period-edge:53 period-across-edge:4 afloat-edge:7 side-surface:44 ghost-surface:13 \
     line-line:45 free-side:53 mesh-side:7 side-surface3:70 mesh-period:46 mesh-across:1 thin-side:22 thin-rim:5 hinged-side:13 hinged-surface:45 driven-side:4 \
     driven-surface:56 fall-floor:32 fv-side-surface:32 fv-blocked-surface:4 box-surface:38 box-body:60 opening-side:63 opening-body:6 \
     absorbing-side:20 fv-opening-side:45 >pairs.txt 2>&1 || bad "pairs of treatments" pairs.txt
