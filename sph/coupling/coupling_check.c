@@ -324,6 +324,25 @@ static void check_parted(const struct run *r, const struct sph_params *prm, stru
     }
 }
 
+/* Level gauges whose column stands in the zones of a box at rest: particles that come in there are
+ * packed unevenly, and in waves their level rose by a third of dx. */
+static void warn_gauges(const struct run *r, const struct sph_params *prm)
+{
+    const int up = scene_still_axis(&r->scene);
+    double free[2][3];
+    zones_free_box(r, prm, free[0], free[1]);
+    for (int k = 0; k < r->scene.nprobes && r->crossed; k++) {
+        const struct scene_probe *p = r->scene.probes + k;
+        for (int a = 0; a < r->scene.domain.dim; a++)
+            if (p->kind == PROBE_LEVEL && !p->body[0] && !r->gauge_elsewhere[k] && a != up &&
+                !box_motion_along(r, prm, a) && (p->at[a] < free[0][a] || p->at[a] > free[1][a]))
+                log_warn("probes.[%d].at: %s stands in the transition or buffer of the particles, "
+                         "whose levels are up to dx/3 too high there in waves: from %g to %g m "
+                         "along %c they are free, and beyond their box fv reads it",
+                         k, p->name, free[0][a], free[1][a], axes[a]);
+    }
+}
+
 /* Every program of a job makes this check with the same result. */
 void coupling_check(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
@@ -345,6 +364,7 @@ void coupling_check(const struct run *r, const struct sph_params *prm, struct fa
         check_water(r, &w, f);
     coupling_check_bodies(r, prm, f);
     check_several(r, prm, f);
+    warn_gauges(r, prm);
     coupling_check_walls(r, prm, f);
     windows_check(r, prm, f);
 }

@@ -24,6 +24,7 @@ static const double most = 0.05; /* of sqrt(g d) */
 /* The columns of one side: i along it inwards, j across it and across gravity (3D). */
 struct gap_columns {
     int side, up, across, n[2];
+    double from;    /* m: depth below the side at which they begin */
     double sense;   /* 1: water lies at the lower end of axis `up' */
     double (*x)[3]; /* [n[0] n[1]] the probe */
     double *depth;  /* m: of the water below it; 0: no surface there */
@@ -53,7 +54,8 @@ static struct gap_columns columns_of(const struct sph *s, int side)
     const struct zones *z = s->zones;
     struct gap_columns c = {.side = side, .up = zones_upright(s), .across = -1};
     c.sense = s->gravity[c.up] < 0.0 ? 1.0 : -1.0;
-    c.n[0] = (int)fmax(floor(z->transition / s->dx), 1.0);
+    c.from = z->buffer + (z->watched ? z->transition : 0.0);
+    c.n[0] = (int)fmax(floor((z->watched ? z->overlap : z->transition) / s->dx), 1.0);
     c.n[1] = 1;
     for (int a = 0; a < s->dim; a++)
         if (a != side / 2 && a != c.up) {
@@ -73,7 +75,7 @@ static void columns_free(struct gap_columns *c) { FREE(c->x, c->depth, c->share)
 static void foot(const struct sph *s, const struct gap_columns *c, int i, int j, double *x)
 {
     const int a = c->side / 2;
-    const double in = s->zones->buffer + (i + 0.5) * s->dx;
+    const double in = c->from + (i + 0.5) * s->dx;
     x[0] = x[1] = x[2] = 0.0;
     x[a] = c->side % 2 ? s->hi[a] - in : s->lo[a] + in;
     x[c->up] = c->sense > 0.0 ? s->lo[c->up] : s->hi[c->up];
@@ -119,7 +121,7 @@ static bool is_beside_wall(const struct sph *s, const struct gap_columns *c, int
 static void add_particle(const struct sph *s, struct gap_columns *c, const double *y, double w)
 {
     const int more = (int)ceil(s->R / s->dx);
-    const double in = zones_inside(s->lo, s->hi, c->side, y) - s->zones->buffer;
+    const double in = zones_inside(s->lo, s->hi, c->side, y) - c->from;
     const int i0 = (int)floor(in / s->dx);
     int first = 0, last = 0;
     if (c->across >= 0) {

@@ -57,6 +57,13 @@ for folder in 'right', 'strip', 'off', 'thick':
     # the partner's pressures are its particles': no odd-even waves of fv's (0.215, a warning, where they were counted)
     below(folder + ': odd-even waves of pressure in water at rest', number(folder, 'odd_even_pressure'), 0.1)
 
+# a level gauge in the zones of the box, whose particles are packed unevenly in waves, is told with where they are free
+lib.write('zone.cfg', varied(water, 'output:', gauges.replace('(3, 0)', '(2.2, 0)') + 'output:'))
+start('sph', 'zone.cfg', '--check')
+told('zone', r'probes.\[1\].at: right stands in the transition or buffer of the particles', 'out.txt')
+if says(r'probes.\[0\].at'):
+    bad('zone: a gauge beyond the box is told as one in its zones', 'out.txt')
+
 # a refined region in the box at rest: particles that change levels are no water that came or went (0.0018 of it seemed missing, and
 # fv's flow against that lifted the level of the box by 4 mm in 0.8 s)
 job('refined', '''format = 1;
