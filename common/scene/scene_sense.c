@@ -320,22 +320,40 @@ static void warn_units(const struct scene *s)
         log_warn("fluid.nu: %g m^2/s looks like mm^2/s: all is SI, water has 1e-6", nu);
 }
 
-/* Openings of which none gives a flow, beside fluid that rests without a surface: they are at one
- * pressure, and the run shows nothing. Bodies and blocks may move: they are not asked. */
+/* Whether the water stands below one level that all outflows have, too: given, or as it stands in
+ * them. */
+static bool is_level(const struct scene *s)
+{
+    const struct scene_shape *h = s->shapes;
+    bool same = s->nshapes == 1 && h->form == SHAPE_BELOW && !h->hole && !s->has_waves &&
+                s->initial.field == FIELD_REST && vec3_length(h->velocity) == 0.0;
+    for (int k = 0; k < s->nwalls && same; k++) {
+        const struct scene_wall *w = s->walls + k;
+        if (w->kind == WALL_OUTFLOW)
+            same = !w->has_discharge && !w->levels &&
+                   (!w->has_level || fabs(w->level - h->level) < 1e-9 * fabs(h->level));
+    }
+    return same;
+}
+
+/* Openings of which none gives a flow, beside fluid that rests: they are at one pressure, or under
+ * a surface at one level, and the run shows nothing. Bodies and blocks may move: they are not
+ * asked. */
 static void warn_rest(const struct scene *s, const struct params *p)
 {
+    const bool surface = scene_has_surface(s);
     int outflows = 0;
     for (int k = 0; k < s->nwalls; k++) {
         if (s->walls[k].kind == WALL_INFLOW)
             return;
         outflows += s->walls[k].kind == WALL_OUTFLOW && s->walls[k].side != SIDE_NONE;
     }
-    if (outflows > 1 && !scene_has_surface(s) && s->nbodies == 0 &&
-        !params_has_group(p, "blocks") && !params_has_group(p, "coupling") &&
-        vec3_length(s->initial.velocity) == 0.0 && !scene_speed_of(s, 0.0, 0.0).moves)
-        log_warn("walls: nothing moves: all %d openings are outflows at one pressure: give one of "
-                 "them another, or a velocity at an inflow",
-                 outflows);
+    if (outflows > 1 && (surface ? is_level(s) : !scene_speed_of(s, 0.0, 0.0).moves) &&
+        s->nbodies == 0 && !params_has_group(p, "blocks") && !params_has_group(p, "coupling") &&
+        vec3_length(s->initial.velocity) == 0.0)
+        log_warn("walls: nothing moves: all %d openings are outflows at one %s: give one of them "
+                 "another, or a %s at an inflow",
+                 outflows, surface ? "level" : "pressure", surface ? "discharge" : "velocity");
 }
 
 void scene_check_sense(const struct scene *s, const struct params *p, struct faults *f)

@@ -349,6 +349,17 @@ holds(start('sph', 'case.cfg', '--check') == 0 and not told('the fluid rests'), 
 tells('channel', 's/^initial.*//; s/kind = "inflow"; velocity = (1, 0)/kind = "outflow"/', 'walls: nothing moves: all 2 openings are outflows at one pressure')
 edit('channel.cfg', 's/^initial.*//; s/kind = "inflow"; velocity = (1, 0)/kind = "outflow"; pressure = 1.0/')
 holds(start('sph', 'case.cfg', '--check') == 0 and not told('nothing moves'), 'outflows at two pressures')
+LEVELS = '''format = 1;
+time: { end = 1; };
+fluid: { gravity = (0, -10); };
+domain: { max = (2, 0.8); };
+walls: ( { side = "x_min"; kind = "outflow"; level = 0.4; }, { side = "x_max"; kind = "outflow"; level = 0.4; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes: ( { form = "below"; level = 0.4; } );
+fv: { cells = (40, 16); };
+'''
+for old, new in ('', ''), ('level = 0.4; }, { side = "y_min"', 'level = 0.3; }, { side = "y_min"'), ('( { form', '( { box = ((0.8, 0.3), (1, 0.5)); }, { form'):
+    write('level.cfg', LEVELS.replace(old, new))
+    holds(start('fv', 'level.cfg', '--check') == 0 and told('nothing moves: all 2 openings are outflows at one level') == (old == ''), 'outflows at one level: ' + new)
 # keys without use
 faulty('tank', 's/U = 3.0/U = 3.0; velocity = (1, 0)/', 'case.cfg:5: initial.velocity: is not used: ', 'sph')
 faulty('tank', 's/U = 3.0/U = 3.0; L = 2.0/', 'case.cfg:5: initial.L: is not used: ', 'sph')
