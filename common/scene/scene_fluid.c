@@ -98,11 +98,23 @@ void scene_heights(const struct scene *s, double *low, double *high)
     }
 }
 
-bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *x)
+/* y: x, or beyond a periodic side its image in the domain: a box of particles may lie across it. */
+static void find_image(const struct scene_domain *d, const double *x, double y[3])
+{
+    y[0] = y[1] = y[2] = 0.0;
+    for (int a = 0; a < d->dim; a++) {
+        const double L = d->max[a] - d->min[a];
+        const bool beyond = d->periodic[a] && (x[a] < d->min[a] || x[a] > d->max[a]);
+        y[a] = beyond ? x[a] - L * floor((x[a] - d->min[a]) / L) : x[a];
+    }
+}
+
+bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *at)
 {
     const struct line polygon = line_of(&h->points, true);
     bool in = true;
-    double r2 = 0.0;
+    double r2 = 0.0, x[3];
+    find_image(&s->domain, at, x);
     for (int a = 0; a < s->domain.dim; a++) {
         const bool given =
             a < 2 || h->box[1][a] > h->box[0][a]; /* a plane box in 3D goes through */

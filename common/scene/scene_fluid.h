@@ -17,8 +17,9 @@ int scene_still_axis(const struct scene *s);
 double scene_height(const struct scene *s, const double *x);
 /* Smallest and largest height in the domain, m. */
 void scene_heights(const struct scene *s, double *low, double *high);
-/* Whether x lies inside a shape; h must be an element of s->shapes. */
-bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *x);
+/* Whether `at', or beyond periodic sides its image in the domain, lies inside a shape; h must be an
+ * element of s->shapes. */
+bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *at);
 /* Whether a shape's water is at rest under gravity from the start: all below a level, or a box on
  * the floor of the domain whose vertical faces are sides of the domain or faces of bodies. */
 bool scene_is_level(const struct scene *s, const struct scene_shape *h);

@@ -1,6 +1,6 @@
 /* test_geometry.c - lines of a scene: sense, crossings, gaps and overlaps, whatever their place,
- * size and turn; walls and bodies that run the wrong way are turned, others are not.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * size and turn; walls and bodies that run the wrong way are turned, others are not; shapes across
+ * periods. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../common/scene/scene_fluid.h"
@@ -312,5 +312,26 @@ TEST(bodies_have_their_fluid_outside)
         put(&p, (const double[2]){1.2, 0.0}, out);
         assert_false(scene_is_room(&s, centre));
         assert_true(scene_is_room(&s, out));
+    }
+}
+
+/* A box of particles may lie across a period, beyond whose side the shapes go on. */
+TEST(shapes_have_images_beyond_periods)
+{
+    struct scene s;
+    memset(&s, 0, sizeof s);
+    s.domain.dim = 2;
+    s.domain.max[0] = 2.4;
+    s.domain.max[1] = 1.0;
+    s.nshapes = 1;
+    s.shapes[0].form = SHAPE_BOX;
+    s.shapes[0].box[1][0] = s.shapes[0].box[1][1] = 0.5;
+    for (int periodic = 0; periodic < 2; periodic++) {
+        s.domain.periodic[0] = periodic;
+        for (int k = -4; k < 8; k++) {
+            const double x[3] = {0.3 + 0.8 * k, 0.25, 0.0}; /* a third of the period apart */
+            const bool in = periodic ? (k + 6) % 3 == 0 : k == 0;
+            assert_int_equal(scene_is_fluid(&s, NULL, x, NULL), in);
+        }
     }
 }
