@@ -18,6 +18,8 @@ static double count(const struct body_bins *b, const double *hi, int n[3])
     return all;
 }
 
+/* The box of a point within the bounds; along x boxes have consecutive numbers, so that a run of
+ * neighbours along x is one run of the list. */
 static int box_of(const struct body_bins *b, const double *x)
 {
     int at = 0;
@@ -56,6 +58,7 @@ struct body_bins bins_create(int dim, int n, const double *x, size_t stride, dou
 
 void bins_free(struct body_bins *b) { FREE(b->start, b->who); }
 
+/* Outside of the bounds by more than a box, or no number: nobody is near. */
 int bins_near(const struct body_bins *b, const double *x, struct bins_run run[BINS_RUNS])
 {
     int lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0}, n = 0;

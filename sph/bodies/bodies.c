@@ -13,6 +13,8 @@
 
 /* --- the start --- */
 
+/* Called for each level, the coarsest first: its bodies are those of all levels, and lambda goes by
+ * the finest dx. */
 void bodies_create(struct sph *s)
 {
     struct walls *w = s->walls;
@@ -37,6 +39,7 @@ void bodies_create(struct sph *s)
     body_wedges_find(s);
 }
 
+/* An explicit step bears lambda dt up to 2. */
 double bodies_dt(const struct sph *s)
 {
     double dt = INFINITY;
@@ -48,6 +51,7 @@ double bodies_dt(const struct sph *s)
 
 /* --- a step --- */
 
+/* Reference forces depend on where a body is; they are taken once a step. */
 void bodies_begin(struct sph *s)
 {
     for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
@@ -94,6 +98,8 @@ static void fluid_loads(struct sph *s, double weight, double (*loads)[6])
     }
 }
 
+/* Lines and contacts add to the loads of two bodies, so all of them come before the rates of any.
+ * weight, s: of the stage in the step. */
 void bodies_stage(struct sph *s, double weight)
 {
     struct walls *w = s->walls;
@@ -119,6 +125,8 @@ void bodies_stage(struct sph *s, double weight)
     }
 }
 
+/* ahead, s: from the step's start to where the next stage stands; the last stage takes the weighted
+ * sum of all rates. */
 void bodies_advance(struct sph *s, double ahead, double weight, bool last)
 {
     for (int k = 0; s->walls && k < s->walls->nbodies; k++) {
@@ -143,7 +151,8 @@ static void take_hits(struct sph *s)
     }
 }
 
-/* Where a body may be: beyond open sides the flow is somebody else's, who has no bodies; m. */
+/* Where a body may be: beyond open sides the flow is somebody else's, who has no bodies; m. A box
+ * that follows something has moved by s->lo - prm->box since the case gave it. */
 static void room_of(const struct sph *s, double lo[3], double hi[3])
 {
     const struct sph_params *prm = &s->prm;
@@ -195,6 +204,8 @@ static void judge(const struct sph *s, const struct body *b, struct diagnosis *d
     }
 }
 
+/* Impulses of particles that were put back come before the contacts' memory and the check of
+ * places; hits are taken once. */
 void bodies_finish(struct sph *s, struct diagnosis *d)
 {
     const bool any_free = s->walls && s->walls->any_free;

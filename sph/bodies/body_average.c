@@ -22,6 +22,8 @@ static double carried_pressure(const struct sph *s, const double *q, const doubl
     return s->surface ? fmax(p + rho * more, fmin(p, 0.0)) : p + rho * more;
 }
 
+/* Whether walls that meet at a joint stand between the particle and the point, which is looked at
+ * from a little way within the fluid. */
 static bool is_hidden(const struct sph *s, const struct average_node *d, const double *x)
 {
     double y[2];
@@ -99,6 +101,7 @@ static void ask_all(const struct sph *s, struct nodes *nodes)
     bins_free(&bins);
 }
 
+/* Every rank lays the same nodes in the same order, so that sums go by their number. */
 static void sum_over_ranks(const struct sph *s, struct nodes *nodes)
 {
     struct said *sums = NEW(struct said, nodes->n);
@@ -129,6 +132,8 @@ static void push(const struct body *b, const struct average_node *d, const doubl
     vec3_add(to->M, 1.0, moment);
 }
 
+/* Shepard's mean over what was heard; below AVERAGE_WET of a whole support it fades with the weight
+ * instead of being a mean of few. */
 static void add_force(const struct sph *s, const struct body *b, const struct average_node *d,
                       struct force *to)
 {
@@ -189,6 +194,8 @@ static bool is_wet(const struct sph *s, const struct average_node *d)
                         : wall_meshes_nearest(s->walls, x, INFINITY, &mesh).distance) > 0.0;
 }
 
+/* The pressure that scene and particles leave out (of a depth, of a slope) acts on what of the
+ * surface has room for water before it. */
 struct force body_reference(const struct sph *s, int which)
 {
     const struct scene_reference *r = &s->reference;

@@ -9,6 +9,7 @@ struct wall_ends {
     double (*x)[2][2]; /* m: fluid on the left */
 };
 
+/* A piece without length has no direction and is left out. */
 static void add(struct wall_ends *to, const double *a, const double *b)
 {
     if (to->n % 64 == 0)
@@ -27,6 +28,7 @@ static void add_side(struct wall_ends *to, const struct scene_domain *d, int sid
     add(to, corner[start[side]], corner[(start[side] + 1) % 4]);
 }
 
+/* Walls of the case as segments: the sides that the particles' region reaches, and all lines. */
 static struct wall_ends ends_of(const struct scene *c, const struct sph_params *used)
 {
     struct wall_ends to = {0};

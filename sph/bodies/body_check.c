@@ -8,6 +8,8 @@
 
 /* --- motion --- */
 
+/* Between two rows of a motion file: displacement and, at the farthest point, the way of rotation,
+ * m. Columns: t, then 2 places and an angle, or 3 and 3. */
 static double distance(const double *a, const double *b, int columns, double reach)
 {
     const int dim = columns == 4 ? 2 : 3;
@@ -68,6 +70,7 @@ static void check_rows(const struct run *r, const struct sph_params *used, const
     }
 }
 
+/* Faults of reading first: rows of a file that could not be read do not exist. */
 static void check_file(const struct run *r, const struct sph_params *used, const char *key,
                        const struct body *b, const struct body_term *t, struct faults *f)
 {

@@ -67,11 +67,14 @@ static double first_rate(struct walls *w, const struct pair *p)
     return *rate;
 }
 
+/* Walls at rest are the last partner. */
 static struct pair_friction *friction_of(struct walls *w, const struct pair *p)
 {
     return &w->friction[p->a][p->b < 0 ? BODIES_MAX : p->b];
 }
 
+/* What does not yield, because it is at rest, driven or held until its release, counts as infinite.
+ */
 static double mass_of(const struct walls *w, int body)
 {
     return body >= 0 && w->bodies[body].free && !w->bodies[body].free->held
@@ -100,6 +103,9 @@ double body_contact_depth(double v, double dt) { return v * CONTACT_STEPS * dt /
 /* 1/s */
 static double rate_of(const struct walls *w) { return M_PI / (CONTACT_STEPS * w->dt_contact); }
 
+/* Both bodies of a pair get every touch's force with opposite signs at one point, so that a pair
+ * keeps its momentum and angular momentum. The spring goes by the bodies' whole masses, damping and
+ * friction by what yields at the touch. */
 static void push(struct sph *s, const struct pair *p, double (*loads)[6])
 {
     struct walls *w = s->walls;
@@ -155,6 +161,7 @@ static bool next_pair(const struct walls *w, struct pair *p)
     return false;
 }
 
+/* The gap is that of the first body of the pair. */
 static void find(const struct sph *s, struct pair *p)
 {
     p->n = 0;
@@ -213,6 +220,8 @@ static void stand_apart(struct sph *s)
     }
 }
 
+/* With levels once for the state, which all share, and for each level's own copy of the distances.
+ */
 void body_contacts_start(struct sph *s)
 {
     struct pair p = {.b = -2};
@@ -256,6 +265,7 @@ static void keep_start(struct sph *s, struct pair *p)
     p->n = n;
 }
 
+/* Once a stage. What has parted forgets its first rate of approach and its friction. */
 void body_contacts_add(struct sph *s, double (*loads)[6])
 {
     struct walls *w = s->walls;
@@ -273,6 +283,7 @@ void body_contacts_add(struct sph *s, double (*loads)[6])
     mem_free(p.touch);
 }
 
+/* Once a step: friction gathers over steps, not stages, and at most what Coulomb allows. */
 void body_contacts_finish(struct walls *w)
 {
     for (struct pair p = {.b = -2}; next_pair(w, &p);) {

@@ -25,6 +25,8 @@ void body_courses_create(struct sph *s)
     }
 }
 
+/* Hermite's cubic in t - t0: place and velocity at both ends. to: n places, then n velocities at
+ * t1. */
 void body_course_set(struct body_course *c, double t0, double t1, const double *to)
 {
     const double h = t1 - t0;

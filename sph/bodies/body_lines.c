@@ -29,6 +29,7 @@ static void ends_of(const struct body *b, const struct body *other, const struct
     }
 }
 
+/* Moments are about where the centre is now. */
 void body_load(const struct body *b, const double *at, const double *F, double factor,
                double load[6])
 {
@@ -49,6 +50,7 @@ static double tension(const struct scene_line *l, double slack, double length, d
     return length > slack ? fmax(0.0, force) : 0.0;
 }
 
+/* A length below 0 is one that the case does not give: the line is without force as it starts. */
 void body_lines_slack(struct body *b)
 {
     for (int k = 0; k < b->is->lines.n; k++) {
@@ -58,6 +60,8 @@ void body_lines_slack(struct body *b)
     }
 }
 
+/* The other end's body gets the opposite pull, free or not: loads of driven bodies are read by
+ * nobody. */
 void body_lines_add(const struct scene *c, struct body *bodies, int k, double (*loads)[6])
 {
     struct body *b = bodies + k;
@@ -86,6 +90,7 @@ void body_lines_add(const struct scene *c, struct body *bodies, int k, double (*
     }
 }
 
+/* J, per metre in 2D: a line between two bodies counts with the one that has it. */
 double body_lines_energy(const struct scene *c, const struct body *bodies, int k)
 {
     const struct body *b = bodies + k;

@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "body_nodes.h"
 
+/* Pointers to earlier nodes do not outlive it. */
 static struct average_node *add_node(struct nodes *to)
 {
     ROOM_IN(NULL, to->node, to->n + 1);
@@ -12,6 +13,7 @@ static struct average_node *add_node(struct nodes *to)
     return d;
 }
 
+/* Half a spacing of the finest level, m. */
 static double distance_of_nodes(const struct sph *s)
 {
     while (s->finer)
@@ -69,6 +71,7 @@ struct sorted {
     int node;
 };
 
+/* Of equal keys by number, so that sums have one order on all machines. */
 static int by_key(const void *a, const void *b)
 {
     const struct sorted *x = a, *y = b;
@@ -144,6 +147,7 @@ static void lay_mesh(const struct sph *s, const struct wall_mesh *m, struct node
     mem_free(own.node);
 }
 
+/* Images across periods are left out: their particles are asked for as images. */
 struct nodes body_nodes_lay(const struct sph *s, int body)
 {
     const struct walls *w = s->walls;

@@ -48,6 +48,7 @@ static void motion_of(const struct body *b, double v[MOTION_COLUMNS])
     }
 }
 
+/* The same columns in the same order as bodies_columns. */
 double *bodies_row(const struct sph *s, int k, double *values)
 {
     const struct body *b = s->walls->bodies + k;
@@ -123,6 +124,7 @@ enum {
     FRICTION = (BODIES_MAX + 1) * (int)(sizeof(struct pair_friction) / sizeof(double))
 };
 
+/* One row of the restart file; `take' reads it in the same order, KEPT is its length. */
 static void flatten(const struct body_free *f, double *v)
 {
     memcpy(v, f->y, sizeof f->y);

@@ -135,6 +135,8 @@ static double told_speed(const struct scene *c, const struct body *b, double spa
     return most;
 }
 
+/* Of prescribed motion, or the start of a free body, whichever is faster, with what springs and
+ * loads add; a fall is independent of it, so squares add. */
 static double speed_of(const struct scene *c, const struct body *b, const struct forced *f,
                        double spacing)
 {

@@ -103,6 +103,8 @@ static double wetness(const struct seal_point *p, const struct average_node *d)
     return fmin(d->said.W / fmax(enough * p->room, 1e-6), 1.0);
 }
 
+/* A weight within a tenth of the room counts as the room itself: rows of particles miss it by that
+ * much. */
 static double pressure_at(const struct seal_point *p, const struct average_node *d)
 {
     const double slack = 0.1 * p->room, W = d->said.W;
@@ -171,6 +173,9 @@ static struct seep water_at(const struct sph *s, const struct seal_point *p,
     return is;
 }
 
+/* q is what the point lacks: 2 p (1 - b_y), or where the other lies on it p (1 - 2 b_y), less what
+ * particles give already; the rest is what the water's weight changes of that (wall_share_weight).
+ */
 static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
                   const struct seep *is)
 {
@@ -220,6 +225,7 @@ static struct seep *find_water(const struct sph *s, const struct seal_point *of,
     return is;
 }
 
+/* Collective; rank 0 alone reports forces, for points are the same on all ranks. */
 void seal_points_press(struct sph *s, const struct seal_point *of, int n)
 {
     struct nodes at;
@@ -279,6 +285,8 @@ struct seal_rest {
     struct seal_point of[];
 };
 
+/* Along each axis at the distance of the body's reach: no rotation leaves all three where they
+ * were. */
 static void find_places(const struct walls *w, double (*at)[3][3])
 {
     for (int k = 0; k < w->nbodies; k++)

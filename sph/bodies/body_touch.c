@@ -8,6 +8,8 @@ struct touch_box {
     double lo[2], hi[2];
 };
 
+/* By the beginnings of segments: outlines of bodies are closed, so these are all of their corners.
+ */
 static struct touch_box box_of(const struct walls *w, int first, int n, double more)
 {
     struct touch_box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
@@ -32,7 +34,8 @@ static bool holds(const struct touch_box *b, const double *x)
     return x[0] >= b->lo[0] && x[0] <= b->hi[0] && x[1] >= b->lo[1] && x[1] <= b->hi[1];
 }
 
-/* Segments of a body, or those at rest. */
+/* Segments of a body, or those at rest. The range of walls at rest is that of all segments, images
+ * across periods included; a body's is its own segments alone. */
 static bool belongs(const struct segment *g, int body) { return g->body == body; }
 
 static void range(const struct walls *w, int body, int *first, int *end)
@@ -81,6 +84,7 @@ double touch_distance(const struct walls *w, int dim, int body, const double *x,
     return dim == 2 ? nearest(w, body, x, reach, out) : touch_distance3(w, body, x, reach, out);
 }
 
+/* Walls at rest do not move, even those with a velocity along themselves. */
 static void velocity_of(const struct walls *w, int body, const double *x, double *u)
 {
     u[0] = u[1] = u[2] = 0.0;

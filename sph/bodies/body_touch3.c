@@ -3,6 +3,7 @@
 #include "../../common/geometry/geometry.h"
 #include "body_touch.h"
 
+/* By the sphere around the centre that holds the body. */
 static bool is_near(const struct walls *w, int body, const double *x, double more)
 {
     const struct body *b = w->bodies + body;
@@ -49,6 +50,7 @@ double touch_distance3(const struct walls *w, int body, const double *x, double 
     return least;
 }
 
+/* Vertices are tested in the world, for the two meshes have frames of their own. */
 static void find_vertices(const struct walls *w, struct pair *p, double gap, bool mine)
 {
     const int of = mine ? p->a : p->b, against = mine ? p->b : p->a;

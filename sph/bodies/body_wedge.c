@@ -7,6 +7,7 @@
 
 static const double around = 3.0, shut = 0.01; /* dx */
 
+/* Walls at rest, and bodies that never move. */
 static bool stays(const struct walls *w, int body) { return body < 0 || !w->bodies[body].moves; }
 
 /* Whether some node of the body faces the other closely. A face that lies on walls at rest has no
@@ -39,6 +40,8 @@ static bool seal_body(const struct sph *s, int body)
     return any;
 }
 
+/* Pairs that have been in contact since the start are marked first: what they exchange is left to
+ * the seals of free bodies. The coarsest level's marks serve all levels. */
 void body_wedges_find(struct sph *s)
 {
     struct walls *w = s->walls;
@@ -50,6 +53,8 @@ void body_wedges_find(struct sph *s)
     mem_own(w, w->wedge);
 }
 
+/* Points of one body stand together, and each body's are pressed at once, for they find the water
+ * around by each other. */
 void body_wedges_add(struct sph *s)
 {
     const struct walls *w = s->walls;

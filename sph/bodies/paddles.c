@@ -28,6 +28,7 @@ static const struct scene_motion *term_of(const struct scene_body *b)
     return NULL;
 }
 
+/* NULL: the body does not absorb. Owned by the caller. */
 static struct wave_absorber *absorber_of(const struct scene *c, int k, double dx)
 {
     const struct scene_motion *m = term_of(c->bodies + k);

@@ -30,6 +30,7 @@ struct shut_water *shut_water_add(struct sph *s, int64_t n, unsigned beside)
     return w->shut[w->nshut++] = to;
 }
 
+/* Identities ascend. */
 static bool holds(const struct shut_water *of, int64_t id)
 {
     int64_t lo = 0, hi = of->n;
@@ -42,6 +43,7 @@ static bool holds(const struct shut_water *of, int64_t id)
     return of->id[lo] == id;
 }
 
+/* Where particle i's volume is kept, if it belongs to that water; else NULL. */
 static double *volume_in(const struct sph *s, const struct shut_water *of, int i)
 {
     return holds(of, s->p.id[i]) ? &state_row(&s->p, s->p.y, i)[at_volume(s->dim)] : NULL;
@@ -93,6 +95,7 @@ static bool is_open(const struct sph *s, const struct shut_water *of)
     return any;
 }
 
+/* Once open it stays open: the volume of reference 0 says so, and nothing is scaled any more. */
 void shut_waters_keep(struct sph *s)
 {
     double sum[SHUT_WATERS_MAX];

@@ -4,6 +4,7 @@
  * order. SPDX-License-Identifier: BSD-3-Clause */
 #include "body.h"
 
+/* Velocities, accelerations and loads begin at 0. */
 struct body_bend *body_bend_create(const struct scene_body *is)
 {
     struct body_bend *b = NEW(struct body_bend, 1);
@@ -32,6 +33,8 @@ void body_bend_add(const struct body_bend *bend, enum bend_load to, double facto
             bend->load[to][i][a] += factor * from->load[of][i][a];
 }
 
+/* Without a course yet, before the partner's first coupling step, the outline stays as the case has
+ * it. */
 void body_bend_move(struct body *b, double t)
 {
     struct body_bend *to = b->bend;

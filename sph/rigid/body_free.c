@@ -20,6 +20,7 @@ static void invert(double A[3][3], double to[3][3])
             to[a][b] = c[b][a] / det;
 }
 
+/* e.I e about the centre, e a unit vector. */
 static double inertia_about(const struct body_free *f, const double *e)
 {
     double v[3] = {0.0, 0.0, 0.0};
@@ -230,7 +231,7 @@ static void accelerate_turn(const struct body_free *f, struct body_motion *m)
 }
 
 /* Accelerations, of the last stage: averaged forces carry pressures with them. On a hinge a =
- * domega x arm + omega x u. */
+ * domega x arm + omega x u. A locked axis keeps the acceleration of its drive. */
 static void accelerate(const struct body *b, struct body_motion *m)
 {
     const struct body_free *f = b->free;
@@ -253,6 +254,8 @@ static void accelerate(const struct body *b, struct body_motion *m)
 
 void body_hold(struct body *b, double t) { b->free->held = t < b->is->release * (1.0 - 1e-12); }
 
+/* The drive first, for locked degrees keep what it says; rotation before the centre, which a
+ * hinge's arm carries round; accelerations last, they need both. */
 void body_move(struct body *b, double t)
 {
     struct body_motion *m = &b->now;
@@ -270,6 +273,7 @@ void body_move(struct body *b, double t)
         body_bend_move(b, t);
 }
 
+/* x = centre + motion + Q (from - centre); in 2D the third component is left as it is. */
 void body_place(const struct body *b, const double *from, double *to)
 {
     double d[3] = {0.0, 0.0, 0.0};
@@ -300,6 +304,7 @@ void body_velocity(const struct body *b, const double *at, double *u)
         u[a] = b->now.u[a] + v[a];
 }
 
+/* A bound: translation and rotation of the farthest point may add. */
 double body_speed(const struct body *b)
 {
     double most = vec3_length(b->now.u) + b->reach * vec3_length(b->now.omega);
@@ -375,6 +380,7 @@ void body_hit(struct body *b, const double impulse[3], const double moment[3])
     vec3_add(b->free->y + BODY_L, 1.0, L);
 }
 
+/* Runge-Kutta stages leave the unit sphere by the step's truncation error; Q would then scale. */
 void body_finish(struct body *b)
 {
     double *q = b->free->y + BODY_Q;

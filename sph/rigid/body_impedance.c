@@ -49,6 +49,7 @@ static int directions(const struct body *b, double D[6][6])
     return n;
 }
 
+/* D_i . A D_j. */
 static double form(double D[6][6], double A[6][6], int i, int j)
 {
     double sum = 0.0;
@@ -92,6 +93,7 @@ static void add_triangle(const struct body *b, int k, double along, double acros
     }
 }
 
+/* By midpoints of pieces of dx at most: a moment's arm varies along an edge. */
 static void add_edge(const struct body *b, int k, double dx, double along, double across,
                      struct impedance *z)
 {

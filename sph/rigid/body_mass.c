@@ -8,6 +8,7 @@
 #include "../../common/scene/scene.h"
 #include "body.h"
 
+/* Says why, and is false. */
 static bool no(char *why, size_t size, const char *what)
 {
     snprintf(why, size, "%s", what);

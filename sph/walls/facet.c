@@ -13,6 +13,9 @@ static const double C = 21.0 / (2.0 * M_PI); /* W = C (1-r)^4 (1+4r) */
 static inline double less(double a, double b) { return a < b ? a : b; }
 static inline double more(double a, double b) { return a > b ? a : b; }
 
+/* Edge s runs from corner s to the next one. m lies in the plane and points out of the triangle, so
+ * that m.(v - x) is positive while the foot of x lies on the inner side of the edge. The area must
+ * not be 0: the normal is divided by it. */
 struct facet facet_of(const double *a, const double *b, const double *c)
 {
     const double *const v[3] = {a, b, c};
@@ -53,6 +56,7 @@ struct heights {
     vec o0, o1, o2; /* odd over d */
 };
 
+/* Even and odd parts in d stand apart, because each goes with one of the two angles of an edge. */
 INLINE struct heights heights_of(vec d)
 {
     struct heights h = {.d = d, .d2 = d * d};
@@ -69,11 +73,16 @@ INLINE struct heights heights_of(vec d)
     return h;
 }
 
-/* Integrals along the live part of an edge: int r^k dx (J), int x^k dx (Y), angles. */
+/* Integrals along the part of an edge within the support: int r^k dx (J; J0: int dx/r), int x^(k-1)
+ * dx (Y), angles. */
 struct along {
     vec T1, T2, J0, J1, J3, J5, J7, Y1, Y3, Y5, Y7, h2;
 };
 
+/* T2 = atan(b/p) - atan(a/p) is the angle under which the foot of x sees the part of the edge, T1 =
+ * atan(d b/(p r_b)) - atan(d a/(p r_a)) what it takes of the solid angle; one arc tangent each
+ * keeps the digits when a and b are close. Each J follows by parts from the one two powers below
+ * it. */
 INLINE struct along along_of(const struct heights *H, vec p, vec a, vec b)
 {
     const vec zero = vec_all(0.0), a2 = a * a, b2 = b * b, p2 = p * p, h2 = p2 + H->d2;
@@ -130,6 +139,8 @@ static void add(const struct facet_batch *b, int k, double S, double Z, double H
         to[2 + a] += C * (Z * b->D[k] * b->normal[k][a] - H * b->m[k][a]);
 }
 
+/* Signs that do not depend on the lane are applied by `add', so the vector loop itself has no
+ * branch. */
 void facet_finish(struct facet_batch *b)
 {
     for (int k = b->n; k < b->n + LANES - 1 && k < FACET_EDGES; k++) { /* any edge fills up */
@@ -197,6 +208,7 @@ INLINE void add_points(const struct facet *f, const double *x, double R, double 
     to->e[2] += R * vec_sum(W * y[2]);
 }
 
+/* n is 1, 3 or 7 points; lanes beyond those of the rule have the weight 0. */
 static void by_points(const struct facet *f, const double *x, double R, double D, int n,
                       struct wall_integrals *to)
 {
@@ -205,7 +217,8 @@ static void by_points(const struct facet *f, const double *x, double R, double D
         add_points(f, x, R, D, q, k, to);
 }
 
-/* Points that a triangle needs at a distance; 0: the closed form. */
+/* Points that a triangle needs at a distance; 0: the closed form. gap, m, is the distance of the
+ * centre less the radius: the triangle is no nearer. */
 static int points_for(const struct facet *f, double gap, double R)
 {
     if (f->longest < 0.06 * gap)

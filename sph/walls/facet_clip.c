@@ -18,11 +18,14 @@ struct line2 {
     double c, m[2];
 };
 
+/* Signed distance from the line, m, since m is a unit vector. */
 static double inside(const struct line2 *l, const double *x)
 {
     return l->c - l->m[0] * x[0] - l->m[1] * x[1];
 }
 
+/* The part of a convex polygon on the inner side of a line: each cut adds one corner at most, so a
+ * square that three edges cut has seven. */
 static struct clip_polygon cut(const struct clip_polygon *p, const struct line2 *l)
 {
     struct clip_polygon q = {.n = 0};

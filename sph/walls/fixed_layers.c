@@ -9,7 +9,8 @@
 /* Two segments that turn by less go on in one layer; else one ends and the other begins. */
 static const double smooth = 0.7; /* cosine */
 
-/* The segment that goes on where g ends (way 1) or ends where it begins (0); -1: none. */
+/* The segment that goes on where g ends (way 1) or ends where it begins (0); -1: none. Ends meet
+ * within 1e-6 of the segment's length: polylines share points to the last digits of their input. */
 static int beside(const struct walls *w, int g, int way)
 {
     const struct segment *of = w->segments + g;
@@ -22,6 +23,7 @@ static int beside(const struct walls *w, int g, int way)
     return -1;
 }
 
+/* Cosine of the angle between two segments' normals: 1 where the wall goes straight on. */
 static double turn_of(const struct walls *w, int g, int o)
 {
     const double *a = w->segments[g].n, *b = w->segments[o].n;
@@ -42,6 +44,8 @@ struct layer_part {
     double a[2], t[2], length;
 };
 
+/* Both corners of the segment at `depth', m, behind the wall. At the inside of a sharp corner they
+ * change their order: the length is 0 then, and no ghost stands there. */
 static struct layer_part part_of(const struct walls *w, int g, double depth)
 {
     const struct segment *of = w->segments + g;

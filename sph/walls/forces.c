@@ -27,6 +27,8 @@ static void add_bends(struct walls *w, enum bend_load to, double factor, const s
             body_bend_add(w->bodies[k].bend, to, factor, from->bodies[k].bend, of);
 }
 
+/* Called by a model that reports forces, before it reports those of a stage: the flag `credited'
+ * tells the others from it. */
 void forces_clear(struct walls *w)
 {
     memset(w->forces.stage, 0, sizeof w->forces.stage);
@@ -42,6 +44,8 @@ static double beside_body(const struct sph *s, int body, const double *x, int ax
     return x[axis] - (s->periodic[axis] ? L * round((x[axis] - middle) / L) : 0.0);
 }
 
+/* Adds F and its moment x cross F. In 2D the components beyond the plane are 0, so M has its part
+ * about z alone. */
 static void add(const struct sph *s, struct force to[SIDES], int body, const double *x,
                 const double *f)
 {
@@ -68,6 +72,8 @@ static struct body_bend *bend_of(const struct sph *s, int body, const double *x,
     return bend;
 }
 
+/* x, m, is where the force acts, as particles see it: it may lie beside an image of the body. f in
+ * N, per metre along z in 2D. */
 void forces_add(const struct sph *s, int body, const double *x, const double *f)
 {
     double at[2];
@@ -77,6 +83,8 @@ void forces_add(const struct sph *s, int body, const double *x, const double *f)
         body_bend_load(bend, at, f, BEND_STAGE);
 }
 
+/* An impulse, N s, goes into the step at once, for it is not part of a stage's rate; `hit' keeps it
+ * apart, too, for free bodies, which get it after their own stages. */
 void forces_hit(const struct sph *s, int body, const double *x, const double *impulse)
 {
     double at[2];
@@ -95,6 +103,8 @@ static void add_times(struct force *to, double factor, const struct force *f)
     }
 }
 
+/* The finer levels' walls are copies of the coarsest level's, and what pushes each is one body: so
+ * the loads of all levels are added to the coarsest level's before bodies move. */
 void forces_join_stage(struct walls *to, const struct walls *from)
 {
     for (int b = 0; b < SIDES; b++)
@@ -130,6 +140,8 @@ void forces_add_turning(const struct sph *s, int k, double moment[3])
         moment[a] -= 2.0 * s->rho0 * s->nu * b->volume * b->now.omega[a];
 }
 
+/* What is the same on all ranks and levels (reference pressure, friction of turning) is added by
+ * one rank of the coarsest level, since steps are summed over both. */
 void forces_stage(struct sph *s, double dt)
 {
     struct wall_forces *f = &s->walls->forces;
@@ -159,6 +171,8 @@ static void sample(struct sph *s, double dt)
     }
 }
 
+/* Collective. After it `now' and `impulse' are equal on all ranks, and `step' is empty for the next
+ * step. */
 void forces_step(struct sph *s, double dt)
 {
     struct wall_forces *f = &s->walls->forces;
@@ -223,7 +237,8 @@ bool forces_load(struct sph *s, struct h5 *f)
 }
 
 /* The mean over T of the first body's force by one of the two rules, and, if it is the one that
- * counts, how far it is from the wanted one. Returns the square of its size. */
+ * counts, how far it is from the wanted one. Returns the square of its size. error.force is
+ * relative to the scene's own `force' of the first body; it is left out where that is 0. */
 static double summarise_mean(const struct sph *s, const char *rule, const double *sum, double T,
                              bool counts)
 {

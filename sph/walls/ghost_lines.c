@@ -8,6 +8,9 @@
 #include "../particles/sph_particles.h"
 #include "walls.h"
 
+/* d, m, from the original to its image, along the normal; K, m/s^2, gravity less the wall's
+ * acceleration along it. The power is kept from 0: where K d/c0^2 is below -1/6 Tait's law has no
+ * density. */
 double ghost_density(const struct sph *s, double rho, double K, double d)
 {
     const double c2_1 = 1.0 / (s->c0 * s->c0), r = rho / s->rho0;
@@ -33,6 +36,8 @@ void ghost_set_line(const struct sph *s, double *line, const double *x, const do
         line[PRIM_FALSE] = 0.0;
 }
 
+/* Ghosts of a model follow each other without a gap behind those of the halo, so a block is its
+ * first number and its size. */
 int ghost_append(struct sph *s, struct ghost_block *g, int n)
 {
     const int first = s->p.n + s->p.nghost;

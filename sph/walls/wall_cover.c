@@ -33,6 +33,7 @@ struct cover_plane {
     bool *shut; /* [2 npieces] by the face's number: a closed room that shows a wall's back */
 };
 
+/* The place `at' m along a line, in x, which is returned. */
 static double *end_of(const struct cover_line *l, double at, double x[2])
 {
     for (int a = 0; a < 2; a++)
@@ -82,6 +83,7 @@ static void cut_by(struct cover_plane *p, int i, int j)
     }
 }
 
+/* Boxes of two lines are tested first: lines are compared all with all. */
 static bool are_apart(const struct cover_plane *p, const struct cover_line *l,
                       const struct cover_line *m)
 {
@@ -112,6 +114,7 @@ static bool cut_lines(struct cover_plane *p)
     return any;
 }
 
+/* By line, then along it: consecutive cuts of one line bound a piece. */
 static int by_place(const void *a, const void *b)
 {
     const struct cut *c = a, *d = b;
@@ -120,6 +123,7 @@ static int by_place(const void *a, const void *b)
     return (c->at > d->at) - (c->at < d->at);
 }
 
+/* Numbers the places where pieces meet; what is nearer than 2 near is one node. */
 static int node_at(struct cover_plane *p, const double *x)
 {
     for (int k = 0; k < p->nnodes; k++)
@@ -141,6 +145,7 @@ static bool is_laid(const struct cover_plane *p, const int node[2])
     return false;
 }
 
+/* Pieces whose two ends are one node are dropped, and the next piece begins where they did. */
 static void lay_pieces(struct cover_plane *p)
 {
     for (int i = 0; i < p->nlines; i++) {
@@ -267,6 +272,8 @@ static bool is_beyond(const struct cover_plane *p, int piece)
     return backs > 1;
 }
 
+/* Rooms are the faces of the planar graph: each half belongs to one walk, and an inner room is
+ * walked counter-clockwise, with a positive area. */
 static void find_rooms(struct cover_plane *p)
 {
     p->face = NEW(int, 2 * p->npieces);
@@ -278,6 +285,7 @@ static void find_rooms(struct cover_plane *p)
             walk(p, k);
 }
 
+/* By its middle, against the domain's box. */
 static bool is_outside(const struct cover_plane *p, int piece)
 {
     const struct piece *c = p->piece + piece;
@@ -297,6 +305,7 @@ static bool goes_on(const struct cover_plane *p, int piece)
     return false;
 }
 
+/* By the room that the piece's front, its even half, looks into. */
 static bool is_covered(const struct cover_plane *p, int piece)
 {
     return p->shut[p->face[2 * piece]] || is_beyond(p, piece) || goes_on(p, piece);
@@ -348,6 +357,7 @@ static bool are_whole(const struct cover_plane *p, int n, const struct wall_part
     return whole;
 }
 
+/* The walls come first and in their order, so that line k is wall k; the four open sides follow. */
 static struct cover_plane make_plane(int n, const double (*ends)[2][2], const double *lo,
                                      const double *hi, double near)
 {
@@ -358,6 +368,7 @@ static struct cover_plane make_plane(int n, const double (*ends)[2][2], const do
     return p;
 }
 
+/* In this order: doubles can be told by pieces alone, and rooms need a graph without them. */
 static void part_plane(struct cover_plane *p)
 {
     lay_pieces(p);

@@ -18,6 +18,7 @@ struct cover_box {
     double lo[2], hi[2];
 };
 
+/* From the two coordinates in the side to space, m; axes run cyclically after the side's. */
 static void place(const struct cover *c, double p, double q, double *x)
 {
     x[c->is->axis] = c->is->at;
@@ -53,6 +54,7 @@ static void corners(const struct cover *c, const struct cover_box *b, double (*x
         place(c, k == 1 || k == 2 ? b->hi[0] : b->lo[0], k > 1 ? b->hi[1] : b->lo[1], x[k]);
 }
 
+/* Of all covering meshes; triangle -1: there are none. */
 static struct tree_foot nearest(const struct cover *c, const double *x)
 {
     struct tree_foot best = {.distance = INFINITY, .triangle = -1};
@@ -82,6 +84,8 @@ static int above(int n, const double (*x)[3], const double *h, double (*y)[3])
     return corners;
 }
 
+/* The rectangle is left to the fluid; triangles are turned on low sides so that normals point out.
+ */
 static enum state whole(struct cover *c, const struct cover_box *b)
 {
     double x[4][3];
@@ -138,6 +142,9 @@ static enum state cut(struct cover *c, const struct cover_box *b, const struct t
     return HIDDEN;
 }
 
+/* Clear of the meshes: farther than half its diagonal from the nearest triangle. Of two halves that
+ * are all seen one rectangle is made again, so that a side that nothing covers costs two triangles.
+ */
 static enum state cover(struct cover *c, const struct cover_box *b)
 {
     const double p = 0.5 * (b->lo[0] + b->hi[0]), q = 0.5 * (b->lo[1] + b->hi[1]);

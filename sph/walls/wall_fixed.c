@@ -19,6 +19,7 @@ struct fixed {
     int *first, *near;     /* lines around the image of each, of the present step */
 };
 
+/* The mirror image of a ghost at its foot, carried along with its segment. */
 static void image(const struct walls *w, const struct fixed_node *d, double *x)
 {
     const double at[2] = {2.0 * d->foot[0] - d->x[0], 2.0 * d->foot[1] - d->x[1]};
@@ -43,6 +44,8 @@ static void find_rooms(const struct sph *s, struct fixed *m)
     }
 }
 
+/* Layers are laid once, from the walls as they are at t = 0; fixed_carry takes them to where these
+ * are. */
 static void *fixed_create(struct sph *s)
 {
     struct fixed *m = NEW(struct fixed, 1);
@@ -171,6 +174,7 @@ static void find_close(struct sph *s, struct fixed *m)
     }
 }
 
+/* The list serves all stages of a step, so its reach has the skin and the way of bodies. */
 static int list_near(struct sph *s, struct fixed *m, const double *x, int have)
 {
     const double reach = s->R + s->lists.skin + s->walls->speed * s->step.dt_most;
@@ -224,6 +228,7 @@ static void rates(struct sph *s)
         walls_keep_mass_of_all(s);
 }
 
+/* By the state, not by the records, which are those of the last stage. */
 static int behind(const struct sph *s, int *who)
 {
     const struct fixed *m = s->walls->state;

@@ -31,6 +31,7 @@ bool wall_gap_between(const struct wall_list *l, int k)
     return false;
 }
 
+/* Thin meshes cut their pairs and close their own sums: nothing of them is owed to others. */
 static bool is_thin(const struct sph *s, const struct wall_touch *t)
 {
     return s->dim == 3 && s->walls->meshes[t->of].thin;

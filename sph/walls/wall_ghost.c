@@ -77,6 +77,8 @@ static void no_slip(const struct wall_plane *const *side, int n, const double *f
         u[a] = sum[a] / orders;
 }
 
+/* Ghosts are set in the order in which they were mirrored, so that the original of a ghost of a
+ * ghost is there before it. */
 static void lines(struct sph *s)
 {
     const struct walls *w = s->walls;

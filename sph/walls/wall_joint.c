@@ -14,6 +14,7 @@ struct ray {
     double angle, from, to; /* m along the segment */
 };
 
+/* Joints of what never moves are found once. */
 static bool is_fixed(const struct walls *w, const struct segment *g)
 {
     return g->body < 0 || !w->bodies[g->body].moves;
@@ -180,6 +181,7 @@ static bool make_joint(const struct walls *w, const double *x, double near, doub
     return true;
 }
 
+/* Several ends may lie in one place: it is one joint. */
 static bool is_there(const struct wall_joints *to, const double *x, double near)
 {
     for (int k = 0; k < to->n; k++)
@@ -217,6 +219,7 @@ static void look_at_pair(const struct sph *s, struct wall_joints *to, int k, int
     }
 }
 
+/* Whether joints have to be found anew in each step. */
 static bool any_moves(const struct walls *w)
 {
     bool any = false;
@@ -244,6 +247,8 @@ void wall_joints_find(const struct sph *s, struct wall_joints *to)
         }
 }
 
+/* The fluid whose faces are nearest of those that show x their front; the first one if x is behind
+ * all. */
 int wall_joint_fluid(const struct wall_joint *j, const double *x)
 {
     int nearest = 0;
@@ -261,6 +266,7 @@ int wall_joint_fluid(const struct wall_joint *j, const double *x)
     return nearest;
 }
 
+/* Whether the line of sight from x to y goes through a segment, from either side. */
 static bool crosses(const struct segment *g, const double *x, const double *y)
 {
     const double p[2] = {x[0] - g->a[0], x[1] - g->a[1]}, q[2] = {y[0] - g->a[0], y[1] - g->a[1]};

@@ -43,6 +43,7 @@ static double over_layer(const struct sph *s, double h)
     return sum * s->dxD;
 }
 
+/* Sums from R inwards, so that each node adds one slab to the integral behind it. */
 void wall_layers_rooms(const struct sph *s, int n, double *ratio)
 {
     enum { FINE = 50 };
@@ -60,6 +61,8 @@ void wall_layers_rooms(const struct sph *s, int n, double *ratio)
     }
 }
 
+/* Layers of an even lattice stand dx/2, 3 dx/2 ... behind the wall; each stands for the slab that
+ * it is the middle of. */
 void wall_layers_crowding(const struct sph *s, int n, double *ratio)
 {
     ratio[n] = 0.0;

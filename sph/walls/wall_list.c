@@ -7,6 +7,7 @@
 
 enum { WALL_GROUP = 8 };
 
+/* Two places more than n: the particle to be added, and the end of the last row in `first'. */
 void wall_list_room(struct wall_list *l, int touches)
 {
     ROOM_IN(l->owner, l->who, l->n + 2);
@@ -15,7 +16,8 @@ void wall_list_room(struct wall_list *l, int touches)
     ROOM_IN(l->owner, l->touch, touches);
 }
 
-/* Neighbours along a polyline share a box, so that most particles are done with few of them. */
+/* Neighbours along a polyline share a box, so that most particles are done with few of them. Boxes
+ * are wider than their segments by `reach', so that the query is of the particle's point alone. */
 static int lay_boxes(const struct walls *w, struct wall_list *l, double reach)
 {
     const int n = (w->nsegments + WALL_GROUP - 1) / WALL_GROUP;
@@ -34,6 +36,8 @@ static int lay_boxes(const struct walls *w, struct wall_list *l, double reach)
     return n;
 }
 
+/* Distance to the segment itself, ends included: the reach holds the support, the list's skin and
+ * the way of bodies in a step. */
 static bool is_near(const struct segment *g, const double *x, double reach)
 {
     const double d[2] = {x[0] - g->a[0], x[1] - g->a[1]};
@@ -65,7 +69,8 @@ static int list_group(const struct walls *w, struct wall_list *l, int group, con
 
 /* --- joints --- */
 
-/* Of the part of a segment that touch t has, that from `from' to `to' is left. */
+/* Of the part of a segment that touch t has, that from `from' to `to' is left. Parts are counted in
+ * m along the segment. A touch that two joints cut keeps what both leave. */
 static void cut_touch(struct wall_list *l, struct wall_touch *t, double from, double to)
 {
     ROOM_IN(l->owner, l->cut, l->ncuts + 1);
@@ -128,6 +133,8 @@ static int part(const struct walls *w, struct wall_list *l, const double *x, dou
     return n;
 }
 
+/* The predicate of wall_list_cut_row in 2D: no joint hides the place x from the list's particle k.
+ */
 static bool sees(const struct sph *s, const struct wall_list *l, int k, const double *x)
 {
     bool hidden = false;
@@ -155,6 +162,8 @@ void wall_list_cut_row(const struct sph *s, const struct wall_list *l, int k, wa
 
 static bool is_parted(const struct wall_list *l, int k) { return l->joints.n > 0 && l->parted[k]; }
 
+/* Joints move with bodies, so they are found before touches are listed; rows of the list of pairs
+ * are cut last, when it is known who is parted. */
 static void build(const struct sph *s, struct wall_list *l)
 {
     const struct walls *w = s->walls;
@@ -204,7 +213,9 @@ static struct wall_moments moments_of(int integrals, double height, double from,
     return wall_points(height, from, to, integrals == INTEGRALS_NUMERICAL);
 }
 
-/* cut: which part of g, m along it; NULL: all. */
+/* cut: which part of g, m along it; NULL: all. Fills the touch for a particle at x: height over the
+ * line, m, positive on the fluid's side, vector to the centre of weight, and both integrals, W in
+ * m^-1. From beyond an open end both are 0. */
 static void measure(const struct segment *g, int integrals, const double *cut, const double *x,
                     double R, struct wall_touch *t)
 {
@@ -234,7 +245,8 @@ void wall_list_build(const struct sph *s, struct wall_list *l)
         wall_list3_build(s, l);
 }
 
-/* What `more' has goes to t, of the same plane. */
+/* What `more' has goes to t, of the same plane. Weights add, centres are weighted means; the joined
+ * touch is emptied but keeps its place, since fluxes are stored by touch. */
 static void touch_join(struct wall_touch *t, struct wall_touch *more)
 {
     const double W = t->is.W + more->is.W;
@@ -295,6 +307,7 @@ static void close_open_ends(const struct sph *s, struct wall_list *l)
     }
 }
 
+/* The body that the piece belongs to, whatever own_covered has made of it; -1: walls at rest. */
 static int owner_of(const struct walls *w, const struct wall_touch *t, int dim)
 {
     return dim == 2 ? w->segments[t->piece].body : w->meshes[t->of].body;

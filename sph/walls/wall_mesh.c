@@ -34,6 +34,8 @@ void wall_mesh_to_world(const struct wall_mesh *m, const double *own, double *x)
         x[a] = m->X[a] + d[a];
 }
 
+/* Velocity of rigid motion, u + omega x d; its time derivative has the angular acceleration and the
+ * centripetal part omega x (omega x d). */
 void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const double *x,
                         double *u, double *du)
 {
@@ -57,6 +59,7 @@ void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const 
     }
 }
 
+/* X is the image of the mesh's own origin: x = centre + motion + Q (own - centre) + shift. */
 void wall_meshes_move(struct walls *w)
 {
     for (int k = 0; k < w->nmeshes; k++) {
@@ -168,6 +171,7 @@ static void free_own(struct wall_mesh *m)
 
 /* --- sides of the domain --- */
 
+/* A side is 2 axis + (1 if it is the upper one). A region that ends before it has no wall there. */
 static bool is_wall_side(const struct sph *s, int side)
 {
     return scene_side_is_wall(&s->run->scene, SIDE_X_MIN + side) &&
@@ -181,6 +185,7 @@ struct wall_covers {
     const struct tree *tree[WALLS_MAX];
 };
 
+/* What moves covers nothing for good, and thin meshes have fluid on both sides. */
 static void find_covers(const struct sph *s, struct wall_covers *to)
 {
     const struct scene *c = &s->run->scene;
@@ -211,6 +216,7 @@ static struct trimesh triangles_of(const struct sph *s, int side, const struct w
     return wall_cover_side(&is, by->n, by->tree, s->dx);
 }
 
+/* At rest, in the frame of the world. The array may move: no pointer into it outlives this call. */
 static struct wall_mesh *add_mesh(struct walls *w)
 {
     GROW_IN(w, w->meshes, w->nmeshes, w->nmeshes + 1);

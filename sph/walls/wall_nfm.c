@@ -45,6 +45,7 @@ static void *nfm_create(struct sph *s)
     return m;
 }
 
+/* Once a step. Which pieces a level pushes depends on places, too, so it is judged anew. */
 static void list(struct sph *s)
 {
     struct nfm *m = s->walls->state;
@@ -96,7 +97,8 @@ static double share_that_pushes(const struct sph *s, const struct nfm *m, int k)
     return all > 0.0 ? gamma_of_pushing(s, m, k) / all : 0.0;
 }
 
-/* Of a table over distances from 0 to R, in units of R. */
+/* Of a table over distances from 0 to R, in units of R. Linear between RATIOS + 1 nodes; beyond R
+ * the last value. */
 static double ratio_at(const double *table, double distance)
 {
     const double at = RATIOS * fmin(distance, 1.0);
@@ -181,6 +183,7 @@ static void bound_shifts(struct sph *s)
         shift_before_walls(s, &m->list, k);
 }
 
+/* After the first pass: gradients and shifts of the pairs are there, rates are not. */
 static void slopes(struct sph *s)
 {
     struct nfm *m = s->walls->state;
@@ -234,6 +237,7 @@ INLINE double wall_pressure(const struct sph *s, const struct seen *i, const dou
            (un < 0.0 ? held : near) * rho * eos_c(rho, s->rho0, s->c0, s->gamma) * un;
 }
 
+/* Both Riemann schemes come first in enum sph_scheme. */
 static bool is_riemann(const struct sph *s) { return s->prm.scheme <= SCHEME_RIEMANN; }
 
 /* Whether the wave to a piece counts in full: of bodies alone, but tanks, it does not. Beside what
@@ -426,6 +430,8 @@ INLINE struct given rim_flux(const struct sph *s, const double *rim, const struc
     return to;
 }
 
+/* Reads the packed records of the first pass: x, u, w, rho; gradients of rho and u; the transport
+ * velocity u0. The damper's pressure is that of the pairs, so that walls and pairs agree. */
 INLINE struct seen look(const struct sph *s, int i, const int dim)
 {
     const double *q = prim_line(&s->p, i), *g = slope_line(&s->p, i), rho = q[at_rho(dim)];
@@ -448,6 +454,8 @@ INLINE struct seen look(const struct sph *s, int i, const int dim)
                          .in_air = wall_air_around(s, g, dim)};
 }
 
+/* Whether the shift carries momentum and volume as a term of its own (scheme_take_along): in
+ * schemes without ALE fluxes. That term is no sum over the support, so gamma does not divide it. */
 static bool takes_along(const struct sph *s)
 {
     return !is_riemann(s) &&
@@ -555,6 +563,7 @@ INLINE void credit(const struct sph *s, struct nfm *m, int k, const struct seen 
         wall_gap_exchange(s, l, k, (const double(*)[3])m->q, i->w);
 }
 
+/* With levels: guards that push a wall need rates of their own, for credit reads them. */
 static void pushing(struct sph *s, bool *who)
 {
     struct nfm *m = s->walls->state;
@@ -670,6 +679,7 @@ static double channel_streams(const struct sph *s)
                                               : 0.0;
 }
 
+/* Once a stage, after the pairs: rates then hold sums over pairs and gravity. */
 static void rates(struct sph *s)
 {
     struct nfm *m = s->walls->state;
@@ -720,6 +730,7 @@ static void moments(struct sph *s, double *M, double *g)
     }
 }
 
+/* Outside of a stage: the next one measures anew. */
 static void gammas(struct sph *s, double *gamma)
 {
     struct nfm *m = s->walls->state;
@@ -750,6 +761,8 @@ static void rooms(struct sph *s, double *room)
     }
 }
 
+/* Beside rims and joints the side on which a particle lies now does not tell whether it has come
+ * through: the list remembers where it was. */
 static void back(struct sph *s)
 {
     const struct nfm *m = s->walls->state;

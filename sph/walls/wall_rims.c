@@ -7,6 +7,7 @@
 
 static const double least = 1e-3, whole = 0.1; /* -: R times the integral, from which it counts */
 
+/* Farther than R from a free surface; where the surface has not looked yet, nobody is. */
 static bool is_inside(const struct sph *s, int i)
 {
     const unsigned char *near = s->walls->near_surface;

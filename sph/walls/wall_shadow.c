@@ -10,6 +10,8 @@ enum { CORNERS = 12 };
 
 static const double thickness = 1e-9; /* of R: what lies so little behind a plane lies in it */
 
+/* Corners are seen from the origin. Planes are turned so that the shadow is on their positive side.
+ * false: the point lies in the triangle's plane, which then hides nothing. */
 bool shadow_caster_of(double (*v)[3], struct shadow_caster *c)
 {
     double e[2][3];
@@ -81,6 +83,8 @@ static int keep_above(int corners, double (*y)[3], const double *n, double h)
     return kept;
 }
 
+/* A convex polygon as triangles around its first corner; slivers have no normal, and nothing to
+ * add. */
 static void add_fan(int n, double (*y)[3], double R, struct wall_integrals *to)
 {
     static const double here[3] = {0.0, 0.0, 0.0};
@@ -114,6 +118,8 @@ void shadow_add(const struct shadow_caster *c, int n, double (*y)[3], double R,
         add_fan(n, x, R, to);
 }
 
+/* The strip from an edge to 1.5 R, away from the point at the origin: what of that plane the
+ * support holds beyond the edge. */
 void shadow_beyond(const double *a, const double *b, double R, double (*y)[3])
 {
     double along[3];

@@ -4,6 +4,7 @@
 #include "facet.h"
 #include "wall_moments.h"
 
+/* Part of the Shepard factor that the faces of one body take at x, with the sign of 1 - gamma. */
 static double share_of_segments(const struct sph *s, int body, const double *x)
 {
     const struct walls *w = s->walls;
@@ -38,7 +39,8 @@ static int near_facets(const struct wall_mesh *m, double R, const double *own, s
     return n;
 }
 
-/* own: in the frame of the mesh. */
+/* own: in the frame of the mesh. As share_of_segments, of the triangles within R of a place in the
+ * frame of the mesh. */
 static double share_of_mesh(const struct wall_mesh *m, double R, const double *own)
 {
     struct wall_integrals sum = {0};
@@ -180,6 +182,7 @@ void wall_share_weight(const struct sph *s, int body, const double *x, const dou
             weight_of_mesh(w->meshes + k, s->R, x, n, s->gravity, out);
 }
 
+/* Inside an owner the sum over its faces is one less than its share. */
 static double within(double sum) { return sum < -1e-6 ? sum + 1.0 : sum; }
 
 double wall_share(const struct sph *s, int body, const double *x)

@@ -31,6 +31,8 @@ static void add_face(struct faces *f, const double *a, const double *b, struct t
     f->face[f->n++] = with;
 }
 
+/* Signed, m^2: positive if the points run counter-clockwise, so that the solid is on their left and
+ * they have to be taken backwards. */
 static double area(const struct param_points *p)
 {
     double sum = 0.0;
@@ -41,6 +43,8 @@ static double area(const struct param_points *p)
     return sum;
 }
 
+/* `at' counts the length along the polyline, by which `way' measures how far apart two places are.
+ */
 static void add_points(struct faces *f, const struct param_points *p, bool closed, bool backwards,
                        int piece)
 {
@@ -162,6 +166,8 @@ static bool is_side(const struct scene *c, const struct thin_face *g)
     return g->piece < WALLS_MAX && c->walls[g->piece].side != SIDE_NONE;
 }
 
+/* Between faces of one piece, or two sides of the domain, there is a room but no passage that leads
+ * from one water to another. */
 static bool is_no_passage(const struct faces *f, const struct thin_face *g,
                           const struct thin_face *h)
 {

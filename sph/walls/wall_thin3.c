@@ -68,6 +68,7 @@ static bool sees(const struct sph *s, const struct wall_list *l, int k, const do
     return true;
 }
 
+/* Whether the particle has a thin mesh within reach: all else needs no shading. */
 static bool has_thin(const struct sph *s, const struct wall_list *l, int k)
 {
     bool any = false;
@@ -246,6 +247,8 @@ static void add_edge(const struct sph *s, const struct wall_list *l, int pieces,
     vec3_add(sum, vec3_dot(N, o) > 0.0 ? W : -W, N);
 }
 
+/* Edges without a neighbour are rims; so are those whose neighbour shows its other face: seen from
+ * x the sheet ends there. */
 static void add_rims(const struct sph *s, const struct wall_list *l, int k, int pieces,
                      const struct thin_piece *c, double *rim)
 {
@@ -269,6 +272,8 @@ static void add_rims(const struct sph *s, const struct wall_list *l, int k, int 
     }
 }
 
+/* In this order: shares of thin pieces need all pieces, rims need the shares, and what is taken
+ * from touches last still has the weights that both were measured by. */
 static void shade(const struct sph *s, struct wall_list *l, int k)
 {
     const int n = l->first[k + 1] - l->first[k], pieces = gather(s, l, k);

@@ -11,6 +11,7 @@
 #include "forces.h"
 #include "wall_cover.h"
 
+/* The normal is the tangent turned clockwise: out of a fluid on the left. */
 static void set_frame(struct segment *g)
 {
     const double d[2] = {g->b[0] - g->a[0], g->b[1] - g->a[1]};
@@ -139,6 +140,7 @@ static void add_side(struct sph *s, struct walls *w, const struct scene_wall *is
     add_segment(w, forward ? a : b, forward ? b : a, &like);
 }
 
+/* Velocity along the side alone: a plane of mirrored ghosts stays where it is. */
 static void add_plane(const struct sph *s, struct walls *w, const struct scene_wall *is)
 {
     const int axis = (is->side - SIDE_X_MIN) / 2;
@@ -175,6 +177,9 @@ static void place_segment(const struct body *b, const struct segment *start, str
     set_frame(now);
 }
 
+/* Images are the last segments, and an image of an image points at the original, so one pass
+ * backwards reaches all. Free bodies move within a stage at one and the same t: then nothing may be
+ * skipped. */
 void walls_move(struct sph *s, double t)
 {
     struct walls *w = s->walls;
@@ -196,6 +201,8 @@ void walls_move(struct sph *s, double t)
     w->placed = true;
 }
 
+/* Rigid: u + spin x d; its derivative has the centripetal part. A body that bends interpolates
+ * between the points of its outline. */
 void walls_velocity(const struct walls *w, const struct segment *g, const double *x, double *u,
                     double *du)
 {
@@ -276,7 +283,8 @@ int walls_nearest(const struct walls *w, const double *x, double *foot)
     return found;
 }
 
-/* The nearest point of all walls. */
+/* The nearest point of all walls. With the normal of the face, not of the way from x: a particle
+ * behind a wall is put back along it. */
 static struct wall_foot foot_of(const struct sph *s, const double *x)
 {
     const struct walls *w = s->walls;
@@ -386,6 +394,8 @@ bool walls_in_body(const struct sph *s, const double *x)
     return in;
 }
 
+/* The velocity relative to the wall that led behind it is taken as one impulse, reported as a hit
+ * on the wall's owner, so that the momentum balance holds. Guards carry no momentum of the flow. */
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
 {
     const int dim = s->dim;
@@ -430,6 +440,8 @@ bool walls_put_back(struct sph *s, int i)
     return true;
 }
 
+/* The model first, which knows from which side particles came; then the planes of mirrored ghosts,
+ * as far as dx behind them. */
 void walls_put_back_inside(struct sph *s)
 {
     const int dim = s->dim;
@@ -463,6 +475,8 @@ double *walls_rooms(struct sph *s)
     return room;
 }
 
+/* A share of everybody's mass, the same on all ranks: mass and momentum are conserved over all
+ * ranks, and velocities do not change. */
 double walls_keep_mass(struct sph *s, double made, int n, const int *who)
 {
     double sums[2] = {made, 0.0};
