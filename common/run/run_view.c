@@ -28,8 +28,9 @@ static void write_folder(FILE *f, const char *dir)
  * there is a surface and whether the box of the domain is to be drawn. */
 static void write_scene(FILE *f, const struct scene *s)
 {
-    const double *g = s->fluid.gravity, *a = s->domain.min, *b = s->domain.max;
-    const double all = vec3_length(g), G = all > 0.0 ? all : 1.0;
+    double g[3];
+    const double *a = s->domain.min, *b = s->domain.max;
+    const double all = scene_still_gravity(s, g), G = all > 0.0 ? all : 1.0;
     fprintf(f, "dim, up = %d, [%g, %g, %g]\n", s->domain.dim, -g[0] / G, -g[1] / G,
             all > 0.0 ? -g[2] / G : 1.0);
     fprintf(f, "low, high = [%.9g, %.9g, %.9g], [%.9g, %.9g, %.9g]\n", a[0], a[1], a[2], b[0], b[1],

@@ -3,6 +3,7 @@
 
 #include "../files/files.h"
 #include "picture_section.h"
+#include "scene_fluid.h"
 #include "scene_lines.h"
 #include "scene_probe.h"
 #include "scene_waves.h"
@@ -136,10 +137,12 @@ void picture_box(struct picture *p, enum picture_kind kind, const double lo[3], 
         picture_text(p, (const double[]){lo[0], lo[1], lo[2]}, label);
 }
 
-/* Water below a level against gravity, cut to the domain: a half plane in the picture. */
+/* Water below a level, cut to the domain: a half plane in the picture. Heights are against the
+ * gravity that water at rest has; what drives it along a period tilts no surface. */
 static void below(struct picture *p, enum picture_kind kind, double level)
 {
-    const double *g = p->s->fluid.gravity, G = vec3_length(g);
+    double g[3];
+    const double G = scene_still_gravity(p->s, g);
     const double n[2] = {G > 0.0 ? -g[p->axis[0]] / G : 0.0, G > 0.0 ? -g[p->axis[1]] / G : 1.0};
     double box[4][2], kept[8][2];
     int m = 0;

@@ -97,6 +97,8 @@ struct birth_strip {
     int *next, *head;
 };
 
+/* The chain of the cell of side dx that x lies in, off by off[] cells. Different cells may share a
+ * chain, so distances are compared in any case. */
 static int strip_cell(const struct birth_strip *t, const struct openings *o, const double *x,
                       const int *off)
 {
@@ -166,7 +168,8 @@ static void born(struct sph *s, int f, const double *x, const double *u, double 
     o->born++;
 }
 
-/* Mass goes to the face beside f that holds least. */
+/* Mass goes to the face beside f that holds least. f itself where no face beside it is wet: then
+ * nothing changes. */
 static void pass_on(struct openings *o, int f, double mass)
 {
     const int to = openings_beside(o, f, -1.0);
@@ -279,7 +282,8 @@ static void drop_deficits(struct sph *s)
 }
 
 /* Twice summed: births must see what all ranks have booked, and what they take must be known to all
- * before the next step. */
+ * before the next step. Leavers first, so that the faces they pay into can give birth in the same
+ * step; wet shares before both, for they say which face a particle belongs to. */
 void births_step(struct sph *s, double dt)
 {
     if (s->zones->surface)

@@ -25,6 +25,7 @@ bool box_motion_wanted(const struct sph_params *prm)
     return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0 || prm->box_follows[0];
 }
 
+/* Whether the box follows a crest, which nobody knows beforehand. */
 static bool chases(const struct sph_params *prm)
 {
     return strcmp(prm->box_follows, BOX_TRACKING) == 0;
@@ -33,13 +34,16 @@ static bool chases(const struct sph_params *prm)
 bool box_motion_along(const struct run *r, const struct sph_params *prm, int a)
 {
     bool open[6];
+    double still[3];
     sph_params_open(r, prm, open);
-    if (chases(prm) && r->scene.fluid.gravity[a] != 0.0)
+    scene_still_gravity(&r->scene, still);
+    if (chases(prm) && still[a] != 0.0)
         return false;
     return box_motion_wanted(prm) && open[2 * a] && open[2 * a + 1] &&
            (prm->box_follows[0] || prm->box_velocity[a] != 0.0);
 }
 
+/* The body that the box follows; -1: none of that name. */
 static int body_of(const struct run *r, const struct sph_params *prm)
 {
     for (int k = 0; k < r->scene.nbodies; k++)
@@ -48,6 +52,7 @@ static int body_of(const struct run *r, const struct sph_params *prm)
     return -1;
 }
 
+/* m: how far the body's centre is from where the case has it. */
 static void way_of_body(const struct body *b, double way[3])
 {
     double to[3] = {0.0, 0.0, 0.0};
@@ -174,6 +179,7 @@ void box_motion_step(struct sph *s, double dt, struct diagnosis *d)
     judge(s, d);
 }
 
+/* At a restart: the place, m from that of the case; its speed follows from the next step. */
 void box_motion_set(struct sph *s, const double way[3])
 {
     if (!box_motion_wanted(&s->prm))

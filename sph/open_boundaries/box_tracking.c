@@ -13,11 +13,11 @@
 static const double share = 0.25; /* of the time in which the fastest box goes its length: tau */
 static const double least = 5.0;  /* particles that make a crest, in each column across it */
 
-/* Against gravity: unit vector; its size, m/s^2. */
+/* Against the gravity that water at rest has: unit vector; its size, m/s^2. */
 static double upwards(const struct run *r, double up[3])
 {
-    const double *g = r->scene.fluid.gravity;
-    const double size = vec3_length(g);
+    double g[3];
+    const double size = scene_still_gravity(&r->scene, g);
     for (int a = 0; a < 3; a++)
         up[a] = size > 0.0 ? -g[a] / size : 0.0;
     return size;

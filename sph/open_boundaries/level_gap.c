@@ -183,7 +183,8 @@ static void look_at_side(struct sph *s, int side, double dt)
  * resists it: in a period the partner gives it back, and in a tank it only tilts the water. Waves
  * leave a millimetre of gap where they come in (particles that enter stand closer there), which
  * called for ever more of it: after 16 periods the water before the box stood 0.15 of their
- * amplitude above that behind it, instead of 0.08. */
+ * amplitude above that behind it, instead of 0.08. What both sides have in common is kept: it
+ * changes how much water the region holds. */
 static void leave_out_circulation(const struct sph *s, double *outflow, int axis)
 {
     double *low = outflow + 2 * axis, *high = low + 1;
@@ -191,6 +192,7 @@ static void leave_out_circulation(const struct sph *s, double *outflow, int axis
         *low = *high = 0.5 * (*low + *high);
 }
 
+/* Once a step, after births: sets the flow, m/s, that openings add until the next one. */
 void level_gap_look(struct sph *s, double dt)
 {
     const int up = zones_upright(s);
@@ -265,6 +267,7 @@ void level_gap_summary(const struct sph *s, struct summary *to)
         summary_real(to, momentum[a], sums[3 + a]);
 }
 
+/* A restart is no start: what the columns say then is a gap already. */
 bool level_gap_restart(struct sph *s, struct h5 *f)
 {
     struct level_gap *g = s->zones->gap;

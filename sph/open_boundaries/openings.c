@@ -127,6 +127,8 @@ int openings_beside(const struct openings *o, int f, double sense)
     return to;
 }
 
+/* s: since a particle came in, by its identity; those of the first filling are as old as the run.
+ */
 double openings_age(const struct sph *s, int64_t id)
 {
     const struct openings *o = s->zones->openings;
@@ -144,6 +146,7 @@ double openings_held(const struct sph *s)
     return sum - o->deficit;
 }
 
+/* Evenly over all faces, wherever it came in. */
 void openings_let_out(struct openings *o, double mass)
 {
     const int n = openings_faces(o);
@@ -151,6 +154,7 @@ void openings_let_out(struct openings *o, double mass)
         o->mass[f] -= mass / n;
 }
 
+/* Beyond the ends of a side the last face stands for the place; across a period faces go round. */
 int openings_face(const struct openings *o, int side, const int *I)
 {
     int f = 0;
@@ -232,6 +236,8 @@ static void collect_deficits(struct sph *s)
         o->deficit / (s->rho0 * area * openings_faces(o)) * s->c0 / (drain_time * s->R); /* m/s */
 }
 
+/* After the masses have changed: what they say of the lattice behind the faces, m, inwards
+ * positive; no farther in than a face may lack, one dx out. */
 void openings_settle(struct sph *s)
 {
     struct openings *o = s->zones->openings;

@@ -57,6 +57,8 @@ static void list_side(struct sph *s, int side, const double *lo, const double *h
             }
 }
 
+/* With each new list, last of all ghosts: places are those of the step's start, `ghost_t', from
+ * which outer_lattice_move carries them. */
 void outer_lattice_ghosts(struct sph *s)
 {
     struct openings *o = s->zones->openings;

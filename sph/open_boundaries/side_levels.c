@@ -51,6 +51,7 @@ struct side_levels {
     double t;     /* s: of the last update */
 };
 
+/* An outlet without a discharge keeps the level that it starts with. */
 static bool has_level(const struct scene_wall *w)
 {
     return w->has_level || (w->kind == WALL_OUTFLOW && !w->has_discharge);
@@ -271,6 +272,7 @@ static void update_side(const struct sph *s, const struct side_levels *l, struct
     of->area = section_below(s, l, of, of->level);
 }
 
+/* Collective. The bed is found first: it needs faces and walls, which are made after the zones. */
 void side_levels_update(const struct sph *s, struct side_levels *l)
 {
     double bands[6][BAND] = {{0.0}};
@@ -338,6 +340,7 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
 
 double side_levels_level(const struct side_levels *l, int side) { return l->of[side].level; }
 
+/* Room and bed are not kept: they follow from the case. */
 bool side_levels_restart(struct side_levels *l, struct h5 *f)
 {
     double all[6][KEPT];

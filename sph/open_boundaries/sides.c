@@ -63,7 +63,8 @@ static int bin_of(const struct sides *d, int side, const double *x, double place
     return of->first + bin;
 }
 
-/* Bin beside I[2], off by o[2]; -1: none. */
+/* Bin beside I[2], off by o[2]; -1: none. A period of two bins or one has no bins beside: they
+ * would count twice. */
 static int beside(const struct opening_side *of, const int *I, const int *o)
 {
     int at[2];
@@ -309,6 +310,8 @@ static void find_cuts(const struct sph *s, int side, struct opening_side *of)
     }
 }
 
+/* At each stage's start. In this order: the table's sums, what goes by sums (shares, surges), then
+ * planes, which turn sums to means. */
 static void look_inside(struct sph *s)
 {
     struct sides *d = s->zones->ctx;
@@ -445,6 +448,8 @@ static void eval_side(const struct sides *d, int side, const double *x, double *
     u[side / 2] -= openings_inward(side) * f * d->surge[side] / (s->rho0 * s->c0);
 }
 
+/* t does not matter: the sides answer the flow inside as it was at the last update. Velocities have
+ * no gradients. */
 static void eval_sides(void *ctx, double t, int n, const double *x, double *u, double *p,
                        double *gu, double *gp)
 {
@@ -469,6 +474,8 @@ static void water_outside(void *ctx, double t, int n, const double *x, double *p
     side_levels_surface(d->s, d->levels, n, x, phi, gphi);
 }
 
+/* own_u and own_p tell blending what a side takes from the flow inside: of an outlet or a given
+ * level its velocity, of an inflow its pressure. */
 void sides_create(struct sph *s, struct zones *z)
 {
     struct sides *d = NEW_IN(z, struct sides, 1);

@@ -31,6 +31,7 @@ static void place_of(const struct wave_stream *w, const double *x, double at[3])
     at[2] = w->sign * x[w->up] - w->level;
 }
 
+/* From along, up, across to the axes of the case. */
 static void to_axes(const struct wave_stream *w, const double v[3], double u[3])
 {
     for (int a = 0; a < 3; a++)

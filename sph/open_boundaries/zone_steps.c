@@ -230,6 +230,7 @@ static double level_inside(struct sph *s)
     return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
 }
 
+/* kg: of all ranks. With levels the step has counted it, each place once. Collective. */
 double zones_mass(const struct sph *s)
 {
     double sum = 0.0;
@@ -250,6 +251,7 @@ static double gained(const struct sph *s)
  * of impacts. */
 static const double level_memory = 10.0;
 
+/* Whether some side takes that from the flow inside. */
 static bool any_side(const bool *has, int dim)
 {
     bool any = false;
@@ -337,6 +339,7 @@ void zones_blend(struct sph *s)
     }
 }
 
+/* After a step: the gap is measured with the new particles in. */
 void zones_openings(struct sph *s, double dt)
 {
     births_step(s, dt);

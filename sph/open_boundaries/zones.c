@@ -167,6 +167,7 @@ int zones_upright(const struct sph *s)
     return up;
 }
 
+/* Outwards through the nearest open side, m/s. */
 static void add_drain(struct zones *z)
 {
     double below;
@@ -253,6 +254,7 @@ double zones_share(const struct sph *s, int i)
     return f;
 }
 
+/* By depth from the nearest open side, of local particles. */
 void zones_mark(struct sph *s)
 {
     const struct zones *z = s->zones;

@@ -26,6 +26,7 @@ struct free_surface *sph_surface_create(struct sph *s)
     return f;
 }
 
+/* Grown by an eighth more, since numbers change with every list. */
 void surface_room(struct free_surface *f, int n, int dim)
 {
     if (n <= f->capacity)
@@ -216,6 +217,7 @@ static void find_near(struct sph *s, struct free_surface *f)
     }
 }
 
+/* Shifting laws alone ask who is near the surface. */
 static bool finds_near(const struct sph *s)
 {
     return s->prm.transport == TRANSPORT_TVS || s->prm.transport == TRANSPORT_TVO;
@@ -227,6 +229,7 @@ bool surface_reaches(const struct sph *s, int i)
            (s->surface->is[i] != SURFACE_INNER || !finds_near(s));
 }
 
+/* Collective where ranks or ghosts exist: near ghosts are asked of their owners. */
 void surface_detect(struct sph *s)
 {
     struct free_surface *f = s->surface;

@@ -36,6 +36,7 @@ static bool wanted(const struct sph *s)
            vec3_length(s->gravity) > 0.0 && !s->packing && !s->zones && !s->mixed;
 }
 
+/* Before the first pass, which leaves its sums of w W in `less'. */
 void volume_feedback_prepare(struct sph *s)
 {
     struct free_surface *f = s->surface;
