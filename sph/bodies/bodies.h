@@ -28,6 +28,11 @@ double bodies_dt(const struct sph *s);
 
 /* body_lines.c: index of the body at the other end of a line; -1: it is fixed in space. */
 int body_line_other(const struct scene *c, const struct scene_line *l);
+/* What the force of a line of body b meets at the start, kg, in 2D per metre: the effective masses
+ * of both its ends, one after the other, as springs in series; INFINITY: neither yields. *way: the
+ * line's vector, m, from the body; 0 has no direction. */
+double body_line_mass(const struct scene *c, const struct body *b, const struct scene_line *l,
+                      double way[3]);
 void body_lines_slack(struct body *b);
 void body_lines_add(const struct scene *c, struct body *bodies, int k, double (*loads)[6]);
 double body_lines_energy(const struct scene *c, const struct body *bodies, int k);

@@ -252,12 +252,9 @@ static void check_line(const struct run *r, int k, int i, const struct body *b, 
 {
     const struct scene_line *l = b->is->lines.of + i;
     const int other = body_line_other(&r->scene, l);
-    double arm[3], e[3];
+    double way[3];
+    const double M = body_line_mass(&r->scene, b, l, way);
     const char *key = key_text("bodies.[%d].lines.[%d]", k, i);
-    for (int a = 0; a < 3; a++) {
-        arm[a] = l->from[a] - b->centre[a];
-        e[a] = l->to[a] - l->from[a];
-    }
     if (b->dim == 2 && (l->from[2] != 0.0 || l->to[2] != 0.0))
         params_fault(r->params, f, key, "z component in a case of 2 dimensions");
     if (*l->body && (other < 0 || other == k))
@@ -269,14 +266,10 @@ static void check_line(const struct run *r, int k, int i, const struct body *b, 
         params_fault(r->params, f, key,
                      "goes from a place outside of the body to one in it: `from' is the point of "
                      "the body, `to' the anchor");
-    if (vec3_length(e) <= 0.0) {
+    if (vec3_length(way) <= 0.0) {
         params_fault(r->params, f, key, "from and to are one place: it has no direction");
         return;
     }
-    for (int a = 0; a < 3; a++)
-        e[a] /= vec3_length(
-            (double[]){l->to[0] - l->from[0], l->to[1] - l->from[1], l->to[2] - l->from[2]});
-    const double M = body_effective_mass(b, arm, e);
     check_spring(r, key, isfinite(M) ? M : b->free->mass, dt, l->stiffness, l->damping, "N/m", f);
 }
 
@@ -328,24 +321,10 @@ static void check_free(const struct run *r, const struct sph_params *used, int k
                      is->hinge.of[0].damping, "N m", f);
 }
 
-static void check_names(const struct run *r, struct faults *f)
-{
-    const struct scene *c = &r->scene;
-    for (int k = 0; k < c->nbodies; k++)
-        for (int m = 0; m < k; m++)
-            if (strcmp(c->bodies[k].name, c->bodies[m].name) == 0 &&
-                (scene_body_moves(c->bodies + k) || scene_body_moves(c->bodies + m))) {
-                params_fault(r->params, f, key_text("bodies.[%d].name", k),
-                             "`%s' is body %d already: moving bodies need names of their own",
-                             c->bodies[k].name, m + 1);
-            }
-}
-
 void body_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
     const int dim = c->domain.dim;
-    check_names(r, f);
     for (int k = 0; k < c->nbodies; k++) {
         struct body b;
         body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->motions);

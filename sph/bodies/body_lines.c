@@ -13,6 +13,32 @@ int body_line_other(const struct scene *c, const struct scene_line *l)
     return -1;
 }
 
+/* 1/kg: how much the body yields to the unit force e at a point of it at the start, m. */
+static double yield_of(const struct body *b, const double *at, const double *e)
+{
+    double arm[3];
+    vec3_from(b->centre, at, arm);
+    return 1.0 / body_effective_mass(b, arm, e);
+}
+
+double body_line_mass(const struct scene *c, const struct body *b, const struct scene_line *l,
+                      double way[3])
+{
+    const int k = body_line_other(c, l);
+    double e[3];
+    vec3_from(l->from, l->to, way);
+    memcpy(e, way, sizeof e);
+    vec3_unit(e);
+    double yields = yield_of(b, l->from, e);
+    if (k >= 0) { /* its mass asks for no file of motion */
+        struct body other;
+        body_create(&other, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, NULL);
+        yields += yield_of(&other, l->to, e);
+        body_destroy(&other);
+    }
+    return 1.0 / yields;
+}
+
 /* Ends of a line now and how fast they move. */
 static void ends_of(const struct body *b, const struct body *other, const struct scene_line *l,
                     double x[2][3], double u[2][3])

@@ -3,6 +3,7 @@
 #include "body_pace.h"
 
 #include "../../common/scene/scene.h"
+#include "bodies.h"
 
 /* Fall through the air above the water, and what weight and buoyancy make of a body in it. */
 static double fall_of(const struct scene *c, const struct body *b)
@@ -70,14 +71,11 @@ static struct forced forced_by(const struct scene *c, const struct body *b)
     const double J = is->rotation == TURNS_AXIS ? is->J : is->mass * b->reach * b->reach;
     for (int i = 0; i < b->is->lines.n; i++) {
         const struct scene_line *l = b->is->lines.of + i;
-        double arm[3], e[3];
-        vec3_from(b->centre, l->from, arm);
-        vec3_from(l->from, l->to, e);
-        const double length = vec3_length(e), slack = l->length >= 0.0 ? l->length : length;
-        for (int a = 0; a < 3; a++)
-            e[a] /= length > 0.0 ? length : 1.0;
-        add_spring(&f, l->stiffness, wet * body_effective_mass(b, arm, e),
-                   l->pull_only ? fmax(length - slack, 0.0) : length - slack, start, 1.0);
+        double way[3];
+        const double M = wet * body_line_mass(c, b, l, way), length = vec3_length(way),
+                     slack = l->length >= 0.0 ? l->length : length;
+        add_spring(&f, l->stiffness, M, l->pull_only ? fmax(length - slack, 0.0) : length - slack,
+                   start, 1.0);
     }
     if (b->is->hinge.n > 0)
         add_spring(&f, b->is->hinge.of[0].stiffness, wet * J, b->is->hinge.of[0].at_rest,

@@ -479,6 +479,8 @@ faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.5); st
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.5); stiffness = 1e9; }/', r'bodies.\[0\].hinge: stiffness 1e+09 is too large .* at most', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); stiffness = 1e9; } )/', r'bodies.\[0\].lines.\[0\]: stiffness 1e+09 is too large .* at most', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); damping = 1e9; } )/', r'lines.\[0\]: damping 1e+09 is too large .* at most', 'sph')
+light = ' }, { name = "c"; box = ((1.5, 0.7), (1.6, 0.8)); free = true; density = 500.0; } );/'
+faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.3); to = (1.55, 0.75); body = "c"; stiffness = 1e5; } )/; /^bodies/s/ } );$/' + light, r'lines.\[0\]: stiffness 100000 is too large .* at most 1.*e+04', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); } )/', r'lines.\[0\]: without stiffness and damping', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.4); stiffness = 3.0; } )/', r'lines.\[0\]: from and to are one place', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; lines = ( { from = (1, 0.4); to = (1, 0.9); stiffness = 3.0; body = "c"; } )/', r'lines.\[0\]: body .c. is none of this case', 'sph')

@@ -227,6 +227,31 @@ TEST(spring_keeps_energy)
     assert_true(drift[0] / drift[1] > 12.0);
 }
 
+/* A line between two free bodies meets their masses in series, m M/(m + M) through both centres;
+ * off a centre the body's rotation yields, too: 1/m + r^2/J, J = m/6. */
+TEST(a_line_meets_both_bodies)
+{
+    struct scene c = {.domain.dim = 2, .nbodies = 2};
+    struct body b;
+    double way[3];
+    struct scene_line l = {.from = {0.0, 0.0}, .to = {3.0, 0.0}, .body = "other"};
+    c.bodies[0] = square(0.0, 0.0);
+    c.bodies[1] = square(3.0, 0.0);
+    c.bodies[1].density = 3.0;
+    snprintf(c.bodies[1].name, sizeof c.bodies[1].name, "other");
+    body_create(&b, c.bodies, NULL, 2, NULL);
+    assert_close(body_line_mass(&c, &b, &l, way), 0.75, 1e-12);
+    assert_close(way[0], 3.0, 1e-15);
+    l.from[1] = l.to[1] = 0.5;
+    assert_close(1.0 / body_line_mass(&c, &b, &l, way), (1.0 + 1.0 / 3.0) * (1.0 + 1.5), 1e-12);
+    *l.body = '\0';
+    assert_close(1.0 / body_line_mass(&c, &b, &l, way), 1.0 + 1.5, 1e-12);
+    c.bodies[1].free = false;
+    snprintf(l.body, sizeof l.body, "other");
+    assert_close(1.0 / body_line_mass(&c, &b, &l, way), 1.0 + 1.5, 1e-12);
+    body_destroy(&b);
+}
+
 /* A mooring line pulls alone. */
 TEST(mooring_is_slack)
 {
