@@ -23,6 +23,8 @@ void body_drive_terms(struct body_drive *v, const struct scene_motions *is, int 
     }
 }
 
+/* A constant velocity drives what forces do not move: all degrees of a driven body, the locked ones
+ * of a free one. That of a free degree is its start. */
 void body_drive_create(struct body_drive *v, const struct scene_body *is, int dim,
                        struct motion_files *files)
 {
@@ -33,6 +35,7 @@ void body_drive_create(struct body_drive *v, const struct scene_body *is, int di
             v->constant[a] = a < 3 ? is->velocity[a] : is->spin[a - 3];
 }
 
+/* A polynomial without coefficients moves nothing: most likely a key was forgotten. */
 static bool is_zero(const struct param_numbers *c)
 {
     bool zero = true;
@@ -137,11 +140,14 @@ static void ramp(double T, double t, double v[3])
     v[2] = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (T * T);
 }
 
+/* Column 0 is the time. */
 static int axis_of_column(int columns, int column)
 {
     return columns == 4 ? (column == 3 ? AXIS_RZ : column - 1) : column - 1;
 }
 
+/* By the product rule: (w f)'' = w f'' + 2 w' f' + w'' f, w the ramp. A file has all columns at
+ * once, other terms one axis. */
 static void add_term(const struct body_drive *v, const struct body_term *term, double t, double *d,
                      double *dd, double *ddd)
 {
@@ -164,6 +170,8 @@ static void add_term(const struct body_drive *v, const struct body_term *term, d
     }
 }
 
+/* Displacement from the start, its rate and second rate along each axis: constant velocity, terms,
+ * what an absorbing paddle adds (steer), what a partner says (course). */
 void body_drive_at(const struct body_drive *v, double t, double d[BODY_AXES], double dd[BODY_AXES],
                    double ddd[BODY_AXES])
 {
@@ -295,6 +303,7 @@ static void term_swing(const struct body_drive *v, int k, double reach, double *
     }
 }
 
+/* A bound: amplitudes of terms that swing add as if in phase. */
 double body_drive_acceleration(const struct body_drive *v, double reach)
 {
     double sum = 0.0, a, rate;
@@ -342,6 +351,7 @@ static double file_step(const struct body_term *b, int columns)
     return fmax(2.0 * M_PI / PERIOD_STEPS * time, span / (b->n - 1));
 }
 
+/* INFINITY: the term asks for no step of its own at t. */
 static double term_step(const struct body_term *b, int columns, double t)
 {
     const struct scene_motion *m = b->is;
@@ -369,6 +379,8 @@ double body_drive_step(const struct body_drive *v, double t)
     return dt;
 }
 
+/* The next time after t at which a term begins, ends or jumps in a derivative: steps should end
+ * there. 1e-9: an event that was just reached is past. */
 double body_drive_event(const struct body_drive *v, double t)
 {
     double next = INFINITY;

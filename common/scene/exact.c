@@ -89,6 +89,8 @@ struct exact exact_create(const struct scene *s)
 /* Average of cos(k.x) over a box is cos(k.xc) times this, for each side. */
 static double sinc(double a) { return fabs(a) < 1e-4 ? 1.0 - a * a / 6.0 : sin(a) / a; }
 
+/* Cell averages of plane waves are exact by these factors, so that errors of fv are measured
+ * against averages, not points. */
 static double filter(double kx, double ky, const double *h)
 {
     return sinc(0.5 * kx * h[0]) * sinc(0.5 * ky * h[1]);
@@ -214,6 +216,7 @@ static double drop_period(const struct exact *e)
     return NAN;
 }
 
+/* What oscillates with one period, s, and decays, 1/s; false: nothing that is known. */
 bool exact_oscillation(const struct exact *e, double *period, double *rate)
 {
     if (e->field == FIELD_STANDING_WAVE) {
@@ -229,6 +232,7 @@ bool exact_oscillation(const struct exact *e, double *period, double *rate)
     return false;
 }
 
+/* Where no damping is expected its error is what is lost in a period. */
 void exact_summarise_oscillation(const struct fit *samples, double period, double rate,
                                  struct summary *to)
 {
@@ -284,6 +288,8 @@ double exact_enstrophy(const struct exact *e, const double *lo, const double *hi
     return (e->crossed ? 0.5 : 1.0) * area * wave_enstrophy(&e->wave, t);
 }
 
+/* What is summed over the fluid to find the amplitude: of a standing wave the projection of u on
+ * the wave's own velocity, of the drop x^2 - y^2. */
 double exact_signal(const struct exact *e, const double *x, const double *u)
 {
     const double k = e->wave.k, z = k * (x[1] - e->bottom), *d = e->along;
@@ -382,6 +388,7 @@ void exact_point(const struct exact *e, const double *x, double t, double *u, do
     exact_average(e, x, h, t, u, p, w);
 }
 
+/* Average over the face of the box across axis a: no width along that. */
 void exact_face(const struct exact *e, const double *x, const double *h, int a, double t, double *u)
 {
     double side[3] = {h[0], h[1], h[2]};
@@ -429,6 +436,8 @@ void norm_add(struct norm *n, double w, double e, double ref)
         n->emax = fabs(e);
 }
 
+/* vol, e1, e2 and r2 stand together in the struct and are summed as one; the largest is a maximum.
+ */
 void norm_reduce(struct norm *n, int count, MPI_Comm comm)
 {
     for (int i = 0; i < count; i++) {
@@ -441,6 +450,7 @@ double norm_relative_l2(const struct norm *n) { return n->r2 > 0.0 ? sqrt(n->e2 
 double norm_rms(const struct norm *n) { return n->vol > 0.0 ? sqrt(n->e2 / n->vol) : 0.0; }
 double norm_mean(const struct norm *n) { return n->vol > 0.0 ? n->e1 / n->vol : 0.0; }
 
+/* A pressure that is known up to a constant: its error less the mean. */
 double norm_rms_mean_free(const struct norm *n)
 {
     const double m = norm_mean(n);

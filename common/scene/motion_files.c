@@ -20,6 +20,8 @@ static int numbers_of(const char *line, double *v)
     return line[0] == '#' ? 0 : got;
 }
 
+/* Stops at the first line that does not fit, and keeps which one for the message; n = 0 then, -1
+ * where there is no file. */
 static void read_rows(struct motion_file *m)
 {
     FILE *f = fopen(m->path, "r");
@@ -65,6 +67,8 @@ static struct motion_file *new_file(struct motion_files *all, const char *file, 
     return all->of[all->n++] = m;
 }
 
+/* The same file is read once, and with other columns once more: whoever asks later gets the rows of
+ * then. */
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file, int columns)
 {
     char path[1024 + PARAM_TEXT_SIZE];
@@ -93,6 +97,7 @@ void motion_file_fault(const struct motion_file *m, const char *row, char *text,
                  row);
 }
 
+/* Rows that the program makes itself under a name that no file has; they are taken over. */
 void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows)
 {
     struct motion_file *m = new_file(all, file, columns);

@@ -41,12 +41,14 @@ static const struct {
                           {"cells", "#2171b5", "none", 1},
                           {"region of refinement", "#e7298a", "none", 1.5}};
 
+/* From m to px; those of the page run downwards. */
 static double px(const struct picture *p, double x) { return MARGIN + p->scale * (x - p->lo[0]); }
 static double py(const struct picture *p, double y)
 {
     return p->top + MARGIN + p->scale * (p->hi[1] - y);
 }
 
+/* Ends an element with the colours of its kind, which then stands in the legend. */
 static void paint(struct picture *p, enum picture_kind kind, bool fill)
 {
     p->used[kind] = true;
@@ -118,6 +120,7 @@ void picture_cells(struct picture *p, int n, const double (*x)[2])
     fputs("Z\"/>\n", p->cells);
 }
 
+/* Counter-clockwise from the lower left one. */
 static void corners(const struct picture *p, const double lo[3], const double hi[3], double x[4][2])
 {
     const double a[2] = {lo[p->axis[0]], lo[p->axis[1]]}, b[2] = {hi[p->axis[0]], hi[p->axis[1]]};
@@ -162,6 +165,7 @@ static void below(struct picture *p, enum picture_kind kind, double level)
         picture_line(p, kind, m, (const double(*)[2])kept, true, true, false);
 }
 
+/* In the case's order: a hole is painted over what was there before it. */
 static void shape(struct picture *p, const struct scene_shape *s)
 {
     const enum picture_kind kind = s->hole ? PICTURE_HOLE : PICTURE_WATER;
@@ -327,6 +331,8 @@ static void cut_lines(struct picture *p, const struct scene_mesh *is, enum pictu
     }
 }
 
+/* Water and solids by a raster, then edges beyond, then the cut itself, so that what is nearest is
+ * on top. */
 static void section(struct picture *p)
 {
     const struct scene *s = p->s;
@@ -426,6 +432,8 @@ static void draw_view(struct picture *p, bool first)
             k ? "end" : "start", k ? p->hi[0] : p->lo[0], k ? p->hi[1] : p->lo[1]);
 }
 
+/* The first view is drawn last, since the program adds to it; its clip path is written at the end,
+ * when cells are known. */
 struct picture *picture_create(const char *path, const struct scene *s)
 {
     struct picture *p = NEW(struct picture, 1);
@@ -463,6 +471,7 @@ struct picture *picture_create(const char *path, const struct scene *s)
     return p;
 }
 
+/* Without cells of its own the whole domain is what is seen. */
 static void close_cells(struct picture *p)
 {
     double x[4][2];

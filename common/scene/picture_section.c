@@ -1,6 +1,7 @@
 /* picture_section.c - see picture_section.h. SPDX-License-Identifier: BSD-3-Clause */
 #include "picture_section.h"
 
+/* By a raster: N places along each axis are enough for where to cut. */
 double picture_water_middle(const struct scene *s, int axis)
 {
     enum { N = 16 };

@@ -12,6 +12,7 @@
 
 /* --- when keys are used: tests of conditions, element being the group's struct --- */
 
+/* Tests have one form, params_test: some do not look at the scene, some not at the element. */
 static bool any_mesh(const void *scene, const void *element)
 {
     return (void)element, scene_has_meshes(scene);
@@ -368,6 +369,7 @@ bool scene_has_steady_wave(const struct scene *s)
     return s->initial.field == FIELD_REGULAR || s->initial.field == FIELD_SOLITARY;
 }
 
+/* A solitary wave's is 2 pi/k of sech^2(k x), k^2 = 3 a/(4 H^3). */
 double scene_wave_length(const struct scene *s)
 {
     const double H = s->initial.level - s->domain.min[1];
@@ -400,6 +402,7 @@ bool scene_has_no_slip(const struct scene *s)
     return any;
 }
 
+/* Whether anything but sides of the domain stands in the flow. */
 bool scene_has_lines(const struct scene *s)
 {
     bool any = s->nbodies > 0;
@@ -452,6 +455,7 @@ static void check_shapes(const struct scene *s, const struct params *p, struct f
     }
 }
 
+/* Components beyond the dimensions would be dropped silently: most likely the case is one of 3D. */
 static void check_domain(const struct scene *s, const struct params *p, struct faults *f)
 {
     static const char axes[] = "xyz";
@@ -522,6 +526,8 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
     }
 }
 
+/* In stages, each only if the one before found no fault: what is judged later would read nonsense.
+ */
 void scene_check(struct scene *s, const struct params *p, struct faults *f)
 {
     static const char *const needed[] = {"time", "domain"};
@@ -561,6 +567,7 @@ bool scene_shows(const struct scene *s, const char *field)
     return has_word(s->output.fields, field, strlen(field));
 }
 
+/* By each program, for each has fields of its own; words are apart by blanks or commas. */
 void scene_check_shown(const struct scene *s, const struct params *p, const char *program,
                        const char *known, struct faults *f)
 {
@@ -583,6 +590,7 @@ void scene_check_facts(const struct scene *s, const struct params *p, unsigned l
     params_check_use(p, groups, SCENE_GROUPS, &facts, s, f);
 }
 
+/* Facts that hold; those which a program alone can tell are left as holding, it takes them away. */
 unsigned long long scene_facts(const struct scene *s, const struct params *p)
 {
     const bool pictures = s->output.snapshots || params_on_command_line(p, "output.snapshots");

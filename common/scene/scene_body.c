@@ -172,6 +172,7 @@ const struct param scene_body_rows[] = {
 /* clang-format on */
 const int scene_body_nrows = sizeof scene_body_rows / sizeof scene_body_rows[0];
 
+/* Of the outline or the mesh; 0 where the body has neither. */
 void scene_body_box(const struct scene_body *b, double lo[3], double hi[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -182,6 +183,7 @@ void scene_body_box(const struct scene_body *b, double lo[3], double hi[3])
         outline_bounds(b->points.n, b->points.x, lo, hi);
 }
 
+/* Whether it ever moves: forces, a motion, or a constant velocity. */
 bool scene_body_moves(const struct scene_body *b)
 {
     bool any = b->free || b->motion.n > 0;
@@ -207,6 +209,7 @@ struct scene_contact scene_contact_of(const struct scene_body *b)
     return b->contact.n > 0 ? b->contact.of[0] : (struct scene_contact){0.3, 0.3, 1.5};
 }
 
+/* Bits 1 << enum body_axis; -1: a word that is none of the case's axes. */
 int scene_body_locked(const char *lock, int dim)
 {
     static const char *const words[BODY_AXES] = {"x", "y", "z", "rx", "ry", "rz"};

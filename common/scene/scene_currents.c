@@ -28,6 +28,8 @@ static struct scene_wall *end_of(const struct scene *s, int axis, int upper)
     return w && w->zone != ZONE_NONE ? (struct scene_wall *)w : NULL;
 }
 
+/* Waves grow on a current that runs from the start on: accelerated later it would be a wave of its
+ * own. */
 static void check_start(const struct scene *s, const struct params *p, struct faults *f)
 {
     double d[3];
@@ -143,6 +145,8 @@ static double *rows_of(const struct scene *s, bool wavy, double x, int *n)
     return rows;
 }
 
+/* The side becomes an opening of given discharge: what the current and the waves bring through it,
+ * as rows over time, into the domain or out of it as the mean goes. */
 static void open_side(struct scene *s, double flux, int axis, int upper, double width,
                       struct motion_files *files)
 {
@@ -164,6 +168,7 @@ static void open_side(struct scene *s, double flux, int axis, int upper, double 
     w->discharges = motion_files_read(files, w->discharge_file, 2);
 }
 
+/* After zones and directions are known, before sides are read by the programs. */
 void scene_currents_resolve(struct scene *s, struct motion_files *files)
 {
     if (!scene_currents_flow(s))

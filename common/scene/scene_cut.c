@@ -50,6 +50,8 @@ static bool find_crossings(const struct line *wall, double near, const struct pa
     return n[0] == 1 && n[1] == 1;
 }
 
+/* Corners that coincide with the one before are left out: a piece without length has no direction.
+ */
 static void add_corner(struct param_points *to, const double *x, double near)
 {
     const double *last = to->x[to->n > 0 ? to->n - 1 : 0];
@@ -87,6 +89,7 @@ static bool keep_before(const struct line *wall, double near, const struct param
     return to->n >= 3;
 }
 
+/* Bodies that a wall cuts several times are left as they are. */
 static void cut_at(const struct line *wall, double near, struct scene_body *b)
 {
     struct param_points kept;
@@ -166,6 +169,7 @@ void scene_cut_at_walls(const struct scene *s, struct scene_body *b)
     }
 }
 
+/* In 3D at sides alone. */
 bool scene_cut_mesh(const struct scene *s, const struct scene_body *b, struct trimesh *m)
 {
     const struct scene_domain *d = &s->domain;
@@ -192,6 +196,8 @@ static void cut_end(int axis, double at, double out, struct param_points *p)
 #undef DEPTH
 }
 
+/* A line that spans the period keeps what lies within it; one that ends inside is drawn so on
+ * purpose. */
 void scene_cut_at_periods(const struct scene *s, struct scene_wall *w)
 {
     for (int a = 0; a < 2 && s->domain.dim == 2 && !w->closed; a++) {

@@ -84,6 +84,8 @@ static void begin_in_place(struct scene *s, int k, struct motion_files *files)
         k + 1, b->name, d[0], d[1], d[2], turn);
 }
 
+/* Histories and outlines first: where a motion begins is asked of outlines that are in their place.
+ */
 void scene_files_read(struct scene *s, const char *dir, struct motion_files *files,
                       const struct params *p, struct faults *f)
 {

@@ -6,6 +6,7 @@
 #include "scene_lines.h"
 #include "scene_mesh.h"
 
+/* What water at rest has: along a period gravity is a body force that drives it. */
 double scene_still_gravity(const struct scene *s, double still[3])
 {
     double g2 = 0.0;
@@ -16,6 +17,7 @@ double scene_still_gravity(const struct scene *s, double still[3])
     return sqrt(g2);
 }
 
+/* The axis with most of it, of two alike the later one; -1: there is none. */
 int scene_still_axis(const struct scene *s)
 {
     double g[3];
@@ -44,6 +46,8 @@ static bool is_held(const struct scene *s, int a, double at, double lo, double h
     return false;
 }
 
+/* Whether the shape is water at rest: a box must fill the section below its top, from side to side
+ * or to bodies that hold it. */
 bool scene_is_level(const struct scene *s, const struct scene_shape *h)
 {
     const int up = scene_still_axis(s);
@@ -137,6 +141,7 @@ bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const do
     }
 }
 
+/* The last shape that holds x decides, so that holes and later shapes overrule earlier ones. */
 bool scene_is_fluid(const struct scene *s, const struct exact *e, const double *x, double *velocity)
 {
     const struct scene_initial *f = &s->initial;
@@ -201,6 +206,8 @@ static bool holds_grain(const struct scene *s, const struct exact *e, int k, con
     return false;
 }
 
+/* A grain is a particle or a cell: whether shapes hold any at this spacing, before all of them are
+ * made. */
 void scene_check_grains(const struct scene *s, const struct params *p, const double *first,
                         const double *h, const int *n, const char *grain, struct faults *f)
 {
@@ -247,6 +254,7 @@ static bool inside_some(const struct scene_domain *d, const struct line *l, cons
     return in;
 }
 
+/* A closed line is a tank if it runs counter-clockwise (the fluid on its left), else an island. */
 bool scene_in_tanks(const struct scene *s, const double *x)
 {
     for (int k = 0; k < s->nwalls; k++) {
@@ -265,6 +273,7 @@ static void close_line(struct param_points *p, bool *closed)
     *closed = l.closed;
 }
 
+/* Senses first, then cuts: what of a body lies behind a wall is told by the wall's sense. */
 void scene_orient(struct scene *s)
 {
     for (int k = 0; k < s->nbodies; k++) {

@@ -17,6 +17,7 @@ enum {
 };
 static const double edge_of_level = 1.15; /* of a sphere of radius 1 and level 0, a mean */
 
+/* Of zeroes: not given. */
 static bool has_box(const struct scene_body *b)
 {
     const double none[2][3] = {{0.0}};
@@ -120,6 +121,7 @@ static int sides_of(double radius, double edge, int least)
     return 4 * (int)ceil(0.25 * fmin(fmax(wanted, least), CORNERS));
 }
 
+/* Clockwise, as bodies are: the fluid on their left is outside. */
 static void make_points(struct scene_body *b, enum body_form form, double edge)
 {
     double x[CORNERS][2];
@@ -204,6 +206,7 @@ static struct trimesh cylinder(double radius, int sides, double length)
     return prism(&section, length);
 }
 
+/* Each level halves the edges; facet is the length, m, that they are to have, 0: the default. */
 static int level_of(double radius, double facet)
 {
     int level = facet > 0.0 ? LEVEL_LEAST : LEVEL;
@@ -212,6 +215,7 @@ static int level_of(double radius, double facet)
     return level;
 }
 
+/* Grown until its facets hold the sphere's volume, for buoyancy goes by that. */
 static struct trimesh sphere(double radius, double facet)
 {
     const double centre[3] = {0.0};

@@ -14,6 +14,7 @@ struct line line_of(const struct param_points *p, bool closed)
 
 int line_segments(const struct line *l) { return l->closed ? l->n : l->n - 1; }
 
+/* Ends of segment k; that of the last one of a closed line is the first point. */
 static const double *start_of(const struct line *l, int k) { return l->x[k]; }
 static const double *end_of(const struct line *l, int k) { return l->x[(k + 1) % l->n]; }
 
@@ -72,6 +73,7 @@ void line_trim(struct line *l)
     }
 }
 
+/* By the number of crossings to the right. Half-open intervals along y count a corner once. */
 bool line_inside(const struct line *l, const double *x)
 {
     bool in = false;
@@ -179,6 +181,7 @@ static bool folds(const double *a, const double *b, const double *c)
     return fabs(turn(a, b, c)) < 1e-6 * size && d[0] * e[0] + d[1] * e[1] < 0.0;
 }
 
+/* A quick no: all pairs of segments are asked. */
 static bool boxes_apart(const double *a, const double *b, const double *c, const double *d,
                         double reach)
 {
@@ -203,6 +206,8 @@ static bool is_straight(const struct line *l)
     return true;
 }
 
+/* In this order, since each test needs that what is before it holds: lengths other than 0, an area,
+ * no folds, then crossings. */
 enum line_fault line_check(const struct line *l, double at[2])
 {
     const double small = rounding * line_size(l);

@@ -6,6 +6,7 @@
 
 static bool is_open(const struct scene_wall *w) { return w->points.n > 1 && !w->closed; }
 
+/* Whether there is fluid of the shapes at x, within the domain. */
 static bool wet(const struct scene *s, const struct exact *e, const double *x)
 {
     for (int a = 0; a < 2; a++)
@@ -88,6 +89,8 @@ static double share_held(const struct scene *s, const struct param_points *point
     return (double)n[1] / fmax(1.0, n[0] + n[1]);
 }
 
+/* All water inside and no other walls: then its points are walls of the water, not a solid in it.
+ */
 bool scene_body_is_tank(const struct scene *s, int k)
 {
     const struct param_points *points = &s->bodies[k].points;

@@ -33,6 +33,7 @@ void scene_mesh_key(const struct scene *s, enum mesh_owner owner, int k, char ke
     snprintf(key, 64, "%s.[%d].%s", lists[owner], k, forms[form_of(s, owner, k)]);
 }
 
+/* From a file, or of one of the forms that bodies have in 3D. */
 bool scene_has_triangles(const struct scene *s, enum mesh_owner owner, int k)
 {
     return *scene_surface_of(s, owner, k)->mesh || form_of(s, owner, k) != FORM_NONE;
@@ -111,6 +112,8 @@ static bool is_before(const struct scene_mesh *m, const double *x)
     return m->mesh.ntriangles <= FEW && trimesh_winding(&m->mesh, x) > least;
 }
 
+/* Thin open walls bound nothing and are left out; a closed obstacle is solid whatever the shapes
+ * say. */
 enum scene_matter scene_matter(const struct scene *s, const struct exact *e, const double *x)
 {
     bool wet = scene_is_fluid(s, e, x, NULL);

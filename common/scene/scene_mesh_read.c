@@ -47,6 +47,7 @@ static void rotate(const double *r, double *v)
     memcpy(v, sum, sizeof sum);
 }
 
+/* m: of its bounding box, the measure of its size. */
 static double diagonal(const struct trimesh *m)
 {
     double lo[3], hi[3], d[3];
@@ -119,6 +120,7 @@ static bool prepare(const struct reading *r, const struct scene_surface *is, str
     return true;
 }
 
+/* A triangle with an open edge, for the message. */
 static int first_rim(const struct trimesh *m)
 {
     int t = 0;
@@ -261,6 +263,8 @@ static void orient_open(const struct reading *r, struct scene_mesh *m)
     m->fluid_side = w->fluid_side != FLUID_AUTO ? w->fluid_side : side_of_open(volume, plane);
 }
 
+/* Which side the fluid is on is asked of a tree whose normals point out of the mesh's inside; only
+ * then are they turned away from the fluid. */
 static void orient(const struct reading *r, struct scene_mesh *m)
 {
     if (m->mesh.closed)
@@ -327,6 +331,8 @@ static void check_domain(const struct reading *r, const struct scene_mesh *m, co
         }
 }
 
+/* Rank 0 prepares; all ranks get the mesh, and judge it alike, so that faults are the same
+ * everywhere. */
 static void read_one(const struct reading *r, enum mesh_owner owner, int k,
                      const struct scene_surface *is)
 {

@@ -107,6 +107,7 @@ static double wet_area(const struct scene *s, const struct exact *e, int side, i
            (d->dim == 3 ? d->max[across] - d->min[across] : 1.0);
 }
 
+/* An opening with a level of its own stands across a horizontal axis. */
 static bool is_upright(const struct scene *s, const struct scene_wall *w, int up)
 {
     const int axis = (w->side - SIDE_X_MIN) / 2;
@@ -114,6 +115,8 @@ static bool is_upright(const struct scene *s, const struct scene_wall *w, int up
            !s->domain.periodic[axis];
 }
 
+/* For outflows of which the case says nothing: the water at the side as the shapes have it is what
+ * stands outside; without any it falls. */
 void openings_resolve(struct scene *s)
 {
     const struct exact e = exact_create(s);
@@ -131,6 +134,7 @@ void openings_resolve(struct scene *s)
     }
 }
 
+/* Linear between rows, held before the first and after the last. */
 static double value_at(const struct motion_file *m, double t)
 {
     const double *last = m->rows + COLUMNS * (m->n - 1);
@@ -160,6 +164,8 @@ double wall_level_change(const struct scene_wall *w, double span)
     return most;
 }
 
+/* m/s: by central differences over span, s on both sides; it fades where these differ by more than
+ * a third of surge, m: at a step of the file or a turn the mean is the rate of neither. */
 double wall_level_rise(const struct scene_wall *w, double span, double surge, double t)
 {
     const double now = wall_level(w, t), before = now - wall_level(w, t - span),
@@ -182,6 +188,7 @@ static void range_of(const struct motion_file *m, double range[2])
     }
 }
 
+/* m/s: of the largest discharge over the water that its side has at the start. */
 double openings_discharge_speed(const struct scene *s)
 {
     const int up = scene_still_axis(s);

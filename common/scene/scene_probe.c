@@ -34,6 +34,8 @@ void probe_heading(const struct scene_probe *g, int dim, int column, char *text,
                                               : "m^3/s");
 }
 
+/* In 2D the normal points to the right of the line from at to `to'; in 3D along the axis that both
+ * corners have in common. */
 struct probe_section probe_section_of(const struct scene_probe *g, int dim)
 {
     struct probe_section c = {.n = 0};

@@ -38,6 +38,8 @@ double scene_reference_left(const struct scene *s, const struct scene_reference 
     return w->pressure + r->beneath - scene_reference_at(r, s->domain.dim, x);
 }
 
+/* Without a surface the least of the outlets' pressures, and the slope of the weight across closed
+ * sides, are left out of the pressures that are computed; without outlets nothing is. */
 struct scene_reference scene_reference(const struct scene *s)
 {
     struct scene_reference r = {0};

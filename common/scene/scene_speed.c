@@ -90,6 +90,7 @@ static double inflow_speed(const struct scene *s)
     return out > 0.0 ? fmax(speed, 1.5 * rate / out) : speed;
 }
 
+/* Of walls that move along themselves. */
 static double wall_speed(const struct scene *s)
 {
     double speed = 0.0;
@@ -163,6 +164,7 @@ static void heights(const struct scene *s, const double *g, const double *lo, co
     }
 }
 
+/* m: height of its highest place within the domain. */
 static double shape_top(const struct scene *s, const double *g, const struct scene_shape *h)
 {
     double lo[3] = {0.0}, hi[3] = {0.0}, range[2];
@@ -178,6 +180,7 @@ static double shape_top(const struct scene *s, const double *g, const struct sce
     return range[1];
 }
 
+/* -INFINITY: no water, or no weight. */
 double scene_water_top(const struct scene *s)
 {
     double g[3], top = -INFINITY;
@@ -410,6 +413,7 @@ static double viscous_pressure(const struct scene *s, double U, double spacing)
     return fmax(fmax(s->fluid.nu * U / least, held), channel_pressure(s));
 }
 
+/* The largest counts, with the words for where it comes from. */
 static void take(struct scene_speed *v, double speed, const char *from)
 {
     if (!(speed > v->speed))

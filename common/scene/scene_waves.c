@@ -22,6 +22,7 @@ static double inward(const struct scene *s)
     return 0.0;
 }
 
+/* Kinds wave and beach become slip walls with a zone: from here on nobody else knows them. */
 void scene_waves_mark(struct scene *s)
 {
     for (int k = 0; k < s->nwalls; k++) {
@@ -43,6 +44,7 @@ bool scene_makes_waves(const struct scene *s)
     return any;
 }
 
+/* m, against gravity: of the highest shape; NAN: no shape tells. */
 double scene_waves_level(const struct scene *s)
 {
     const int up = scene_still_axis(s);
@@ -91,6 +93,7 @@ int scene_zone_axis(const struct scene_wall *w, bool *low)
     return (w->side - SIDE_X_MIN) / 2;
 }
 
+/* Returns the axis across the side; -1: it has no zone. */
 int scene_zone_box(const struct scene *s, const struct scene_wall *w, double lo[3], double hi[3])
 {
     bool low;
@@ -148,6 +151,7 @@ static double repeat_of(const struct scene *s, double period)
     return repeat;
 }
 
+/* The second order is for what zones make: a paddle makes the linear waves. */
 struct wave_spec scene_waves_spec(const struct scene *s)
 {
     const struct scene_waves *w = &s->waves;

@@ -55,6 +55,7 @@ static void tune(struct wave_absorber *a)
               hypot(1.0, mean_rate);
 }
 
+/* at is the gauge's place at rest, at the still level; along is where the waves go. */
 struct wave_absorber *wave_absorber_create(const struct scene *s, const struct scene_body *b,
                                            const struct scene_motion *m, double distance)
 {
@@ -105,6 +106,7 @@ double wave_absorber_wanted(struct wave_absorber *a, double t, double X, double 
     return level_made(a, t, vec3_dot(a->at, a->along) + X) + a->beside * made;
 }
 
+/* Share of the height of waves of another frequency that comes back, by the same linear loop. */
 double wave_absorber_returns(const struct wave_absorber *a, double omega)
 {
     const double k = waves_number(omega, a->g, a->depth), d = a->distance,

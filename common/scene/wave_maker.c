@@ -7,6 +7,7 @@
 
 enum { COLUMNS_2D = 4, COLUMNS_3D = 7 };
 
+/* Before wave_makers_resolve: after it their motions are files. */
 bool scene_has_wave_maker(const struct scene *s)
 {
     for (int k = 0; k < s->nbodies; k++)
@@ -16,6 +17,8 @@ bool scene_has_wave_maker(const struct scene *s)
     return false;
 }
 
+/* Height over stroke at the still level (Biesel 1951), l the height of a flap's axis over the
+ * floor, < 0: a piston. kh is bounded, for sinh overflows where the ratio is its limit 2. */
 double wave_maker_ratio(double k, double h, double l)
 {
     const double kh = fmin(k * h, 300.0), below = sinh(2.0 * kh) + 2.0 * kh;
@@ -136,6 +139,8 @@ static double displacement(const struct waves *w, double face, double l, double 
     return wave_maker_grown(w, t) * x;
 }
 
+/* Motions of paddles become rows of a file, 40 a period of the shortest wave, so that the programs
+ * know one kind of motion less. */
 static void resolve_one(struct scene *s, struct scene_body *b, struct scene_motion *m,
                         const struct waves *w, struct motion_files *files)
 {
