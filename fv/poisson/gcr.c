@@ -26,6 +26,8 @@ double gcr_norm(const struct gcr *g, const double *x)
     return sqrt(ranks_sum(g->comm, sum));
 }
 
+/* What images are made orthogonal to: A z of direction j (least residual), or with a symmetric
+ * matrix z itself (conjugate gradients' A-orthogonality, `galerkin'). */
 static double *test(struct gcr *g, int j) { return g->galerkin ? g->z[j] : g->Az[j]; }
 
 /* Takes what the image of direction k has of the m others' out of it; those from first on in their

@@ -36,6 +36,8 @@ struct halving {
     struct halved level[MOST_LEVELS];
 };
 
+/* Place of a cell among those of its level; coarser levels have all cells on each rank, with MARGIN
+ * ghosts of 0 around. */
 static int64_t at(const struct halved *l, int i, int j, int k)
 {
     return (i + l->g[0]) + l->stride[1] * (j + l->g[1]) + l->stride[2] * (k + l->g[2]);
@@ -53,6 +55,8 @@ static int lines(const struct halved *l) { return l->n[1] * l->n[2]; }
 
 /* --- levels --- */
 
+/* Few ranks alone, for each repeats all of the coarser grids; and no periods, across which these do
+ * not know neighbours. */
 bool halving_fits(const struct block *b)
 {
     int ranks;
@@ -108,6 +112,8 @@ static void make_next(const struct halved *l, int dim, struct halved *to)
     }
 }
 
+/* Axes whose spacings lie within 1.3 of the least are halved one after the other before the next
+ * grid is relaxed. Ends with one cell. */
 struct halving *halving_create(const struct block *b)
 {
     struct halving *h = NEW(struct halving, 1);
@@ -146,6 +152,8 @@ int *halving_run(struct halving *h, int j, int k) { return h->level->run[j + h->
 
 /* --- the matrix --- */
 
+/* From the finest grid, which is shared out, to the next, which all have; further down every rank
+ * computes the same. */
 static void sum_ranks(const struct halving *h, const struct halved *l, double *q)
 {
     if (l == h->level + 1 && h->ranks > 1)
@@ -220,6 +228,8 @@ static void add_line(const double *restrict from, int64_t len, int64_t first, bo
         to[(first + i) / 2] += weight * from[i];
 }
 
+/* Conductances in series along the halved axis: the faces between two new cells pass half; faces
+ * within one are gone. In parallel across it, and so on the diagonal. */
 static void coarsen(const struct halving *h, const struct halved *l, struct halved *to)
 {
     const int axis = l->axis;
@@ -297,6 +307,8 @@ static inline __attribute__((always_inline)) void relax_body(const struct halved
     }
 }
 
+/* Ghosts of the finest level are the neighbours'; those of coarser ones stay 0, as no face leads
+ * there. */
 static void relax(const struct halving *h, const struct halved *l, const double *b, double *x,
                   double share, double *y)
 {
@@ -357,7 +369,8 @@ static void restrict_line(const struct halved *l, const double *restrict r, int 
         out[J] = taken(l, r, J);
 }
 
-/* The same across lines, to cells [first, first + len) of line (j, k). */
+/* The same across lines, to cells [first, first + len) of line (j, k). Adds what each of the four
+ * lines has, so a rank adds the part of its own cells. */
 static void restrict_across(const struct halved *l, const double *r, int j, int k, int64_t first,
                             int64_t len, double *restrict out)
 {
@@ -467,6 +480,8 @@ static void prolong(const struct halved *l, const struct halved *from, double *x
 
 /* --- the cycle --- */
 
+/* A V-cycle, symmetric: Chebyshev's steps come in the reverse order on the way up, so that
+ * conjugate gradients may use it. The last grid is one cell, solved by its diagonal. */
 void halving_cycle(struct halving *h, double *r, double *x)
 {
     const int last = h->n - 1;

@@ -81,6 +81,8 @@ static void add_face(const struct mesh *m, const struct part *p, const int *loca
         }
 }
 
+/* The row psi - sum of weights times the donors' psi, times the mean diagonal, so that its residual
+ * counts as those of the others. */
 static void add_fringe(const struct mesh *m, const struct mesh_fringe *f, double scale,
                        struct row *r)
 {
@@ -225,11 +227,14 @@ static void fill_matrices(struct fv *s, struct mesh_pressure *p)
         DROP(p->row_first);
 }
 
+/* The matrix that is solved: with one row replaced where psi is known up to a constant. */
 static HYPRE_ParCSRMatrix matrix_of(const struct mesh_pressure *p)
 {
     return p->singular ? p->solved.A : p->whole.A;
 }
 
+/* relax 3: hybrid Gauss-Seidel, 6 the symmetric one; coarsen 10: HMIS, 6 Falgout's. One cycle a
+ * call, no test of convergence. */
 static HYPRE_Solver make_amg(int relax, int sweeps, int coarsen)
 {
     HYPRE_Solver amg;
@@ -271,6 +276,7 @@ static void cycle_rows(void *of, double *r, double *z)
     vector_get(&p->x, z);
 }
 
+/* Slower and dearer, for right sides that the first cycle leaves. */
 static void make_safe(const struct mesh *m, struct mesh_pressure *p)
 {
     p->safe_amg = make_amg(6, 2, 6);
@@ -373,6 +379,7 @@ static void close_hypre(void *of)
     vector_free(&p->r);
 }
 
+/* The last of the backends: it takes any blocks. */
 static void *create(struct fv *s)
 {
     const struct mesh *m = s->m;
@@ -423,6 +430,7 @@ static void set_shift(struct fv *s, void *of, double shift)
     struct mesh_pressure *p = of;
     if (shift == p->shift)
         return;
+    free_safe(p); /* of the matrix before */
     HYPRE_BoomerAMGDestroy(p->amg);
     matrix_free(&p->whole);
     matrix_free(&p->solved);

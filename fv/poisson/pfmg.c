@@ -38,6 +38,7 @@ static void make_grid(struct pfmg *p)
     }
 }
 
+/* Values are set box by box before each solve. */
 static void make_vector(struct pfmg *p, HYPRE_StructVector *v)
 {
     HYPRE(HYPRE_StructVectorCreate(p->of.comm, p->grid, v));
@@ -102,6 +103,7 @@ static void make_cycle(struct pfmg *p)
     HYPRE(HYPRE_StructPFMGSetup(p->cycle, p->A, p->b, p->x));
 }
 
+/* The caller's are borrowed for the call alone. */
 static void copy_boxes(void *owner, struct pfmg_grid *g)
 {
     int(*const lo)[3] = g->lo, (*const hi)[3] = g->hi;

@@ -12,6 +12,7 @@
 #include "../operators/fv_operators.h"
 #include "backend.h"
 
+/* m^dim of computed cells, 0 of others: what the constant of psi is weighted by. */
 static void set_volumes(const struct fv *s, struct poisson *p)
 {
     p->volumes = 0.0;
@@ -22,6 +23,8 @@ static void set_volumes(const struct fv *s, struct poisson *p)
     MPI_Allreduce(MPI_IN_PLACE, &p->volumes, 1, MPI_DOUBLE, MPI_SUM, s->m->comm);
 }
 
+/* Rows are numbered rank by rank in the order of FLOW_ROWS; vectors of rows are shared by the
+ * backends, no solve needs two. */
 static void make_rows(const struct fv *s, struct poisson *p)
 {
     int64_t first, n, k = 0;
@@ -106,6 +109,8 @@ static double tolerance(const struct fv *s, double tol)
     return fmax(by->last * tol, fmin(by->stage * tol, 1e-9));
 }
 
+/* The start of the solver is kept apart from psi: of a singular problem psi has its mean taken out,
+ * the start has not. */
 static bool solve_rows(struct fv *s, double tau, double *div, double tol, double *start,
                        double *psi)
 {
@@ -139,6 +144,8 @@ bool poisson_solve(struct fv *s, double tau, double *div, double tol, double *st
     return good;
 }
 
+/* Where psi is known up to a constant the right side must sum to 0; that of Newton's residual does
+ * not quite. */
 static void cycle_rows(struct fv *s, double *div, double *psi)
 {
     struct poisson *p = s->poisson;

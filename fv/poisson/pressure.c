@@ -29,8 +29,10 @@ struct pressure {
     double shift;           /* 1/m^2: on the diagonal of the cycle's matrix, beside the least one */
 };
 
+/* The backend's state. */
 static struct pressure *own(const struct fv *s) { return s->poisson->of; }
 
+/* Rows of uneven height count by their mean spacing. */
 static struct pfmg *make_pfmg(const struct block *b, const struct wet_boxes *w)
 {
     struct pfmg_grid g = {.comm = b->cart,
@@ -167,6 +169,8 @@ static void set_pfmg(const struct fv *s, struct pressure *p)
     FREE(rows, values);
 }
 
+/* z holds what cut faces add until rows have been made; after that it is 0 wherever no cycle
+ * writes. */
 static void make_matrix(const struct fv *s, struct pressure *p)
 {
     memset(p->diagonal, 0, (size_t)s->size * sizeof(double));
@@ -213,6 +217,8 @@ static void *create(struct fv *s)
     return p;
 }
 
+/* Called when the surface has moved: other wet cells, another matrix. Boxes, and with them hypre's
+ * grid, change seldom. */
 static void rebuild(struct fv *s, void *of)
 {
     struct pressure *p = of;
@@ -225,6 +231,7 @@ static void rebuild(struct fv *s, void *of)
     make_matrix(s, p);
 }
 
+/* Forced cells, and under a surface dry ones next to the water, which loops over wet rows touch. */
 static void zero_idle(const struct fv *s, double *x)
 {
     if (s->forcing)
@@ -375,6 +382,7 @@ static double least_residual(const struct fv *s)
     return one * one * (double)s->surface->wet;
 }
 
+/* So that the matrix is symmetric over rows of different heights. */
 static void weight_rows(const struct fv *s, double *r)
 {
     const struct block *b = &s->b;
@@ -384,6 +392,8 @@ static void weight_rows(const struct fv *s, double *r)
                 r[i] *= weight(b, j);
 }
 
+/* div becomes the residual; psi is the start and the result, its ghosts set. At least one iteration
+ * unless there is nothing to solve for. */
 static bool solve(struct fv *s, double tau, double *div, double tol, double *psi)
 {
     (void)tau; /* div is over it */
@@ -405,6 +415,7 @@ static bool solve(struct fv *s, double tau, double *div, double tol, double *psi
     return true; /* the watches see what is left */
 }
 
+/* With a shift the matrix is regular, and means stay. */
 static void cycle_field(struct fv *s, double *r, double *x)
 {
     struct pressure *p = own(s);

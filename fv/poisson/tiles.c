@@ -89,6 +89,7 @@ static bool place_all(struct tiles *t, const struct mesh *m)
     return n == m->nblocks;
 }
 
+/* Doubled indices: a cell is 2. */
 static void shift_along(struct tile *t, int g, int cells)
 {
     for (int a = 0; a < 3; a++)
@@ -117,6 +118,7 @@ static bool settle(struct tiles *t, const struct mesh *m, int g, int lo[][3], in
     return period == 0 || period == t->cells[g];
 }
 
+/* Whether two boxes share a cell: blocks that overlap make no index space. */
 static bool meet(const int *lo, const int *hi, const int *low, const int *high)
 {
     bool all = true;
@@ -157,6 +159,7 @@ static int64_t box_steps(const struct tiles *t, const struct part *p, int64_t st
     return first;
 }
 
+/* Whether the order of its cells is not that of the index space. */
 static bool is_turned(const struct tile *of)
 {
     bool turned = false;
@@ -191,6 +194,7 @@ static void add_face(const struct mesh *m, int a, int64_t face, int64_t to, doub
     *own += inside ? w : m->open[a][face] == 1.0 ? 2.0 * w : 0.0;
 }
 
+/* Owned by the caller (mem_free), in the order of the index space. */
 static double *rows_of(const struct tiles *t, const struct part *p)
 {
     const struct mesh *m = t->s->m;
@@ -244,6 +248,7 @@ static void mean_spacings(struct tiles *t, double h[3])
     }
 }
 
+/* Spacings are means, for PFMG asks which axis to halve next. */
 static void make_pfmg(struct tiles *t)
 {
     const struct mesh *m = t->s->m;
@@ -264,6 +269,8 @@ static void make_pfmg(struct tiles *t)
     set_matrix(t);
 }
 
+/* Rows to hypre's boxes, the cycle, and back; a block that lies in the index space as it is needs
+ * no copy. */
 static void cycle_rows(void *of, double *r, double *z)
 {
     struct tiles *t = of;
@@ -345,6 +352,8 @@ static void apply_part(const struct tiles *t, const struct part *p, double *out)
     }
 }
 
+/* Fluxes that slopes of psi along a face make, as mesh_subtract_psi has them; they need the
+ * mirrored ghosts. */
 static void add_skewed(const struct tiles *t, const struct part *p, double *out)
 {
     const struct mesh *m = t->s->m;

@@ -17,6 +17,7 @@ static int tile_of(const struct block *b, int a, int i)
 {
     return (b->lo[a] + i) / TILE - b->lo[a] / TILE;
 }
+/* Tiles that the rank's cells touch, whole or in part. */
 static int tiles_of(const struct block *b, int a) { return tile_of(b, a, b->n[a] - 1) + 1; }
 
 void wet_boxes_run(const unsigned char *layer, int n, int run[2])
@@ -85,6 +86,7 @@ static void make_boxes(void *owner, const struct block *b, int ny, int nz, int (
         }
 }
 
+/* One box of all cells of the rank. */
 static void take_all(void *owner, const struct block *b, struct wet_boxes *w)
 {
     static const int none[3] = {0, 0, 0};
@@ -114,6 +116,8 @@ static bool misses_some(const struct fv *s, const struct wet_boxes *w)
     return in < all;
 }
 
+/* Collective: boxes are made anew on all ranks if any needs it. Returns whether they are other
+ * ones. */
 bool wet_boxes_find(const struct fv *s, void *owner, struct wet_boxes *w)
 {
     const struct block *b = &s->b;

@@ -46,6 +46,7 @@ struct wet_pressure {
     double *beyond[3];
 };
 
+/* The backend's state. */
 static struct wet_pressure *own(const struct fv *s) { return s->poisson->of; }
 
 /* --- what stays --- */
@@ -321,6 +322,7 @@ static void make_row(const struct fv *s, struct wet_pressure *p, const struct pa
         fringe_row(s, p, fringe[c], r);
 }
 
+/* Entries of all rows one after the other, as hypre takes them. */
 static void keep_row(struct wet_pressure *p, int k, const struct row *r)
 {
     if (p->nentry + r->n > p->room) {
@@ -335,6 +337,7 @@ static void keep_row(struct wet_pressure *p, int k, const struct row *r)
     p->nentry += r->n;
 }
 
+/* In the order of FLOW_ROWS_AT, which is that of the rows' numbers. */
 static void make_rows(struct fv *s, struct wet_pressure *p)
 {
     const struct surface_mesh *w = s->surface->mesh;
@@ -390,6 +393,7 @@ static void make_solver(const struct mesh *m, struct wet_pressure *p)
     HYPRE(HYPRE_ParCSRGMRESSetup(p->gmres, p->A.A, p->b.v, p->x.v));
 }
 
+/* Donors first: rows of the fringe have their phi in them. */
 static void rebuild(struct fv *s, void *of)
 {
     struct wet_pressure *p = of;
@@ -438,6 +442,7 @@ static double rounding(const struct fv *s, const struct wet_pressure *p)
     return 1e-15 * s->surface->g * L * p->scale * sqrt((double)s->surface->wet);
 }
 
+/* From the vector of rows to the field, which is 0 elsewhere. */
 static void put_rows(const struct fv *s, struct wet_pressure *p, double *psi)
 {
     memset(psi, 0, (size_t)s->size * sizeof(double));

@@ -83,24 +83,29 @@ static double share_of(const struct fv *s, const struct part *p, int a, double d
     return calm * flatness(s, p, a) * fmin(0.5, 2.0 * s->surface->g * dt * dt / s->surface->across);
 }
 
+/* One pass over the component q of a part's velocity; k: passes before it. */
+static void smooth_pass(const struct fv *s, const struct part *p, double dt, int k, double *q)
+{
+    const bool inclined = surface_inclined(s, p), overlaps = grid_overlaps(&s->grid) && !inclined;
+    double share[3], most = 0.0;
+    for (int a = 0; a < s->dim; a++) {
+        share[a] = share_of(s, p, a, dt);
+        most = fmax(most, share[a]);
+    }
+    if (most > 0.0 && (k == 0 || inclined)) /* else the water is not calm */
+        smooth_part(s, p, overlaps ? 3 : 2, share, q);
+}
+
+/* A pass sees two cells beyond a part's own, so that those of others are sent before each but the
+ * first: else what comes out would depend on how cells are shared out among parts and ranks. */
 void surface_smooth(struct fv *s, double dt)
 {
-    for (int q = 0; q < s->grid.nparts; q++) {
-        const struct part *p = s->grid.part + q;
-        const bool inclined = surface_inclined(s, p),
-                   overlaps = grid_overlaps(&s->grid) && !inclined;
-        double share[3], most = 0.0;
-        for (int a = 0; a < s->dim; a++) {
-            share[a] = share_of(s, p, a, dt);
-            most = fmax(most, share[a]);
+    const int passes = surface_any_inclined(s) ? PASSES : 1;
+    for (int a = 0; a < s->dim; a++)
+        for (int k = 0; k < passes; k++) {
+            if (k > 0)
+                grid_halo(&s->grid, 1, &s->u[a]);
+            for (int q = 0; q < s->grid.nparts; q++)
+                smooth_pass(s, s->grid.part + q, dt, k, s->u[a]);
         }
-        if (most == 0.0) /* water that is not calm */
-            continue;
-        for (int a = 0; a < s->dim; a++)
-            for (int k = 0; k < (inclined ? PASSES : 1); k++) {
-                if (k > 0 && !s->m) /* a pass sees two cells beyond a rank's own */
-                    block_halo(&s->b, 1, &s->u[a]);
-                smooth_part(s, p, overlaps ? 3 : 2, share, s->u[a]);
-            }
-    }
 }

@@ -91,6 +91,22 @@ blocks:  ( { cells = (40, 20); min = (0, 0); max = (1, 0.5); i_min = "slip"; i_m
 END
 mpirun --quiet --bind-to none --oversubscribe -np 3 "$b/fv" flies.cfg -o flies >flies.txt 2>&1 || bad "water that flies out of a block ends with $?" flies.txt
 grep -q 'the water has left' flies.txt || bad "no word of water that has flown out of a block" flies.txt
+# lines of blocks that lean: the same on any ranks
+cat >askew.cfg <<'EOF'
+format = 1;
+time:    { end = 0.2; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (-1, -1); max = (1, 1); };
+shapes:  ( { form = "polygon"; points = ((-1, -1), (1, -1), (1, 0.2), (-1, -0.2)); } );
+blocks:  ( { cells = (24, 24); min = (-0.5, -0.5); max = (0.5, 0.5); angle = 20; i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip"; } );
+fv:      { tol_pressure = 1e-10; };
+EOF
+for ranks in 1 4; do
+    mpirun --quiet --bind-to none --oversubscribe -np $ranks "$b/fv" askew.cfg -o askew$ranks >askew$ranks.txt 2>&1
+    [ $? -le 1 ] || bad "leaning blocks on $ranks ranks end with $?" askew$ranks.txt
+done
+close_to "$(last askew4/series.csv 'kinetic energy')" "$(last askew1/series.csv 'kinetic energy')" 1e-7 ||
+    bad "leaning blocks: $(last askew1/series.csv 'kinetic energy') J, on four ranks $(last askew4/series.csv 'kinetic energy')"
 # boxes and gauges without names have some; a row of the series every third step and at the end
 sed 's/^fv: /blocked: ( { min = (0.5, 0); max = (0.6, 0.1); }, { min = (-0.6, 0); max = (-0.5, 0.1); } );\n&/; s/name = "[a-z]*"; //g' column.cfg >nameless.cfg
 timeout 100 "$b/fv" nameless.cfg -o nameless -p time.end=0.2 >nameless.txt 2>&1 || bad "boxes without names end with $?" nameless.txt
