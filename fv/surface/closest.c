@@ -91,6 +91,7 @@ static void set_cubic(const struct around *w, int a, double x, struct cubic *q)
             add_cubic(X + q->first + k, x, share, q->value + k, q->slope + k);
 }
 
+/* Step from the cell to the first centre that all three cubics read. */
 static int64_t corner_of(const struct around *w, const struct cubic *q)
 {
     int64_t c = 0;
@@ -122,7 +123,8 @@ product(const struct around *w, const struct cubic q[3], const int n[3], double 
     return sum;
 }
 
-/* phi at x, m from the cell, and its gradient; q: the weights that give them. */
+/* phi at x, m from the cell, and its gradient; q: the weights that give them. Sets the weights,
+ * then sums; the common cases have loops of fixed length for the vector units. */
 static double value_at(const struct around *w, const double *x, struct cubic q[3], double *g)
 {
     for (int a = 0; a < w->dim; a++)
@@ -307,6 +309,8 @@ static bool look_around(const struct fv *s, const struct part *p, const double *
     return true;
 }
 
+/* false: the cells around do not resolve the surface, and *distance is left as it is. Two passes at
+ * least: the first starts from the centre and knows nothing of how phi bends. */
 bool surface_closest(const struct fv *s, const struct part *p, const double *phi, int64_t c,
                      double *distance)
 {

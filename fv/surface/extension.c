@@ -21,6 +21,7 @@ struct least_squares {
     double w[STENCIL];
 };
 
+/* Cholesky's; false: a pivot has lost six digits, so the cells do not tell the terms apart. */
 static bool factor(struct least_squares *q)
 {
     for (int i = 0; i < q->m; i++) {
@@ -106,6 +107,8 @@ static void terms_at(int dim, int order, bool skip, const double *r, double *e)
         e[i] = b[i][0];
 }
 
+/* depth is the distance from the surface along the normal, m; a slope below 0.2 counts as that, for
+ * phi is no distance there. */
 static void find_normal(const struct fv *s, int64_t c, int row, struct place *p)
 {
     const double *q = s->surface->phi + c;
@@ -124,6 +127,8 @@ static void find_normal(const struct fv *s, int64_t c, int row, struct place *p)
         p->e[0][a] = n[a] / size;
 }
 
+/* The normal and one or two tangents; in 3D the first tangent starts from the axis least along the
+ * normal, which is never parallel to it. */
 static void make_frame(const struct fv *s, int64_t c, int row, struct place *p)
 {
     find_normal(s, c, row, p);
@@ -225,6 +230,7 @@ static bool may_slow(const struct fv *s, double h)
     return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_inclined(s);
 }
 
+/* By layer: extension_apply goes through them in this order. */
 static void list_carry(struct surface *f, int layer, const struct carry *x)
 {
     ROOM_IN(f, f->carry[layer], f->ncarry[layer] + 1);
@@ -279,7 +285,8 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
     list_carry(f, layer, &x);
 }
 
-/* Weights of a new pattern, by the first cell that has it. */
+/* Weights of a new pattern, by the first cell that has it. In the axes of the grid, without the
+ * surface's normal and depth: so the weights serve every cell of the pattern. */
 static void learn(struct fv *s, int64_t c, int layer, struct place *p, struct pattern *x)
 {
     struct surface *f = s->surface;
@@ -399,6 +406,8 @@ static void add_patterns(struct fv *s)
     f->nkept = f->nstencil;
 }
 
+/* Once each time that the surface has moved. Patterns first: their stencils are kept from step to
+ * step at the beginning of the lists, those of this step follow. */
 void extension_build(struct fv *s)
 {
     struct surface *f = s->surface;

@@ -11,6 +11,7 @@ struct stencil_values {
     double v[3][STENCIL];
 };
 
+/* Gathers the components of a stencil's cells, so that what follows runs over arrays. */
 static void look(const struct surface *f, const struct carry *x, int dim, double *const *u,
                  struct stencil_values *r)
 {
@@ -126,6 +127,7 @@ static void normal_slopes(const struct fv *s, const struct carry *x, const struc
     }
 }
 
+/* |u|^2; square_in: of cell k of a stencil. */
 static double square_of(int dim, const double *u)
 {
     double sum = 0.0;
@@ -237,6 +239,7 @@ void extension_apply(const struct fv *s, double *const u[3], enum extend how, in
         }
 }
 
+/* The first two layers of a scalar, bounded as velocities are. */
 void extension_scalar(const struct fv *s, double *q)
 {
     const struct surface *f = s->surface;
@@ -259,7 +262,7 @@ void extension_beyond(const struct fv *s, double *q)
     const struct surface *f = s->surface;
     struct stencil_values r;
     for (int l = 3; l <= LAYERS; l++) {
-        block_halo(&s->b, 1, &q);
+        grid_fill(&s->grid, 1, &q);
         for (int64_t i = 0; i < f->ncarry[l]; i++) {
             const struct carry *x = f->carry[l] + i;
             double low = 0.0, high = 0.0;
@@ -270,5 +273,5 @@ void extension_beyond(const struct fv *s, double *q)
             q[x->cell] = greater(low, lesser(high, v));
         }
     }
-    block_halo(&s->b, 1, &q);
+    grid_fill(&s->grid, 1, &q);
 }

@@ -13,6 +13,8 @@ static double mean_size(const struct fv *s, int64_t c)
     return s->dim == 2 ? sqrt(s->m->V[c]) : cbrt(s->m->V[c]);
 }
 
+/* The window is moved by 1.2 cells against the normal, along the indices that lead into the water;
+ * places are measured from the foot point in the frame of the surface, in cells. */
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct mesh *m = s->m;
@@ -60,6 +62,8 @@ static void begin(struct fv *s)
     s->m->fringe.keep = w->keep;
 }
 
+/* Dry cells of the fringe are extended in the first layer alone, and kept only where is_own says
+ * so. */
 static bool is_wanted(const struct fv *s, int64_t c, int layer)
 {
     const enum mesh_status is = s->m->status[c];

@@ -110,7 +110,9 @@ static uint64_t bytes_at(const void *p)
 /* A bit for each byte that is 1, in some order. */
 static uint64_t bits_of(uint64_t ones) { return ones * UINT64_C(0x0102040810204080) >> 56; }
 
-/* Cells of a line at once: layers are less than 128, and cells that hold nothing are DEEP. */
+/* Which cells of the window are known, and how the window is moved, as bits: cells alike in that
+ * have the same weights. Cells of a line at once: layers are less than 128, and cells that hold
+ * nothing are DEEP. */
 static struct pattern_key pattern(const struct fv *s, int64_t c, int layer, struct place *p)
 {
     const struct block *b = &s->b;

@@ -131,6 +131,7 @@ static void measure_cells(const struct fv *s, struct fraction *f)
     grid_halo(&s->grid, nf, fields);
 }
 
+/* Fields that stay for the run; C is set by fraction_take, the layers by fraction_note_layers. */
 static struct fraction *create(const struct fv *s)
 {
     struct fraction *f = NEW(struct fraction, 1);
@@ -155,6 +156,7 @@ static struct fraction *create(const struct fv *s)
     return f;
 }
 
+/* The shares that phi says: at the start, and when shares take over from phi. */
 void fraction_take(const struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
@@ -174,6 +176,7 @@ static int first_axis(const struct fv *s)
     return first;
 }
 
+/* Collective, once: whether normals have to look round solids at all. */
 static bool has_boxes(const struct fv *s)
 {
     bool any = false;
@@ -194,6 +197,7 @@ void fraction_start(struct fv *s)
     fraction_take(s);
 }
 
+/* Before the surface moves: flows of a step belong to the layers that the projection had. */
 void fraction_note_layers(const struct fv *s)
 {
     const struct surface *f = s->surface;
@@ -220,6 +224,7 @@ double fraction_volume(const struct fv *s)
     return ranks_sum(s->comm, sum);
 }
 
+/* -: what counts as water of a cell, by whichever of the two carries it now. */
 double surface_water(const struct fv *s, int64_t c)
 {
     const struct fraction *f = s->surface->fraction;
@@ -336,7 +341,7 @@ static void turn_normals(const struct fv *s, const struct part *p, int side)
         }
 }
 
-/* Planes of the mixed cells, with ghosts. */
+/* Planes of the mixed cells, with ghosts. Once a sweep, of the cells as the sweep finds them. */
 static void find_planes(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
@@ -364,6 +369,7 @@ static int axis_of(const struct fv *s, const struct part *p, int a)
     return s->surface->fraction->axes.axis[a][p->block];
 }
 
+/* Share of a cell that is water and lies between two places of it along axis a, -1/2 to 1/2. */
 static double plane_in(const struct fv *s, int64_t c, int a, double lo, double hi)
 {
     const struct fraction *f = s->surface->fraction;
@@ -411,6 +417,7 @@ static void fluxes_of_piece(const struct fv *s, int64_t c, int64_t d, int a, dou
     }
 }
 
+/* Along the axis that the sweep has in each block. */
 static void find_fluxes(const struct fv *s, int sweep, double dt)
 {
     for (const struct part *p = s->grid.part; p < s->grid.part + s->grid.nparts; p++) {
@@ -500,6 +507,7 @@ static void balance(struct fv *s)
     surface_mirror(s, f->C);
 }
 
+/* n parts of dt; in each all axes, the first one in turns, so that none comes first for ever. */
 void fraction_advance(struct fv *s, double dt, int n)
 {
     struct fraction *f = s->surface->fraction;

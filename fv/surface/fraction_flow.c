@@ -59,6 +59,7 @@ static struct air_cell look(const struct fv *s, const struct part *p, int64_t c)
     return x;
 }
 
+/* Cells of the sweeps, gathered once: SWEEPS passes go through the list instead of the grid. */
 static void list_air(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
@@ -112,6 +113,7 @@ static void find_potential(struct fv *s)
     }
 }
 
+/* flow -= conductance times the difference of the potential, on faces between air cells. */
 static void take_divergence_away(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
@@ -130,6 +132,8 @@ static void take_divergence_away(struct fv *s)
     }
 }
 
+/* m^dim/s through the lower faces, along increasing indices, relative to faces that move. Once a
+ * step: has_flows says that they are there. */
 void fraction_set_flows(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;

@@ -42,6 +42,7 @@ static bool is_smooth(const struct fv *s, const struct part *p, int64_t c)
     return sum > 0.6 && sum < 1.6;
 }
 
+/* With one layer of ghosts, so that is_trusted can look around every own cell. */
 static void find_smooth(const struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
@@ -56,6 +57,7 @@ static void find_smooth(const struct fv *s)
                                (fabs(s->surface->phi[i]) < band && is_smooth(s, p, i));
 }
 
+/* Whether phi is smooth in the cell and in all around it, corners too. */
 static bool is_trusted(const struct fv *s, const struct part *p, int64_t c)
 {
     const unsigned char *smooth = s->surface->fraction->smooth;

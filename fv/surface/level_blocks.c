@@ -10,6 +10,7 @@
 
 /* --- ghosts --- */
 
+/* Sides last: they mirror what joins and overlaps have brought. */
 static void ghosts(const struct fv *s, double *phi)
 {
     surface_mesh_fill(s, phi);
@@ -86,6 +87,8 @@ static void advance_height(struct fv *s, double dt, double *near)
     memcpy(f->phi, f->phi_new, (size_t)s->size * sizeof(double));
 }
 
+/* Blocks go to their places at t while phi less the height is carried: in these terms water at rest
+ * does not change when a block moves. */
 int surface_advance_to(struct fv *s, double t, double dt)
 {
     struct surface *f = s->surface;
@@ -158,6 +161,7 @@ static double spacing_along(const struct fv *s, const struct part *p, int a)
     return s->surface->mesh->size[p - s->grid.part][a];
 }
 
+/* Where cells are, and how much of them counts, before phi's ghosts. */
 static void close_cells(struct fv *s)
 {
     surface_mesh_update(s);
@@ -186,6 +190,8 @@ static double cut_slope(const struct fv *s, int a, const struct cut *x, double s
 
 /* --- start --- */
 
+/* Ghosts and cells of others get the scene's distance as well, so that the first stencils are
+ * whole. */
 static void start(const struct fv *s, struct surface *f)
 {
     const struct surface_mesh *w = f->mesh = mem_own(f, surface_mesh_create(s, f));

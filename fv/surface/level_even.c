@@ -17,6 +17,8 @@ static enum beyond beyond_side(const struct fv *s, int side, enum beyond wanted)
     return wall ? wanted : MIRRORED;
 }
 
+/* Of all three ghost layers; sides in the order of axes, so that corners are filled by the later
+ * one. */
 static void ghosts(const struct fv *s, enum beyond walls, double *phi)
 {
     const struct block *b = &s->b;
@@ -137,6 +139,7 @@ static void slopes(const struct fv *s, const struct part *p, int64_t c, double *
     }
 }
 
+/* Central differences over two cells, mirrored at boxes. */
 static void gradient(const struct fv *s, const struct part *p, int64_t c, int j, const double *phi,
                      double g[3])
 {
@@ -201,6 +204,8 @@ static void fill_even(const struct fv *s, double *phi)
     }
 }
 
+/* across: the least spacing along axes that lie across gravity, by which waves along the surface
+ * are counted. */
 static void set_sizes(const struct block *b, const double *g, struct surface *f)
 {
     f->least = f->across = INFINITY;

@@ -15,6 +15,7 @@
  * is two halves of one part each. */
 static const double PART_MOST = 0.6;
 
+/* The grid's own, then what convective outflows and held inflows have behind them. */
 void surface_ghosts(const struct fv *s, double *phi)
 {
     s->surface->ops->ghosts(s, phi);
@@ -27,6 +28,7 @@ void surface_mirror(const struct fv *s, double *q)
     carried_share_ghosts(s, q);
 }
 
+/* q = w p + (1 - w)(q + dt rate): the form that all three stages of SSP-RK3 have. */
 void level_blend(const struct fv *s, double w, const double *p, double dt, const double *rate,
                  double *q)
 {
@@ -53,6 +55,7 @@ static void advance(struct fv *s, double dt)
     f->phi_new = t;
 }
 
+/* How many equal parts a step is taken in. */
 int level_parts(double cfl) { return cfl > PART_MOST ? (int)ceil(cfl / PART_MOST) : 1; }
 
 int surface_advance(struct fv *s, double dt)
@@ -109,6 +112,7 @@ double surface_counted(const struct fv *s, int64_t c, double share)
     return s->surface->ops->counted(s, c, share);
 }
 
+/* Share of the lower face of c along a that is wet, by phi on the face and its slopes there. */
 double surface_face_share(const struct fv *s, int64_t c, int a)
 {
     const struct part *p = grid_part(&s->grid, c, NULL);
@@ -194,6 +198,7 @@ double surface_volume_scale(const struct fv *s)
     return fmax(fmax(s->surface->volume0 + s->surface->passed, s->surface->whole), least);
 }
 
+/* m^dim put back, with its sign, and what was lost and gained apart, which may balance. */
 void surface_note_returned(struct fv *s, double volume)
 {
     s->surface->returned += volume;
@@ -220,6 +225,8 @@ void surface_keep_volume(struct fv *s)
     }
 }
 
+/* NULL: no free surface. The grid's functions are chosen here, nobody below asks which kind of
+ * cells it is. */
 struct surface *levelset_create(const struct fv *s)
 {
     if (!s->prm.water)

@@ -121,7 +121,8 @@ static void leave_row(struct fv *s, int j, int k, const int old[2], const int no
             leave(s, part_at(&s->whole, i, j, k));
 }
 
-/* From these rows to those, and clears what is in the former alone. */
+/* From these rows to those, and clears what is in the former alone. Cells that leave are cleared
+ * before the rows are taken over, for afterwards no loop meets them. */
 static void change(struct fv *s, int (*now)[2])
 {
     const struct part *p = &s->whole;
@@ -156,6 +157,7 @@ static void find(const struct fv *s, bool (*wanted)(const struct surface *, int6
     mem_free(work);
 }
 
+/* Collective with the layers. Where it is not wanted all loops go over whole rows. */
 void near_water_find(struct fv *s)
 {
     struct part *p = &s->whole;
@@ -172,6 +174,7 @@ void near_water_find(struct fv *s)
     mem_free(now);
 }
 
+/* The rows at the start of a step, for one that is taken back. */
 void near_water_keep(struct fv *s)
 {
     int(**kept)[2] = &s->surface->near_before;

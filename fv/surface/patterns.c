@@ -31,6 +31,8 @@ static struct pattern *place_of(const struct patterns *p, const struct pattern_k
     return p->of + k;
 }
 
+/* Pointers to patterns do not outlive it: their numbers are kept in `first', the stencil's place.
+ */
 static void grow(void *owner, struct patterns *p)
 {
     struct patterns wider = {.n = p->n, .room = p->room > 0 ? 2 * p->room : ROOM};

@@ -123,6 +123,8 @@ static double place_sorted(const double m[3], double share)
     return x + y <= z ? z * share + 0.5 * (x + y) : iterate(m, share, last, 0.5);
 }
 
+/* The inverse of plane_share; by symmetry a share above a half is the rest's with the sign turned.
+ */
 double plane_alpha(int dim, const double *n, double share)
 {
     double m[3];
@@ -134,6 +136,8 @@ double plane_alpha(int dim, const double *n, double share)
     return sum * (0.5 - place_sorted(m, 1.0 - share));
 }
 
+/* The slab is a box that is (hi - lo) as thick along a: the plane in its coordinates has n_a scaled
+ * and alpha shifted. */
 double plane_slab(int dim, const double *n, double alpha, int a, double lo, double hi)
 {
     double m[3];

@@ -28,6 +28,7 @@ static double crossing(const double *q, int64_t d)
     return t > 0.0 && t < 1.0 ? t : q[0] / fall;
 }
 
+/* |grad phi| by the grid's central differences. */
 static double slope_of(const struct fv *s, const struct part *p, const double *phi, int64_t c,
                        int j)
 {
@@ -76,6 +77,7 @@ static void rates(const struct fv *s, const double *phi, const double *old, cons
     }
 }
 
+/* Whether phi changes its sign between the cell and a neighbour along an axis. */
 static bool beside_surface(const struct fv *s, const struct part *p, const double *phi, int64_t c)
 {
     for (int a = 0; a < s->dim; a++)
@@ -242,6 +244,7 @@ static void pseudo_step(struct fv *s, const struct band *w)
     surface_ghosts(s, phi);
 }
 
+/* `keeps': while phi is made a distance its slopes behind walls that lean stay as they are. */
 static void redistance(struct fv *s, int width, int steps)
 {
     struct surface *f = s->surface;

@@ -41,6 +41,8 @@ static bool near_side(const struct fv *s, const struct part *p, int64_t c)
     return false;
 }
 
+/* Distances that are held: those of closest.c, and in the narrow band of half steps cells beside
+ * sides, which are left as advection has them. */
 bool reinit_is_known(const struct fv *s, const struct part *p, const double *phi, int64_t c,
                      bool narrow, double *exact)
 {

@@ -230,6 +230,7 @@ static double disc(const struct fv *s, const struct scene_shape *h, const double
     return of_water && is_round_wall(s, h) ? (h->hole ? INFINITY : -INFINITY) : d;
 }
 
+/* m: < 0 within the shape; walls that bound it are no surface. */
 static double shape(const struct fv *s, const struct scene_shape *h, const double *x)
 {
     switch (h->form) {
@@ -395,6 +396,7 @@ static double where_shapes_end(const struct fv *s, const double *x, double d, do
     return wet ? -least : least;
 }
 
+/* Cut off at the domain's size, for what has no surface at all is infinitely far. */
 double surface_distance(const struct fv *s, const double *x)
 {
     const struct scene *c = &s->run->scene;

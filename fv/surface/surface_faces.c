@@ -21,6 +21,7 @@ struct stencil {
     double weight[AROUND];
 };
 
+/* A cell that is there already gets the weight on top, so a row has each column once. */
 static void add(struct stencil *x, int64_t at, double weight)
 {
     for (int k = 0; k < x->n; k++)
@@ -75,6 +76,7 @@ static void add_cut(struct fv *s, int a, int64_t face, int64_t d)
     level_add_cut(s, a, x, at, e);
 }
 
+/* Stencils of all faces stand in one list; the face has its first entry and their number. */
 static void add_face(struct fv *s, int a, const struct wet_face *x, const struct stencil *q)
 {
     struct surface_mesh *w = s->surface->mesh;

@@ -81,6 +81,8 @@ static double coarsest_particles(const struct fv *s)
     return most;
 }
 
+/* Places and cells are found once for a forcing; the partner is asked there at each coupling step.
+ */
 struct surface_forced *surface_forced_create(const struct fv *s)
 {
     const struct forcing *g = s->forcing;
@@ -113,6 +115,7 @@ struct surface_forced *surface_forced_create(const struct fv *s)
 
 /* --- in time --- */
 
+/* The next end is foreseen on the line through the last two, until the partner says otherwise. */
 void surface_forced_shift(struct fv *s, double t0, double t1)
 {
     struct surface_forced *f = s->surface->forced;

@@ -59,6 +59,7 @@ static bool is_slanting(const struct fv *s, const struct mesh_block *b)
     return false;
 }
 
+/* Ghosts too, by the block's mapping beyond its ends. */
 static void set_centres(const struct fv *s, const struct part *p, struct surface_mesh *w)
 {
     const struct mesh *m = s->m;
@@ -213,6 +214,7 @@ static void set_height(const struct fv *s, struct surface_mesh *w)
     }
 }
 
+/* Which places are no cells of the water: behind sides, holes, a partner's inner cells. */
 static void set_out(const struct fv *s, struct surface_mesh *w)
 {
     const struct forcing *g = s->forcing;
@@ -247,6 +249,8 @@ void surface_mesh_change_height(const struct fv *s, double sign, double *phi)
     add_height(s, sign, phi);
 }
 
+/* After blocks have moved: centres, heights, then what is out, which asks for the statuses of now.
+ */
 void surface_mesh_update(struct fv *s)
 {
     for (int q = 0; q < s->grid.nparts; q++)
@@ -256,6 +260,7 @@ void surface_mesh_update(struct fv *s)
     set_out(s, s->surface->mesh);
 }
 
+/* Metrics and overlaps of the blocks at time t, and what of the surface depends on them. */
 void surface_mesh_place(struct fv *s, double t)
 {
     mesh_motion_place(s->m, t);

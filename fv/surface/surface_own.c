@@ -38,6 +38,7 @@ static void clip(struct polygon *p, double n0, double n1, double d)
     *p = to;
 }
 
+/* p becomes what it has in common with q, both convex and counter-clockwise. */
 static void clip_by(struct polygon *p, const struct polygon *q)
 {
     for (int k = 0; k < q->n && p->n > 0; k++) {
@@ -171,6 +172,7 @@ static bool is_mixed(const struct part *p, int dim, int64_t c, const double *cov
     return false;
 }
 
+/* With one layer of ghosts, for is_mixed looks around. */
 static void cover_centres(const struct fv *s, const struct overset *o, const struct part *p,
                           double *covered)
 {

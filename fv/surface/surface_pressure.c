@@ -85,6 +85,8 @@ static bool dry_water_side(const struct fv *s, int64_t c)
     return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
 }
 
+/* Wet cells whose fourth-order gradient along a would read dry ones: they take the mean of their
+ * two faces. */
 static void find_leaving(struct fv *s, int a)
 {
     struct surface *f = s->surface;
@@ -122,6 +124,7 @@ static void count(struct fv *s)
     f->cuts = n[1];
 }
 
+/* In this order: layers say what is wet, faces follow from it, and counts from both. */
 void surface_rebuild(struct fv *s)
 {
     struct surface *f = s->surface;
@@ -160,6 +163,8 @@ void surface_zero_all(const struct fv *s, double *q)
         zero_row(s->surface->layer + c, n, q + c);
 }
 
+/* Moves what is known of cut faces, the surface's pressure, to the right side of the wet cell's
+ * row. */
 void surface_add_pressure(const struct fv *s, double *div)
 {
     const struct surface *f = s->surface;

@@ -41,6 +41,7 @@ static double bent(const struct fv *s, int m, const double *q, int64_t i, int64_
                   : low - 2.0 * here + up;
 }
 
+/* Wet cells of FV's own within DEPTH of the surface. */
 static bool is_smoothed(const struct fv *s, int64_t c)
 {
     const struct surface *f = s->surface;

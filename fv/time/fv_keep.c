@@ -73,6 +73,7 @@ struct kept_numbers {
     struct kept_number *is;
 };
 
+/* `of' names what they belong to, in the message about a restart file that lacks one. */
 static void add(struct kept_numbers *to, const char *of, const struct kept_number *list, int n)
 {
     for (int k = 0; k < n; k++) {
@@ -155,6 +156,7 @@ int fv_restart_numbers(struct fv *s, struct kept_number *of)
     return all.n;
 }
 
+/* All kinds as double, which is what files have. */
 double kept_number_get(const struct kept_number *x)
 {
     return x->real ? *x->real : x->count ? (double)*x->count : (double)*x->flag;
@@ -182,6 +184,7 @@ struct kept {
     int64_t cycles, halvings; /* of newton: what restart files leave out */
 };
 
+/* The list is that of restart files, so that what one knows the other knows, too. */
 struct kept *kept_create(const struct fv *s)
 {
     struct kept *k = NEW(struct kept, 1);
@@ -230,6 +233,7 @@ static void carry(struct fv *s, struct kept *k, bool back)
 }
 
 void kept_take(struct kept *k, struct fv *s) { carry(s, k, false); }
+/* Flows of shares and of openings are not kept: the next step finds them anew from the fields. */
 void kept_put_back(struct kept *k, struct fv *s)
 {
     carry(s, k, true);

@@ -82,6 +82,7 @@ static void find_worst(const struct fv *s, double before, struct diagnosis *d)
                    d->likely, sizeof d->likely);
 }
 
+/* In the order of causes: the first trouble that is found explains those that would follow. */
 static void diagnose(const struct fv *s, double dt, double before, bool good, struct diagnosis *d)
 {
     const double most = fv_fastest(s);
@@ -208,6 +209,8 @@ static bool crawls(const struct fv *s, double n, const struct step_limit *most, 
     return true;
 }
 
+/* Steps up to t_stop, or up to the next event of a motion, are of one size: the last is no short
+ * remnant, which would cost as much as any other. */
 double integrate(struct fv *s, double t_stop, struct diagnosis *d)
 {
     if (s->surface && s->moving && moving_turns(s))

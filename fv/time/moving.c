@@ -117,6 +117,8 @@ static bool find_born(struct fv *s)
     return any;
 }
 
+/* Fields that cells which are computed now and were holes before take over by interpolation;
+ * returns how many, 15 at most. */
 static int carried(const struct fv *s, double **f)
 {
     int n = 0;
@@ -157,6 +159,7 @@ static void fill_born_before(struct fv *s)
     swap_status(s->m, s->moving);
 }
 
+/* The velocity of a step before is wanted only where the step has two levels before it. */
 static void fill_born_all(struct fv *s)
 {
     fill_born(s);
@@ -194,6 +197,7 @@ static bool is_as_before(const struct mesh *m, const struct moving *v)
     return same;
 }
 
+/* The times of cut and hierarchy are what a restart needs to make both again. */
 static void renew_matrix(struct fv *s)
 {
     struct moving *v = s->moving;
@@ -231,6 +235,8 @@ static void cut_step(struct fv *s)
     timer_stop(&s->run->timers, "overlap");
 }
 
+/* Fringes and ghosts by this step's donors: sides come after, for a ghost of a given side is of the
+ * cell beside it. */
 static void fill_step(struct fv *s)
 {
     mesh_fill(s->m, 1, &s->p);
@@ -239,6 +245,9 @@ static void fill_step(struct fv *s)
     fill_fluxes(s);
 }
 
+/* At an event of a motion, say the time at which it begins, velocities of walls jump: what the step
+ * starts from has those after it. The tolerance is that of times that were reached by adding steps.
+ */
 bool moving_turns(struct fv *s)
 {
     const double instant = 1e-9 * fmax(1.0, fabs(s->t));
@@ -264,6 +273,8 @@ void moving_begin(struct fv *s)
         fill_step(s);
 }
 
+/* The surface's own arrays are of the cells as they are cut now, so they come before the matrix,
+ * which asks them what is air. */
 void moving_begin_surface(struct fv *s, double dt)
 {
     s->step.dt_now = dt;
@@ -319,6 +330,7 @@ void moving_begin_implicit(struct fv *s, double dt)
     timer_stop(&s->run->timers, "overlap");
 }
 
+/* Cells are those before the step, blocks stand where they did at its start. */
 void moving_back(struct fv *s)
 {
     struct moving *v = s->moving;
@@ -335,6 +347,7 @@ void moving_back(struct fv *s)
 
 /* --- stages --- */
 
+/* R takes a vector that is fixed to the block from its direction at `from' to that at `to'. */
 static void turn_back_and_on(struct mesh_motion *v, double from, double to, double R[3][3])
 {
     struct body_motion a, b;
@@ -405,6 +418,7 @@ void moving_convection(struct fv *s, double *const N[3])
                     s->stages.N_old[a][i] = N[a][i];
 }
 
+/* f is e_k/c_k of the head comment. */
 void moving_stage(struct fv *s, double t)
 {
     struct moving *v = s->moving;
@@ -429,6 +443,7 @@ void moving_stage(struct fv *s, double t)
     timer_stop(&s->run->timers, "overlap");
 }
 
+/* The second rule of the head comment. With a surface it is u* = I u* alone. */
 void moving_fill(struct fv *s, double *const u[3])
 {
     const struct mesh *m = s->m;

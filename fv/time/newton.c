@@ -36,6 +36,8 @@ void newton_no_message(int code, const char *module, const char *function, char 
     (void)code, (void)module, (void)function, (void)text, (void)user;
 }
 
+/* Preconditioned from the right, GMRES bounds the true residual, which is what the steps' tolerance
+ * is about. */
 static void make_kinsol(struct fv *s, struct newton *w)
 {
     w->krylov = SUNLinSol_SPGMR(w->q, SUN_PREC_RIGHT, KRYLOV, w->ctx);
@@ -72,6 +74,7 @@ static double tolerance(const struct fv *s, double all)
                          : fmax(1e-9, 1e-6 * fmin(1.0, pow(64.0 * step, 3.0)));
 }
 
+/* Of all ranks, so that all sweep alike: scratch of a row has that length. */
 static int longest_row(const struct fv *s)
 {
     int most = grid_longest(&s->grid);
@@ -91,6 +94,8 @@ static void close_libraries(void *p)
     SUNContext_Free(&w->ctx);
 }
 
+/* Vectors hold cells that are stored without their ghosts, fields all of them: newton_pack and
+ * newton_unpack go between the two. */
 struct newton *newton_create(struct fv *s)
 {
     struct newton *w = NEW(struct newton, 1);
@@ -131,6 +136,7 @@ struct newton *newton_create(struct fv *s)
 /* Root mean square of the scaled residual. */
 static double scaled_norm(const struct newton *w, N_Vector r) { return N_VWrmsNorm(r, w->fscale); }
 
+/* KINSOL counts from each call's beginning. */
 static void count(struct newton *w)
 {
     long newtons = 0, krylovs = 0;
@@ -193,6 +199,7 @@ static int64_t cell_of(const struct fv *s, int64_t k)
     return 0;
 }
 
+/* Fills d on the rank that has the worst equation, so it is collective. */
 void newton_describe(struct fv *s, const char *after, struct diagnosis *d)
 {
     struct newton *w = s->newton;
@@ -251,6 +258,8 @@ static void take_levels(struct fv *s)
     outflow_begin(s);
 }
 
+/* In this order: sides and blocks where the step ends, the coefficients in time, the start of the
+ * iteration, which has what is imposed at that time. */
 static bool solve_step(struct fv *s, double dt)
 {
     s->newton->of.t = s->t + dt;
@@ -260,6 +269,8 @@ static bool solve_step(struct fv *s, double dt)
     return solve(s);
 }
 
+/* No halving here: the surface went half a step ahead with this dt, so the caller takes both back.
+ */
 bool newton_try(struct fv *s, double dt)
 {
     start(s, "newton");
@@ -347,6 +358,8 @@ static void next_pseudo_step(struct newton *w, double factor, double gain, int64
     w->dtau = fmin(w->dtau * factor, w->longest_step);
 }
 
+/* One pseudo step and the size of the next. One that fails is cut to a quarter, and done again from
+ * the state before. */
 static void march(struct fv *s, struct diagnosis *d)
 {
     struct newton *w = s->newton;

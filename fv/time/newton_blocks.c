@@ -25,6 +25,9 @@ static double rate_of(const struct fv *s, int64_t c, const int64_t *stride)
     return sum / s->m->V[c];
 }
 
+/* Rates of the cells, which d = 1/(c0 + rate) of the fluxes is made of, and the scales of KINSOL: p
+ * counts as U^2, velocities as U, a continuity residual as that of a velocity over h, one of
+ * momentum over the time in which the cell forgets. */
 static void set_rates(struct fv *s)
 {
     struct newton *w = s->newton;
@@ -92,6 +95,8 @@ static void extend_state(struct fv *s)
     extension_scalar(s, s->p);
 }
 
+/* The gradient that carries on is that of water; the first two layers of air are what averages on
+ * faces read. */
 static void extend_gradient(struct fv *s)
 {
     surface_mesh_psi_gradient(s, 1.0 / s->newton->of.c0, s->p, false, s->newton->G);
@@ -141,6 +146,7 @@ static void remove_mean(struct fv *s, double *q)
             q[i] -= sums[0] / sums[1];
 }
 
+/* m^3/s -> 1/s, so that small cells count as large ones in the norm. */
 static void per_volume(const struct fv *s, double *q)
 {
     FLOW_ROWS (s, c, n)
@@ -148,6 +154,8 @@ static void per_volume(const struct fv *s, double *q)
             q[i] /= s->m->V[i];
 }
 
+/* Leaves the momentum's residual without its derivative in time in s->rhs, along indices, and the
+ * divergence in s->faces[0]. */
 static void evaluate(struct fv *s)
 {
     struct newton *w = s->newton;
@@ -195,6 +203,7 @@ static void fill_rows(struct fv *s)
         poisson_shift(s, pow(s->newton->of.c0 / s->prm.c0, 2.0));
 }
 
+/* The diagonal of -Lap of the cells, 1/m^2. */
 static void laplacian(const struct fv *s, double *out)
 {
     const struct mesh *m = s->m;
@@ -206,6 +215,8 @@ static void laplacian(const struct fv *s, double *out)
         }
 }
 
+/* Averages of x on the faces; through sides and cells of other treatment nothing passes but what
+ * openings let. */
 static void subtract_divergence(struct fv *s, double *const x[3], double *div)
 {
     const struct mesh *m = s->m;

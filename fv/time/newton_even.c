@@ -89,6 +89,7 @@ static void complete(struct fv *s, const struct flow *q, bool variation)
 
 /* ---- fluxes --------------------------------------------------------------------------------- */
 
+/* h^3 d^3 q on the face between q[-d] and q[0]. */
 static inline double third_difference(const double *q, int64_t d)
 {
     return (q[d] - q[-2 * d]) - 3.0 * (q[0] - q[-d]);
@@ -131,6 +132,7 @@ static void flux_variation_row(const double *restrict U, const double *restrict 
     }
 }
 
+/* F has one face more than out has cells along the row's axis. */
 static void add_difference(const double *restrict F, int64_t along, double per_h, int64_t n,
                            double *restrict out)
 {
@@ -138,6 +140,7 @@ static void add_difference(const double *restrict F, int64_t along, double per_h
         out[i] += (F[i + along] - F[i]) * per_h;
 }
 
+/* Strides of the axes other than a; returns how many. */
 static int tangents(const struct block *b, int a, int64_t *t)
 {
     int n = 0;
@@ -209,6 +212,7 @@ static void apply_space(struct fv *s, const struct flow *v)
     }
 }
 
+/* The residual of space, of the state as it is in the fields of s. */
 static void evaluate(struct fv *s)
 {
     struct newton *w = s->newton;
@@ -220,12 +224,15 @@ static void evaluate(struct fv *s)
     apply_space(s, NULL);
 }
 
+/* Wants evaluate of the state before: fluxes and values on faces are those of the state. */
 static void evaluate_variation(struct fv *s)
 {
     complete(s, &s->newton->v, true);
     apply_space(s, &s->newton->v);
 }
 
+/* Of the fastest cells, the same for all: a scaled residual of 1e-6 is a velocity error of 1e-6 U.
+ * A flow at rest counts as a hundredth of the scene's speed, which must not be 0. */
 static void set_rates(struct fv *s)
 {
     struct newton_step *o = &s->newton->of;
@@ -303,6 +310,8 @@ static void close_rows(struct fv *s)
     }
 }
 
+/* The matrix of pressures is shifted by (c0 over the pseudo speed of sound)^2 (newton_residual.c).
+ */
 static void fill_rows(struct fv *s)
 {
     const double a = s->prm.c0 > 0.0 ? 1.0 / (s->prm.c0 * s->prm.c0) : 0.0, c0 = s->newton->of.c0;
@@ -311,6 +320,7 @@ static void fill_rows(struct fv *s)
     poisson_shift(s, a * c0 * c0);
 }
 
+/* The diagonal of -Lap, 1/m^2. */
 static void laplacian(const struct fv *s, double *out)
 {
     const struct block *b = &s->b;

@@ -30,6 +30,8 @@ static void close_at_surface(struct fv *s)
         }
 }
 
+/* Rows of A for the state of the last residual; A[0] becomes 1/diagonal, the sweeps only multiply.
+ */
 int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, void *user)
 {
     struct fv *s = user;
@@ -66,6 +68,8 @@ sweep_row(const struct fv *s, const struct part *p, double *const r[3], double *
     }
 }
 
+/* Forwards and backwards in turns, which makes the map symmetric where A is; the neighbours of
+ * other ranks and blocks are those of the sweep before. */
 static void sweep_part(const struct fv *s, const struct part *p, double *const r[3],
                        double *const x[3], bool down)
 {
@@ -123,6 +127,7 @@ static void apply_to_pressure(const struct fv *s, const double *restrict x, doub
         }
 }
 
+/* v is right side and result. */
 int newton_precond_solve(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscale, N_Vector v,
                          void *user)
 {

@@ -14,6 +14,7 @@
 
 /* ---- layout --------------------------------------------------------------------------------- */
 
+/* Cells in the order of FLOW_ROWS, without ghosts; returns where the next field goes. */
 static double *pack(const struct fv *s, const double *q, double *to)
 {
     FLOW_ROWS (s, c, n) {
@@ -32,6 +33,7 @@ static const double *unpack(const struct fv *s, const double *from, double *q)
     return from;
 }
 
+/* p first, then the components. */
 void newton_pack(const struct fv *s, const double *p, double *const u[3], N_Vector q)
 {
     double *to = pack(s, p, N_VGetArrayPointer(q));
@@ -48,6 +50,8 @@ void newton_unpack(const struct fv *s, N_Vector q, double *p, double *const u[3]
 
 /* ---- residual ------------------------------------------------------------------------------- */
 
+/* Two-step backward differences for steps that vary; dt_old 0: Euler, as the first step and pseudo
+ * steps are. */
 void newton_set_step(struct fv *s, double dt, double dt_old)
 {
     struct newton_step *o = &s->newton->of;
@@ -104,6 +108,8 @@ static void clear_given(const struct fv *s, N_Vector r)
     newton_pack(s, s->faces[0], s->rhs, r);
 }
 
+/* Leaves fields, fluxes and ghosts as those of qv; the preconditioner and what follows a step read
+ * them. */
 int newton_residual(N_Vector qv, N_Vector rv, void *user)
 {
     struct fv *s = user;

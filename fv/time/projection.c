@@ -24,6 +24,8 @@ static void end_surface_stage(struct fv *s, double tau, double *psi, bool last)
     extension_scalar(s, psi);
 }
 
+/* Order matters: fluxes of the predicted velocity, psi, fluxes and cells corrected, what lies
+ * beyond the surface carried on, sides last, for they read the cells beside them. */
 void projection(struct fv *s, double t, int stage, double tau, double tol)
 {
     double *psi = s->stages.psi[stage];
@@ -65,6 +67,7 @@ static bool add_increment(struct fv *s, double c, double t, double scale)
     return good;
 }
 
+/* Which arrays the components are, not what is in them. */
 static void swap(double *a[3], double *b[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -94,6 +97,7 @@ static void stage_rhs(struct fv *s, double dt, double ab, double gamma, double z
         s->ops->to_index(s);
 }
 
+/* What stages share: the gradient of the pressure before, openings as they flow now. */
 static void begin_step(struct fv *s)
 {
     start(s, "operators");
@@ -114,6 +118,7 @@ static void step_convection(struct fv *s)
     stop(s, "convection");
 }
 
+/* The pressure plus psi; with a surface psi is all of it. */
 static void add_pressure(struct fv *s, const double *restrict psi)
 {
     if (s->surface)
