@@ -120,6 +120,49 @@ static const char *beyond_word(const struct run *r, int axis)
                                           : "leaves the domain across";
 }
 
+/* The room that a body may have at a time: of the domain the free zone of the particles, m. */
+struct room {
+    double lo[3], hi[3];
+};
+
+static struct room room_at(const struct run *r, const struct sph_params *used, double t)
+{
+    struct room is;
+    double way[3];
+    zones_free_box(r, used, is.lo, is.hi);
+    (void)box_motion_foretold(r, used, t, way);
+    for (int a = 0; a < 3; a++) {
+        is.lo[a] += way[a];
+        is.hi[a] += way[a];
+    }
+    return is;
+}
+
+/* Whether a corner x of body k is in its room; when: the words for the time. */
+static bool check_room(const struct run *r, const struct room *room, int k, const char *name,
+                       const double *x, const char *when, struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    char third[24] = "";
+    for (int a = 0; a < d->dim; a++) {
+        const double small = 1e-6 * (d->max[a] - d->min[a]); /* a file's last digits */
+        const bool leaves = x[a] < d->min[a] - small || x[a] > d->max[a] + small;
+        if (x[a] >= room->lo[a] - small && x[a] <= room->hi[a] + small)
+            continue;
+        if (d->dim == 3)
+            snprintf(third, sizeof third, ", %g", x[2]);
+        params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g%s) m, %s: %s",
+                     name,
+                     leaves ? beyond_word(r, a) : "leaves the free zone of the particles across",
+                     "xyz"[a], x[0], x[1], third, when,
+                     leaves ? beyond_remedy(r, k, a)
+                            : "only there it is known; keep it 2.5 R from openings, or make "
+                              "sph.box larger");
+        return false;
+    }
+    return true;
+}
+
 /* Whether x is so near to the axis of a free body's hinge that contact leaves it alone: see
  * body_touch.h. */
 static bool is_held(const struct scene_body *b, const double *x, double gap)
@@ -159,6 +202,16 @@ static double free_gap(const struct scene_body *b, const struct line *mine,
     return least;
 }
 
+/* Whether body k is the one of a pair that looks whether they touch: before what no fluid moves, of
+ * two free ones that on a hinge, else the later one. */
+static bool looks(const struct scene *c, int k, int other)
+{
+    const bool hinged = c->bodies[k].hinge.n > 0;
+    if (other < 0 || !c->bodies[other].free)
+        return true;
+    return hinged == (c->bodies[other].hinge.n > 0) ? other < k : hinged;
+}
+
 /* What turns about a hinge would be jammed by what it touches at the start. Others stand where they
  * are: body_contact.c. */
 static void check_contacts(const struct run *r, const struct sph_params *used,
@@ -169,7 +222,7 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
             const struct scene_body *b = r->scene.bodies + k;
             const double gap = scene_contact_of(b).gap * used->dx * (1.0 - 1e-6);
             double at[2] = {0.0, 0.0};
-            if (m == k || !b->free || b->hinge.n == 0 || (is_free(&r->scene, all + m) && m > k))
+            if (m == k || !b->free || b->hinge.n == 0 || !looks(&r->scene, k, all[m].body))
                 continue;
             const double d = free_gap(b, &all[k].line, &all[m].line, gap, at);
             if (d < gap)
@@ -265,23 +318,6 @@ static void check_period_ends(const struct run *r, const struct sph_params *used
 
 /* --- meshes --- */
 
-/* A vertex of a body outside the domain; true: said. */
-static bool check_domain(const struct run *r, int k, const double *x, const char *when,
-                         struct faults *f)
-{
-    const struct scene_domain *d = &r->scene.domain;
-    for (int a = 0; a < 3; a++) {
-        const double small = 1e-6 * (d->max[a] - d->min[a]); /* a file's last digits */
-        if (x[a] >= d->min[a] - small && x[a] <= d->max[a] + small)
-            continue;
-        params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g, %g) m, %s: %s",
-                     r->scene.bodies[k].name, beyond_word(r, a), "xyz"[a], x[0], x[1], x[2], when,
-                     beyond_remedy(r, k, a));
-        return true;
-    }
-    return false;
-}
-
 /* Distance of x to the nearest wall of the domain's sides and its place in the scene's words. */
 static double side_distance(const struct scene *c, const double *x, char *what, size_t size)
 {
@@ -356,7 +392,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
     for (int j = 0; j < c->meshes->n; j++) {
         const struct scene_mesh *n = c->meshes->of + j;
         if (n == m || n->owner == MESH_OF_SHAPE ||
-            (n->owner == MESH_OF_BODY && c->bodies[n->index].free && n->index > k))
+            !looks(c, k, n->owner == MESH_OF_BODY ? n->index : -1))
             continue;
         const double d = mesh_distance(b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
         snprintf(what, sizeof what, "%s", n->name);
@@ -373,15 +409,17 @@ static void check_meshes(const struct run *r, const struct sph_params *used, str
     for (int k = 0; k < c->nbodies; k++) {
         const struct trimesh *m = bodies[k].mesh;
         const int before = f->n, most = bodies[k].free ? 0 : times < 200 ? times : 200;
-        for (int i = 0; m && i <= most && f->n == before; i++) {
+        const bool here = m && !solids_elsewhere(r, MESH_OF_BODY, k);
+        for (int i = 0; here && i <= most && f->n == before; i++) {
             const double t = most ? c->time.end * i / most : 0.0;
+            const struct room room = room_at(r, used, t);
             char when[64];
             snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
             body_move(bodies + k, t);
             for (int v = 0; v < m->nvertices && f->n == before; v++) {
                 double x[3];
                 body_place(bodies + k, m->x[v], x);
-                check_domain(r, k, x, when, f);
+                check_room(r, &room, k, c->bodies[k].name, x, when, f);
             }
         }
         if (m && bodies[k].free && f->n == before)
@@ -421,35 +459,6 @@ static void place_bodies(const struct scene *c, struct body *bodies, double t,
     }
 }
 
-/* A corner outside the room that a body may have: the free zone of the particles. */
-static bool check_room(const struct run *r, const struct sph_params *used, const struct bound *b,
-                       double t, const char *when, struct faults *f)
-{
-    const struct scene_domain *d = &r->scene.domain;
-    const struct line *l = &b->line;
-    const double small = 1e-6 * line_size(l);
-    double lo[3], hi[3], way[3];
-    zones_free_box(r, used, lo, hi);
-    (void)box_motion_foretold(r, used, t, way);
-    for (int i = 0; i < l->n; i++)
-        for (int a = 0; a < 2; a++) {
-            const double x = l->x[i][a];
-            const bool leaves = x < d->min[a] - small || x > d->max[a] + small;
-            if (x >= lo[a] + way[a] - small && x <= hi[a] + way[a] + small)
-                continue;
-            params_fault(r->params, f, key_text("bodies.[%d]", b->body),
-                         "%s %s %c at (%g, %g) m, %s: %s", b->name,
-                         leaves ? beyond_word(r, a)
-                                : "leaves the free zone of the particles across",
-                         "xy"[a], l -> x[i][0], l -> x[i][1], when,
-                         leaves ? beyond_remedy(r, b->body, a)
-                                : "only there it is known; keep it 2.5 R from openings, or make "
-                                  "sph.box larger");
-            return false;
-        }
-    return true;
-}
-
 /* Two that are in each other at a time. */
 static void fault_of_places(const struct run *r, struct faults *f, const struct bound *b,
                             const struct bound *other, const double *at, const char *when)
@@ -475,12 +484,14 @@ static bool check_places(const struct run *r, const struct sph_params *used,
     char when[64];
     double at[2];
     const int before = f->n;
+    const struct room room = room_at(r, used, t);
     snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
     for (int k = 0; k < r->scene.nbodies; k++) {
         if (t > 0.0 && r->scene.bodies[k].free)
             continue; /* goes where forces take it, and is watched there */
-        if (!all[k].elsewhere && !check_room(r, used, all + k, t, when, f))
-            return true;
+        for (int i = 0; i < all[k].line.n && !all[k].elsewhere; i++)
+            if (!check_room(r, &room, k, all[k].name, all[k].line.x[i], when, f))
+                return true;
         for (int m = 0; m < n; m++) {
             if (t > 0.0 && all[m].body >= 0 && r->scene.bodies[all[m].body].free)
                 continue;

@@ -490,6 +490,8 @@ faulty('tank', 's/"b"/' + free + '; density = 500.0/; s/c0 = 30.0/c0 = 30.0; wal
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1.7, 0.3); }/; s/(0.8, 0.2), (0.8, 0.4), (1.2, 0.4), (1.2, 0.2)/(1.59, 0.2), (1.59, 0.4), (1.99, 0.4), (1.99, 0.2)/', r'bodies.\[0\]: .*starts in contact with wall .*move it away', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.3); }/; s/^bodies:  (/bodies: ( { name = "c"; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/', 'starts in contact with body 1 (c)', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.3); }/; s/^bodies:  (/bodies: ( { name = "c"; velocity = (0.1, 0); points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); },/', 'starts in contact with body 1 (c)', 'sph')
+# of two free bodies the one on a hinge, whichever comes first
+faulty('tank', 's/"b"/' + free + '; density = 500.0; hinge = { at = (1, 0.3); }/; /^bodies/s/ } );$/ }, { name = "c"; free = true; density = 500.0; points = ((1.21, 0.2), (1.21, 0.4), (1.4, 0.4), (1.4, 0.2)); } );/', r'bodies.\[0\]: body 1 (b) starts in contact with body 2 (c)', 'sph')
 faulty('tank', 's/"b"/' + free + '; density = 500.0/; s/^walls:   (/walls: ( { points = ((1, 0), (1, 0.3)); },/', 'body 1 (b) cuts wall 1', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "x"; amplitude = 0.1; } )/', r'motion.\[0\]: a harmonic term needs an amplitude and a period', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "polynomial"; axis = "x"; } )/', r'motion.\[0\]: a polynomial term needs coefficients', 'sph')
@@ -650,6 +652,7 @@ else:
     faulty('sph', r's/^sph:/walls: ( { mesh = "solid.stl"; } );\n&/', r'walls.\[0\].mesh: a surface of triangles bounds a fluid of 3 dimensions', 'sph')
     faulty('mesh', 's/mesh = "solid.stl"/points = ((0, 0), (1, 1))/', 'walls and bodies of points need 2 dimensions: in space give a mesh', 'sph')
     faulty('mesh', 's/{ side = "y_max"; }, //; s/^shapes.*//', 'domain: the fluid fills it up to its side y_max, which is open', 'sph')
+    faulty('mesh', r's/{ side = "x_min"; }, { side = "x_max"; }/{ side = "x_min"; kind = "inflow"; velocity = (1, 0, 0); }, { side = "x_max"; kind = "outflow"; }/; s/{ mesh.*/{ side = "z_max"; } );/; /^shapes/d; s/ gravity.*/ };/; s/^sph/bodies: ( { name = "b"; mesh = "solid.stl"; } );\n&/', r'bodies.\[0\]: b leaves the free zone of the particles across x', 'sph')
     # what only filling finds
     for change in 's/solid.stl/plate.stl/', r's/^sph/initial: { seed = ((0.5, 0.5, 0.9)); };\n&/':
         edit('mesh.cfg', change)
