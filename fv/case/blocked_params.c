@@ -29,6 +29,7 @@ static double spacing(const struct run *r, int a)
     return (d->max[a] - d->min[a]) / fv_params_of(r)->cells[a];
 }
 
+/* In the words of whoever gave the box: the list blocked with its key, or a body. */
 static void fault(const struct run *r, struct faults *f, int k, const char *key, const char *fmt,
                   ...) __attribute__((format(printf, 5, 6)));
 static void fault(const struct run *r, struct faults *f, int k, const char *key, const char *fmt,
@@ -47,6 +48,8 @@ static void fault(const struct run *r, struct faults *f, int k, const char *key,
     params_fault(r->params, f, path, "box \"%s\": %s", box->name, text);
 }
 
+/* off: how far a corner is from what it was given as, in cells; beyond the domain nothing counts.
+ */
 void blocked_describe(const struct run *r)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -84,6 +87,7 @@ static int coarse_at(const struct coarse *g, int i, int j, int k)
     return i + g->n[0] * (j + g->n[1] * k);
 }
 
+/* Keeps the edges in order and each once, so that n + 1 of them bound n cells. */
 static void add_edge(struct coarse *g, int a, int at)
 {
     int m = g->n[a] + 1;
@@ -98,6 +102,7 @@ static void add_edge(struct coarse *g, int a, int at)
     g->n[a]++;
 }
 
+/* Of boxes that overlap the later one has the cell. box: owned by the caller. */
 static struct coarse make_coarse(const struct run *r)
 {
     struct coarse g = {.prm = fv_params_of(r)};
@@ -234,6 +239,8 @@ static void check_whole(const struct run *r, const struct coarse *g, struct faul
 
 /* --- one box --- */
 
+/* A box may stand on a wall at rest alone: at an opening there would be no room for what flows in,
+ * and a wall that moves would end at a corner. */
 static void check_sides(const struct run *r, int k, const int *lo, const int *hi, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -274,6 +281,7 @@ static void check_period(const struct run *r, int k, int a, struct faults *f)
           below > above ? d->max[a] : d->min[a] + above);
 }
 
+/* false: what looks at all boxes together cannot go on. */
 static bool check_box(const struct run *r, int k, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -337,6 +345,7 @@ static void check_mode(const struct run *r, struct faults *f)
                      "it has no boxes: \"rest\", \"uniform\" or a wave with them");
 }
 
+/* Each box alone, then all together on the coarse grid, which wants sound ones. */
 void blocked_check(const struct run *r, struct faults *f)
 {
     const int before = f->n;

@@ -49,6 +49,7 @@ static bool is_cuboid(const struct scene_mesh *m, struct blocked_params *box)
     return m->mesh.closed && whole > 0.0 && fabs(fabs(m->volume) - whole) < 1e-6 * whole;
 }
 
+/* NULL: it is a box, which is filled in; else why it is none. */
 const char *body_box(const struct run *r, int k, struct blocked_params *box)
 {
     const struct scene *s = &r->scene;

@@ -68,6 +68,7 @@ const struct param_group fv_groups[FV_GROUPS] = {
      blocked_rows, BLOCKED_ROWS, blocked_given, NULL, sizeof blocked_given[0], BLOCKED_MAX,
      &blocked_given_count}};
 
+/* Shapes of a coupled case may be the partner's: there r->crossed says it. */
 bool surface_wanted(const struct run *r)
 {
     const struct scene *c = &r->scene;
@@ -85,6 +86,7 @@ int fv_params_nboxes(const struct run *r)
     return body_boxes(r, boxes, blocked_given_count);
 }
 
+/* Filled in anew at each call, for what it follows from is read in several steps. */
 const struct fv_params *fv_params_of(const struct run *r)
 {
     given.water = surface_wanted(r);
@@ -98,6 +100,7 @@ const struct fv_params *fv_params_of(const struct run *r)
     return &given;
 }
 
+/* Fourth-order ghosts read four cells; a period must be halved by multigrid. */
 static void check_axis(const struct run *r, int a, struct faults *f)
 {
     static const char axes[] = "xyz";
@@ -157,6 +160,7 @@ static void check_extrema(const struct run *r, struct faults *f)
                          "xy"[a]);
 }
 
+/* What no cells are needed for, then blocks with rules of their own, else the grid. */
 void fv_params_check(const struct run *r, struct faults *f)
 {
     const struct fv_params *prm = fv_params_of(r);

@@ -39,6 +39,7 @@ void fv_scene_describe(const struct run *r)
                     scene_side_names[r->scene.walls[k].side - SIDE_X_MIN]);
 }
 
+/* Of the k-th wall. */
 static void wall_fault(const struct run *r, struct faults *f, int k, const char *what)
 {
     params_fault(r->params, f, key_text("walls.[%d]", k), "wall %d: %s", k + 1, what);
@@ -46,6 +47,7 @@ static void wall_fault(const struct run *r, struct faults *f, int k, const char 
 
 /* --- walls and openings --- */
 
+/* Of one wall alone, whatever the others are. */
 static void check_wall(const struct run *r, struct faults *f, int k)
 {
     const struct scene_wall *w = r->scene.walls + k;
@@ -296,6 +298,7 @@ static void warn_of_level(const struct scene *s)
             s->initial.level, high, s->initial.level);
 }
 
+/* On cells and on blocks. What is looked at after gravity needs it. */
 void surface_check(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -372,6 +375,7 @@ static void check_stream(const struct run *r, struct faults *f)
     }
 }
 
+/* What the exact profile takes for granted: walls, period, drive. */
 static void check_channel(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -401,6 +405,8 @@ static void check_channel(const struct run *r, struct faults *f)
  * Trans. R. Soc. A 244, 1952). */
 #define STANDING_MOST 0.68
 
+/* A crest under the lid, a level within the domain, and walls where the exact field has none
+ * across. */
 static void check_wave(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
@@ -505,6 +511,7 @@ void probes_check_surface(const struct run *r, struct faults *f)
                          r->scene.probes[k].name);
 }
 
+/* In the order of causes. */
 void fv_scene_check(const struct run *r, struct faults *f)
 {
     const int before = f->n;

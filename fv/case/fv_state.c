@@ -31,6 +31,8 @@ static void make_vectors(struct fv *s, int a)
         s->faces[a] = NEW_IN(s, double, s->size);
 }
 
+/* The fields that every run has; others belong to who needs them. u[2] of blocks in 2D is read by
+ * what works with vectors of three. */
 void fv_make_fields(struct fv *s)
 {
     s->p = NEW_IN(s, double, s->size);
@@ -81,6 +83,7 @@ static void fill_fluxes(struct fv *s)
                 }
 }
 
+/* Imposed cells are a partner's, or those of fv.hole. */
 static void make_forcing(struct fv *s)
 {
     double box[PARTNERS_MAX][2][3];
@@ -117,6 +120,7 @@ static void empty_boxes(struct fv *s)
     }
 }
 
+/* Velocities beyond ten times the fastest that is known end the run: they are errors. */
 static void set_limit(struct fv *s)
 {
     const double most = fv_fastest(s);
@@ -189,6 +193,7 @@ static void meet_surface(struct fv *s)
     levels_back(s);
 }
 
+/* Heights were checked: where none fit nothing is set. */
 static void make_rows(struct fv *s)
 {
     const int n = s->b.cells[1], even = (int)s->prm.graded[1];
@@ -240,6 +245,9 @@ static void create_grid(struct fv *s)
     s->watches = mem_own(s, fv_watches_create(s));
 }
 
+/* Order matters: cells and fields of the case, then those of the restart file in their place; else
+ * the start is made free of divergence, given the pressures of outlets, pushed, and the surface's
+ * pressure found, each on what those before have left. */
 struct fv *fv_create(struct run *r, struct h5 *f)
 {
     struct fv *s = NEW(struct fv, 1);

@@ -16,6 +16,7 @@ static bool has_blocks(void) { return mesh_given_count > 0; }
 
 static bool is_set(const double *v) { return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0; }
 
+/* Along a period it is a force that the pressure cannot balance. */
 static bool gravity_drives(const struct run *r)
 {
     const struct scene *s = &r->scene;
@@ -33,6 +34,7 @@ static bool some_block_has(enum mesh_side kind)
     return any;
 }
 
+/* The exact field must hold on all sides, too: walls would disturb it. */
 bool fv_measures_errors(const struct run *r)
 {
     if (mesh_given_count == 0)
@@ -86,6 +88,7 @@ static bool some_inflow_of_start(void)
     return inflow;
 }
 
+/* Walls whose force is summed. */
 static bool has_forces(const struct run *r)
 {
     bool any = some_block_has(MESH_WALL);
@@ -165,6 +168,7 @@ bool fv_has_hole(const void *run, const void *of)
 
 /* --- blocks --- */
 
+/* Files of HDF5 have one block. */
 bool mesh_has_zones(const void *run, const void *block)
 {
     const struct mesh_block_params *b = block;
@@ -196,6 +200,7 @@ static bool moves_about(const struct scene_motions *all)
     return any;
 }
 
+/* Whether anything is about the block's centre. */
 bool mesh_turns(const void *run, const void *block)
 {
     const struct mesh_block_params *b = block;
@@ -209,6 +214,7 @@ bool mesh_has_moving_side(const void *run, const void *block)
     return (void)run, mesh_block_has(block, MESH_WALL) || mesh_block_has(block, MESH_INFLOW);
 }
 
+/* The third number has no wall. */
 bool mesh_spin_fits(const void *run, const void *block)
 {
     const struct mesh_block_params *b = block;

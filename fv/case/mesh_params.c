@@ -64,6 +64,7 @@ const struct param mesh_rows_of[MESH_ROWS] = {
 struct mesh_block_params mesh_given[MESH_BLOCKS_MAX];
 int mesh_given_count;
 
+/* Flow between two cylinders that turn, Couette's, whose exact field is known on a whole ring. */
 bool mesh_ring(const struct run *r)
 {
     const struct mesh_block_params *b = mesh_given;
@@ -154,6 +155,7 @@ static void check_taken(const struct run *r, struct faults *f, const struct mesh
     }
 }
 
+/* Imposed cells take the exact solution, which must be that of all times. */
 static void check_hole(const struct run *r, struct faults *f)
 {
     if (!fv_hole(fv_params_of(r)))
@@ -175,6 +177,7 @@ static void check_coupled(const struct run *r, struct faults *f)
             "only an uncoupled run with an exact solution (initial.field) can fill fv.hole");
 }
 
+/* Keys first: the mesh is made of sound ones alone, then the scene is looked at on it. */
 void mesh_check(const struct run *r, struct faults *f)
 {
     const struct fv_params *prm = fv_params_of(r);

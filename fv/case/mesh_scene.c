@@ -14,6 +14,7 @@ struct scene_face {
     double S[3], x[3];
 };
 
+/* 2D: one edge lies along z with the length 1, so S is m per m of depth. */
 static struct scene_face face_at(const struct mesh *m, const struct mesh_block *b, int side, int p,
                                  int q)
 {
@@ -61,6 +62,7 @@ struct total {
     bool any;
 };
 
+/* Velocities are relative to the block, which carries its sides along. */
 static struct total sum_side(const struct run *r, const struct mesh *m, int k, int side,
                              const struct exact *e)
 {
@@ -99,11 +101,40 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
     return sum;
 }
 
+/* At which heights outflows are, m^2/s^2. Those on one side of the domain are one, of however many
+ * blocks. */
+struct outflow_heights {
+    struct total of[6];
+    double least, most; /* of their middles */
+};
+
+static void add_middle(struct outflow_heights *h, const struct total *t)
+{
+    if (!t->any)
+        return;
+    h->least = fmin(h->least, 0.5 * (t->height + t->height_most));
+    h->most = fmax(h->most, 0.5 * (t->height + t->height_most));
+}
+
+/* on: the side of the domain, 6: within it. */
+static void add_outflow(struct outflow_heights *h, int on, const struct total *t)
+{
+    if (on >= 6) {
+        add_middle(h, t);
+        return;
+    }
+    struct total *to = h->of + on;
+    to->height = to->any ? fmin(to->height, t->height) : t->height;
+    to->height_most = to->any ? fmax(to->height_most, t->height_most) : t->height_most;
+    to->any = true;
+}
+
 /* Walls move along themselves; what flows in must be able to flow out, and not fall. */
 static void check_sides(const struct run *r, struct faults *f, const struct mesh *m)
 {
     const struct exact e = exact_create(&r->scene);
-    double net = 0.0, all = 0.0, least = INFINITY, most = -INFINITY, size = 0.0;
+    struct outflow_heights outflows = {.least = INFINITY, .most = -INFINITY};
+    double net = 0.0, all = 0.0, size = 0.0;
     bool out = false, in = false, exact = false;
     for (int k = 0; k < m->nblocks; k++)
         for (int side = 0; side < 2 * m->dim; side++) {
@@ -132,10 +163,8 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
                 mesh_fault(r, f, m->block[k].prm, sides[side],
                            "water would fall out of it: with a free surface an outflow stands "
                            "upright");
-            if (kind == MESH_OUTFLOW) {
-                least = fmin(least, 0.5 * (t.height + t.height_most));
-                most = fmax(most, 0.5 * (t.height + t.height_most));
-            }
+            if (kind == MESH_OUTFLOW)
+                add_outflow(&outflows, m->block[k].on[side], &t);
             out = out || (side_is_opening(kind) && kind != MESH_INFLOW);
             in = in || kind == MESH_INFLOW;
             exact = exact || kind == MESH_EXACT;
@@ -144,7 +173,10 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
         }
     for (int a = 0; a < m->dim; a++)
         size += fabs(r->scene.fluid.gravity[a]) * (r->scene.domain.max[a] - r->scene.domain.min[a]);
-    if (most - least > 1e-9 * size && !surface_wanted(r)) /* outside stands water, too */
+    for (int g = 0; g < 2 * m->dim; g++)
+        add_middle(&outflows, outflows.of + g);
+    if (outflows.most - outflows.least > 1e-9 * size &&
+        !surface_wanted(r)) /* outside stands water, too */
         params_fault(r->params, f, "fluid.gravity", FALLS);
     if (out && in && !exact && net > 1e-6 * all && !surface_wanted(r) && !r->coupled)
         params_fault(r->params, f, "blocks", SUCKS, net, m->dim);
@@ -268,6 +300,8 @@ static int times_of(const struct run *r, const struct mesh_motion *v, double *ti
     return n;
 }
 
+/* Blocks that are joined to another move with it, and are looked at with it. The first fault ends
+ * it. */
 void mesh_motion_sweep(const struct run *r, struct faults *f, struct mesh *m)
 {
     for (int k = 0; k < m->nblocks; k++) {

@@ -12,6 +12,8 @@
 #include "../watch/fv_watch.h"
 #include "fv_case.h"
 
+/* Cells of holes may be computed later where blocks or a partner's box move: there they are filled,
+ * too. */
 static void fill(struct fv *s)
 {
     const struct mesh *m = s->m;

@@ -75,6 +75,8 @@ struct asked {
     double cells; /* water in cells */
 };
 
+/* Cells without filled ones around hold nothing; full ones need not be asked, which leaves the rim.
+ */
 static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                      void *ctx)
 {
@@ -85,6 +87,7 @@ static void add_cell(struct sph *s, const struct lattice *l, int64_t cell, const
         to->cells += all ? 1.0 : share_of(s, l, &to->exact, to->lines, centre);
 }
 
+/* Where meshes part rooms or sides are open the shapes do not say how much water is meant. */
 void amount_check(struct sph *s, const struct lattice *l)
 {
     if (rooms_parted(s) || s->zones)

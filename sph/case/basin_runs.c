@@ -18,6 +18,7 @@ void basin_cell(const struct basins *b, int column, int along, int *ic)
     ic[b->up] = along;
 }
 
+/* The representative of a run's part, with path halving, so that long chains stay short. */
 int basin_part(struct basins *b, int r)
 {
     while (b->runs[r].part != r) {
@@ -60,6 +61,7 @@ int basin_top(const struct basins *b, const struct basin_run *r)
     return b->sign > 0 ? r->last : r->first;
 }
 
+/* Runs of a column are in order, so by bisection; the cell must be filled. */
 const struct basin_run *basin_run_at(const struct basins *b, int64_t cell)
 {
     int ic[3];

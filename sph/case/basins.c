@@ -20,6 +20,7 @@ enum { LEAST_CELLS = 8 };
 
 /* --- runs and waters --- */
 
+/* Runs go along the axis nearest to gravity at rest; along the last one where there is none. */
 static void find_axes(struct basins *b)
 {
     double g[3];
@@ -35,6 +36,7 @@ static void find_axes(struct basins *b)
     b->across[1] = b->up == 2 ? 1 : 2;
 }
 
+/* A mesh between two filled cells ends a run, too. */
 static void find_runs(struct basins *b)
 {
     const struct lattice *l = b->l;
@@ -62,6 +64,7 @@ static void find_runs(struct basins *b)
     b->start[b->columns] = b->nruns;
 }
 
+/* The lower number becomes the representative, so that the result does not depend on the order. */
 static void join(struct basins *b, int r, int q)
 {
     r = basin_part(b, r);
@@ -102,12 +105,14 @@ static int common_width(const struct basins *b, int r, int q, int column, int be
 
 typedef void meet(struct basins *b, int r, int q, int column, int beside);
 
+/* Runs that touch are one water, unless meshes part them all along. */
 static void join_runs(struct basins *b, int r, int q, int column, int beside)
 {
     if (!b->l->cut[0] || common_width(b, r, q, column, beside) > 0)
         join(b, r, q);
 }
 
+/* Links are wanted where one of the two has no top of its own; their widths are conductances. */
 static void link_runs(struct basins *b, int r, int q, int column, int beside)
 {
     const struct basin_run *A = b->runs + r, *B = b->runs + q;
@@ -135,6 +140,7 @@ static void each_of_columns(struct basins *b, int c, int d, meet *at)
     }
 }
 
+/* Each pair of columns side by side once, over periods, too. */
 static void each_meeting(struct basins *b, meet *at)
 {
     const struct lattice *l = b->l;
@@ -177,6 +183,7 @@ static double top_of(const struct basins *b, const int *ic)
     return scene_height(c, x);
 }
 
+/* NAN as level: not known yet, the run is under a roof. */
 static void find_tops(struct basins *b)
 {
     for (int c = 0; c < b->columns; c++)
@@ -298,6 +305,7 @@ static int *find_groups(const struct basins *b)
     return group;
 }
 
+/* Levels of covered runs; those of groups without any open top by their own highest. */
 static void find_levels(struct basins *b)
 {
     each_meeting(b, link_runs);
@@ -371,6 +379,8 @@ static int64_t *count_cells(struct basins *b)
     return cells;
 }
 
+/* Counts waters and pockets, and marks the runs of pockets; the largest part of all is never one.
+ */
 static void drop_pockets(struct basins *b)
 {
     int64_t *cells = count_cells(b), most = 0;
@@ -411,6 +421,7 @@ struct sample {
     double distance, x[3];
 };
 
+/* Of each part about SAMPLES cells evenly among its cells, in the order of runs. */
 static void find_middles(struct basins *b, const int64_t *cells, struct sample *of)
 {
     enum { SAMPLES = 64 };
@@ -518,6 +529,7 @@ static void drop_dry(struct basins *b)
     refuse_sheets(b);
 }
 
+/* Rooms first, as pockets are counted among wet ones; levels last, of what is left. */
 struct basins *basins_create(const struct sph *s, const struct lattice *l)
 {
     struct basins *b = NEW(struct basins, 1);
@@ -539,6 +551,7 @@ struct basins *basins_create(const struct sph *s, const struct lattice *l)
     return b;
 }
 
+/* The whole loop is left out where nothing was dropped. */
 void basins_clear(const struct basins *b, struct lattice *l)
 {
     for (int c = 0; c < b->columns && b->pockets + (l->cut[0] != NULL) > 0; c++)
@@ -558,6 +571,7 @@ void basins_rooms(const struct basins *b, int *wet, int *dry)
     *dry = b->dry;
 }
 
+/* How far the highest roof stands above the level that its water has, m; where: its place. */
 double basins_suction(const struct basins *b, double *where)
 {
     double most = 0.0;

@@ -37,6 +37,7 @@ static void look_around(const struct basins *b, const int *ic, int axis, int way
         water->beside |= shut_water_beside(b->s, x);
 }
 
+/* A part is shut until one of its cells says otherwise. middle: the mean place of its cells. */
 static void find_shut(struct basins *b)
 {
     for (int r = 0; r < b->nruns; r++)
@@ -108,6 +109,7 @@ void basins_find_shut(struct basins *b)
         find_seeping(b);
 }
 
+/* One water alone, and shut in: then the volume of the whole run is its own. */
 bool basins_all_shut(struct basins *b)
 {
     int waters = 0, shut = 0;

@@ -61,6 +61,8 @@ static double mean_depth(const struct sph *s, const struct exact *e, int strips)
     return drawn && sum > 2.0 * s->dx ? sum : 0.0;
 }
 
+/* Strips are summed from x_min on; where the sum passes i + 1/2 columns the middle of column i
+ * lies, within the strip in proportion. */
 static struct fill_columns columns_create(const struct sph *s, const struct exact *e)
 {
     struct fill_columns c = {.n = (int)first_lattice_cells(s->lo[0], s->hi[0], s->dx),
@@ -116,6 +118,7 @@ static double displace(const struct sph *s, const struct look *look, int64_t cel
     return c->volume;
 }
 
+/* Each rank asks for its own cells, then all know all cuts. */
 static void cut_links(const struct sph *s, struct lattice *l)
 {
     double lo[3], hi[3];
@@ -138,6 +141,7 @@ static bool is_drawn(const struct scene *c, const double *x)
     return any;
 }
 
+/* The bits of cells with a particle, and how many the walls took of those that shapes meant. */
 static void mark(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                  void *ctx)
 {
@@ -155,6 +159,7 @@ static void mark(struct sph *s, const struct lattice *l, int64_t cell, const dou
         lattice_set(l->bits, cell);
 }
 
+/* The second pass over the lattice, when pockets and dry rooms are cleared. */
 static void add(struct sph *s, const struct lattice *l, int64_t cell, const double *centre,
                 void *ctx)
 {
@@ -336,6 +341,9 @@ struct fill {
     struct basins *basins;
 };
 
+/* Order matters: the bits of all ranks, what meshes part, the waters, then particles, packing, and
+ * the weight last, which needs the places that packing leaves. Ids are cells, so that they do not
+ * depend on ranks; those born later go on in steps of as many as there are ranks. */
 struct fill *fill_lattice(struct sph *s)
 {
     struct look look = {.exact = exact_create(&s->run->scene),
@@ -446,6 +454,7 @@ static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, 
     }
 }
 
+/* Of one finer level, when it has its children: rows at the surface, then packing. */
 static void settle(struct sph *level)
 {
     surface_rows_renew(level);

@@ -26,6 +26,7 @@ static bool in_seam(const struct walls *w, const double *x, double dx)
     return false;
 }
 
+/* The last particle takes the place of one that goes, so i stays. */
 void first_clear_seams(struct sph *s)
 {
     for (int i = 0; i < s->p.n && s->walls->nsegments > 0;)
@@ -45,6 +46,7 @@ bool first_in_walls(const struct sph *s, const double *x)
     return rooms_parted(s) || scene_is_room(&s->run->scene, x);
 }
 
+/* Packing carries particles off a wall, so that with it they may start almost on it. */
 bool first_has_room(const struct sph *s, const double *x)
 {
     if (rooms_parted(s))
@@ -60,6 +62,7 @@ double first_lattice_cells(double lo, double hi, double dx)
     return ceil((hi - lo) / dx - 1e-6); /* rounding makes no cell */
 }
 
+/* Where only the upper side has a wall rows must end there, as free fluid may end anywhere. */
 double first_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx)
 {
     const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
@@ -79,6 +82,7 @@ struct lattice first_lattice_create(const struct sph *s)
     return l;
 }
 
+/* A cell more on either side, as lo and hi carry rounding. */
 void first_lattice_own(const struct sph *s, const struct lattice *l, const double *lo,
                        const double *hi, int *first, int *last)
 {

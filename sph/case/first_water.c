@@ -59,6 +59,7 @@ struct first_water first_water_look(const struct run *r, const struct sph_params
     return is.kept * all >= 1.0 || all > 1e7 ? is : sample(r, used, m);
 }
 
+/* Sides that hold water; without any the lines are all there is of a tank. */
 static bool has_wall_sides(const struct scene *c)
 {
     bool any = false;

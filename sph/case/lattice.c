@@ -49,6 +49,7 @@ bool lattice_next(const struct lattice *l, const int *ic, int axis, const bool *
     return periodic[axis] && l->n[axis] > 1;
 }
 
+/* In pieces, since MPI counts in int. */
 void lattice_share(const struct lattice *l, unsigned char *bits, MPI_Comm comm)
 {
     const int64_t bytes = lattice_cells(l) / 8 + 1, chunk = (int64_t)1 << 30;

@@ -25,6 +25,7 @@ static bool is_packed(const struct sph *s, int i, double reach)
            (!by_meshes(s) || rooms_are_near(s, prim_line(&s->p, i), reach));
 }
 
+/* Square of the shifting velocity: the transport velocity less that of the fluid, m^2/s^2. */
 static double shift2(const struct sph *s, int i)
 {
     const int dim = s->dim;
@@ -33,6 +34,8 @@ static double shift2(const struct sph *s, int i)
     return vec_distance2(dim, u0, u);
 }
 
+/* Meshes leave particles that are even already where they are: a step of noise would melt the
+ * lattice. */
 static void move(struct sph *s, double dt)
 {
     const int dim = s->dim;

@@ -15,6 +15,7 @@ static bool is_inside(const struct sph *s, const double *x, double off)
     return true;
 }
 
+/* An edge that lies on another mesh is closed by it. */
 static bool is_on_other(const struct sph *s, int mesh, const double *x)
 {
     for (int k = 0; k < s->walls->nmeshes; k++) {
@@ -86,6 +87,7 @@ static bool find_open(const struct sph *s, const struct lattice *l, int mesh, in
     return false;
 }
 
+/* Meshes of bodies and those that are closed or thin have no edge that matters. */
 void rims_check(const struct sph *s, const struct lattice *l)
 {
     for (int k = 0; k < s->walls->nmeshes; k++) {

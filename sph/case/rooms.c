@@ -10,6 +10,7 @@
 /* Winding numbers nearer to the threshold than this say nothing. */
 static const double doubt = 0.02;
 
+/* Facets that sph makes of its own (m->of NULL) part nothing. */
 bool rooms_parted(const struct sph *s)
 {
     bool any = false;
@@ -76,6 +77,7 @@ bool rooms_blocked(const struct sph *s, const double *a, const double *b)
     return rooms_crossed(s, a, b) || rooms_distance(s, b, s->dx) <= clearance(s);
 }
 
+/* Only between filled cells: links to the rest are never used. */
 void rooms_cut_links(const struct sph *s, struct lattice *l, const int *first, const int *last)
 {
     for (int a = 0; a < 3; a++)

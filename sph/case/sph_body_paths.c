@@ -21,6 +21,7 @@ struct bound {
 
 enum { BOUNDS_MAX = WALLS_MAX + BODIES_MAX };
 
+/* The side as a line of two points, in 2D. */
 static void side_ends(const struct scene_domain *d, int side, double x[2][2])
 {
     const int a = side / 2, b = 1 - a;
@@ -29,6 +30,7 @@ static void side_ends(const struct scene_domain *d, int side, double x[2][2])
     x[1][b] = d->max[b];
 }
 
+/* Bodies first, each at its own index, then walls that the particles reach; returns how many. */
 static int find_bounds(const struct scene *c, const struct sph_params *used, struct bound *all)
 {
     int n = 0;
@@ -354,6 +356,7 @@ static double mesh_distance(const struct scene_body *b, const struct scene_mesh 
     return least;
 }
 
+/* Below zero: one is in the other. */
 static void fault_contact(const struct run *r, int k, const char *other, double d, double gap,
                           const double *at, struct faults *f)
 {
@@ -427,6 +430,7 @@ static void check_meshes(const struct run *r, const struct sph_params *used, str
     }
 }
 
+/* Between what does not move by forces, at the start: of particles one must fit. */
 static void check_gaps(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     struct bound all[BOUNDS_MAX];
@@ -448,6 +452,7 @@ static void check_gaps(const struct run *r, const struct sph_params *used, struc
 
 /* --- motion --- */
 
+/* Corners of all bodies at a time, in now; lines of the bounds point there. */
 static void place_bodies(const struct scene *c, struct body *bodies, double t,
                          struct param_points *now)
 {
@@ -518,6 +523,8 @@ static void check_size(const struct run *r, const struct sph_params *used, int k
                      r->scene.bodies[k].name, size, used->dx, 0.25 * size);
 }
 
+/* Motion is followed over times so near that the fastest body goes half a spacing between two, 2000
+ * at most. Checks later in the list take for granted what those before have found in order. */
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;

@@ -79,6 +79,7 @@ static bool is_behind(const struct scene *c, const double *x)
     return before < 0.0;
 }
 
+/* In 3D meshes say what is behind them, in 2D the lines. */
 static bool is_water(const struct scene *c, const struct exact *e, const double *x)
 {
     if (c->meshes && c->meshes->n > 0)
@@ -123,6 +124,7 @@ struct fall_places {
     int64_t all[3], step, n;
 };
 
+/* Every step-th place of the lattice, so that PLACES are asked at most. */
 static struct fall_places places_of(const struct scene *c, const struct fall_region *in, double dx)
 {
     struct fall_places p = {.in = in, .all = {1, 1, 1}};
@@ -154,6 +156,7 @@ static bool start_at(const struct scene *c, const struct exact *e, const struct 
     return true;
 }
 
+/* Two passes over the same places: how many hold water, then FLIGHTS of them, evenly. */
 void sph_falls_warn(const struct run *r, const struct sph_params *used)
 {
     const struct scene *c = &r->scene;

@@ -6,6 +6,7 @@
 
 enum { RAYS = 20000 }; /* about so many triangles of a mesh are looked at */
 
+/* The words by which a case names it. */
 static const char *file_of(const struct scene *c, const struct scene_mesh *m)
 {
     return scene_mesh_source(c, m->owner, m->index);
@@ -144,6 +145,7 @@ static double behind_and_on(const struct scene_mesh *m, double dx)
     return 1e-6 * fmax(far, dx);
 }
 
+/* Of closed surfaces, which say what is behind them. */
 static void check_probes(const struct run *r, const struct scene_mesh *m, double dx,
                          struct faults *f)
 {
@@ -160,6 +162,7 @@ static void check_probes(const struct run *r, const struct scene_mesh *m, double
 
 /* --- all --- */
 
+/* Shapes may be thin: they are no walls. */
 void sph_meshes_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;

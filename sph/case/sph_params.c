@@ -114,6 +114,7 @@ static void find_box(const struct run *r, struct sph_params *used, int a)
     used->box[1][a] = plain || hi >= d->max[a] ? d->max[a] : to;
 }
 
+/* Sound of a motion runs to and fro between the sides of the domain, which a box does not have. */
 static struct scene_speed speed_of(const struct run *r)
 {
     const struct body_pace pace = bodies_pace(&r->scene, r->motions, given.dx);
@@ -135,6 +136,7 @@ static double default_c0(const struct scene_speed *v)
     return fmax(10.0 * fmax(v->speed, sqrt(pressure)), 6.0 * v->across * v->rate);
 }
 
+/* Lines of points, in 2D; in 3D they are refused. */
 static bool has_points(const struct scene *c)
 {
     bool any = false;
@@ -156,6 +158,7 @@ static bool hangs(const struct scene *c, const struct sph_params *prm)
     return weight && sph_params_walls(c, prm) && !scene_has_openings(c) && !has_box();
 }
 
+/* On what particles meet. */
 static bool has_no_slip(const struct scene *c, const struct sph_params *prm)
 {
     return scene_has_no_slip(c) && sph_params_walls(c, prm);
@@ -360,6 +363,8 @@ static bool wants_rows(const struct run *r, int a)
            (scene_wall_of(c, SIDE_X_MIN + 2 * a) && scene_wall_of(c, SIDE_X_MIN + 2 * a + 1));
 }
 
+/* Of one axis in the order of what a user can mend: the period, the corners, the domain, the walls,
+ * the rows of a box. */
 static void check_axis(const struct run *r, int a, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -667,7 +672,8 @@ static void check_local_steps(const struct run *r, struct faults *f)
                                    : "levels of a coupled job step together");
 }
 
-/* What levels of refinement do not go together with. */
+/* What levels of refinement do not go together with. Sets of several sizes (apr.method) have rules
+ * of their own, in mixed_check. */
 static void check_levels(const struct run *r, struct faults *f)
 {
     const struct sph_params *prm = sph_params_of(r);
@@ -720,6 +726,8 @@ static void check_wall_model(const struct run *r, struct faults *f)
                      "mirrored ghosts have no bed friction: take sph.walls = \"nfm\"");
 }
 
+/* Each group of rules needs what those before have accepted: values, spacing, boxes, then the
+ * scene's solids by it. */
 void sph_params_check(const struct run *r, struct faults *f)
 {
     resolved = false;

@@ -133,6 +133,7 @@ static void check_profile(const struct run *r, const struct sph_params *used, in
     }
 }
 
+/* Under a surface levels are given, in full channels pressures. */
 static void check_openings(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
@@ -303,6 +304,8 @@ static void check_falls(const struct run *r, const struct sph_params *used, stru
 
 /* --- the box --- */
 
+/* A surface crosses the sides of a box where a partner or a wave has one outside; else the box
+ * holds all of it. */
 static void check_box(const struct run *r, const struct sph_params *given,
                       const struct sph_params *used, struct faults *f)
 {
@@ -361,6 +364,7 @@ static void check_outer(const struct run *r, const struct sph_params *used, stru
 
 /* --- the rest --- */
 
+/* A gauge that moves along is fixed to one of these. */
 static bool moves_by_name(const struct scene *c, const char *name)
 {
     bool any = false;

@@ -27,6 +27,8 @@ static double widest_skin(const struct sph *s)
     return most;
 }
 
+/* After the parameters, before anything that asks for gravity: where a reference pressure has the
+ * weight, the particles have none. */
 static void set_constants(struct sph *s)
 {
     const struct scene *c = &s->run->scene;
@@ -50,6 +52,7 @@ static void set_constants(struct sph *s)
     s->lists.skin_most = widest_skin(s);
 }
 
+/* What drifts in summary.json are measured from. */
 static void remember_start(struct sph *s)
 {
     double sums[SUM_COUNT];
@@ -105,7 +108,8 @@ static struct sph *create_level(struct run *r, const struct sph_params *prm, str
     return s;
 }
 
-/* The finer levels of a case that refines. */
+/* The finer levels of a case that refines. Levels from the coarsest on; unshifted_finest is of the
+ * last alone. */
 static void create_finer(struct sph *s)
 {
     struct regions *g = regions_create(s->run, &s->prm);
@@ -147,6 +151,7 @@ static void fill_volumes(struct sph *s)
     }
 }
 
+/* The first look at criteria comes before finer levels are filled, for it says where. */
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f)
 {
     struct sph *s = create_level(r, prm, NULL);

@@ -84,6 +84,7 @@ static bool is_near(const struct scene *c, const struct sph_params *used,
     return near;
 }
 
+/* A side that the box of the particles does not reach. */
 static bool is_beyond(const struct run *r, const struct sph_params *used, int k)
 {
     const struct scene_wall *w = r->scene.walls + k;
@@ -99,6 +100,7 @@ static void check_friction(const struct run *r, const struct sph_params *used, i
                   "sph.box does not reach this side, and fv has no bed friction");
 }
 
+/* Without a partner, who may have the wall. */
 static void check_wall(const struct run *r, const struct sph_params *used, int k, struct faults *f)
 {
     const struct scene_wall *w = r->scene.walls + k;

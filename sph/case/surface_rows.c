@@ -259,6 +259,7 @@ static bool is_near(const struct rows_water *coarser, const double *x)
     return false;
 }
 
+/* The last particle takes the place of one that goes, so i stays. */
 static void remove_near(struct sph *s, const struct rows_water *coarser)
 {
     for (int i = 0; i < s->p.n;) {

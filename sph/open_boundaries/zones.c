@@ -10,7 +10,7 @@
 void zones_widths(const struct run *r, const struct sph_params *prm, double *transition,
                   double *buffer)
 {
-    const double least = 1.25 * prm->R_dx * prm->dx; /* the sheet's rule s >= 1.25 R */
+    const double least = 1.25 * prm->R_dx * prm->dx; /* narrower ones were unstable */
     *transition = r->scene.coupling.transition > 0.0 ? r->scene.coupling.transition : least;
     *buffer = r->scene.coupling.buffer > 0.0 ? r->scene.coupling.buffer : least;
 }

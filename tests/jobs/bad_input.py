@@ -293,6 +293,9 @@ faulty('basin', 's/"x_min"; kind = "no_slip";/& velocity = (1, 0);/', 'would pum
 faulty('block', 's/16);/16); velocity = (1, 0);/', 'would pump fluid through itself', 'fv')
 faulty('basin', r's/nu = 0.01/& ; gravity = (1, 0)/; s/x_m\([a-z]*\)"; kind = "no_slip"/x_m\1"; kind = "outflow"/g', 'two outflows at different heights', 'fv')
 faulty('block', r's/nu = 0.01/& ; gravity = (1, 0)/; s/i_m\([a-z]*\) = "wall"/i_m\1 = "outflow"/g', 'two outflows at different heights', 'fv')
+# but not the parts of one that two blocks have
+edit('block.cfg', r's/nu = 0.01/& ; gravity = (0, -1)/; s/"wall"/"slip"/g; s/i_min = "slip"/i_min = "inflow"; velocity = (1, 0)/; s/i_max = "slip"/i_max = "outflow"/; s/^\(blocks.*\)j_max = "slip"; } );/\1j_max = "joined"; max = (1, 0.5); },/; /^blocks/{h;s/blocks:  (/         /;s/"a"/"b"/;s/max = (1, 0.5)/min = (0, 0.5)/;s/j_m\([a-z]*\) = "slip"; j_max = "joined"/j_min = "joined"; j_max = "slip"/;s/},$/} );/;H;g}')
+holds(start('fv', 'case.cfg', '--check') == 0 and told('512 cells'), 'an outflow of two blocks')
 faulty('block', 's/min = (0, 0)/min = (0.1, 0)/', 'reaches out of the domain', 'fv')
 faulty('basin', r's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/', 'outside the domain', 'fv')
 faulty('block', r's/^fv:/probes: ( { name = "p"; at = (2, 0.5); } );\n&/', r'no block has computed cells\|outside the domain', 'fv')
