@@ -223,6 +223,7 @@ static void answer(struct coupler *c, struct message **m)
     message_free(m);
 }
 
+/* Once a coupling step: what this rank would be said to be doing if it were lost now. */
 static void say_doing(struct coupler *c)
 {
     char text[128];
@@ -263,6 +264,7 @@ static int serve(struct coupler *c)
     return code;
 }
 
+/* Peers have the numbers of their solvers; the coupler's own ranks come last. */
 static void list_solvers(struct coupler *c)
 {
     for (int i = 0; i < c->who.nprograms; i++) {
@@ -310,6 +312,7 @@ static int couple(struct coupler *c, struct faults *faults)
     return code;
 }
 
+/* What a third program may take of each body, and what it may give. */
 static void describe_bodies(const struct coupler *c)
 {
     for (int k = 0; k < c->scene.nbodies; k++) {

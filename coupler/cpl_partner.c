@@ -10,6 +10,7 @@
 #include "cpl.h"
 #include "transport/transport.h"
 
+/* Any error that is left for a run under way ends it. */
 static void must(struct cpl *c, int code)
 {
     if (code == CPL_OK)
@@ -30,6 +31,7 @@ static int refused(struct cpl *c, int code)
     return RUN_INPUT;
 }
 
+/* Patience and hint are of the process, so they hold without a job, too. */
 static int partner_open(MPI_Comm world, const char *name, double deadline, double patience,
                         MPI_Comm *comm, void **ctx)
 {
@@ -41,6 +43,7 @@ static int partner_open(MPI_Comm world, const char *name, double deadline, doubl
     return code == CPL_OK ? RUN_DONE : RUN_INPUT;
 }
 
+/* A program with faults meets the others all the same: all faults are told at once. */
 static int partner_meet(void *ctx, const struct faults *f, bool sound, unsigned long long hash,
                         int64_t window, const char *dir)
 {
@@ -71,6 +74,7 @@ static bool partner_window(void *ctx, double *t0, double *t1, bool *output, bool
 
 static void tell(void *ctx, const char *key, double v) { (void)cpl_tell(ctx, key, v); }
 
+/* All ranks tell; the library sends what rank 0 says. */
 static void partner_advance(void *ctx, double t1, const struct summary *report, bool stop)
 {
     if (report)

@@ -32,6 +32,7 @@ struct params {
 
 /* --- faults --- */
 
+/* text: owned, NULL for none yet. */
 static void append(char **text, const char *more)
 {
     const size_t old = *text ? strlen(*text) : 0, n = strlen(more) + 1;
@@ -93,6 +94,7 @@ static char *read_text(const char *path, size_t *bytes)
 /* Some editors begin a file with a mark of UTF-8, which libconfig takes for a value. */
 static bool has_mark(const char *text) { return strncmp(text, "\xef\xbb\xbf", 3) == 0; }
 
+/* FNV-1a, 64 bits (Fowler, Noll & Vo). */
 static unsigned long long fnv(unsigned long long h, const char *s)
 {
     for (; *s; s++)
@@ -205,6 +207,7 @@ static bool same_value(const struct param *r, const void *a, const void *b)
     return r->type == PARAM_TEXT ? strcmp(a, b) == 0 : memcmp(a, b, param_size(r)) == 0;
 }
 
+/* A name that series.csv can have in its first line. */
 static bool heads_columns(const char *name) { return *name && !strpbrk(name, ",;\"\t\n\r"); }
 
 static void read_inner(struct params *p, const char *path, const struct param *r,
@@ -309,6 +312,7 @@ static const struct param_group *group_with(const struct params *p, const char *
     return home;
 }
 
+/* In this order: a slip of the pen, a key of another group, else all that there are. */
 static void find_unknown_keys(const struct params *p, const struct param_group *g,
                               const config_setting_t *group, struct faults *f)
 {
@@ -331,6 +335,7 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
     }
 }
 
+/* s NULL: the case has no such group; its rows may come from the command line. */
 static void read_plain(struct params *p, const struct param_group *g, const config_setting_t *s,
                        struct faults *f)
 {
@@ -346,6 +351,7 @@ static void read_plain(struct params *p, const struct param_group *g, const conf
         find_unknown_keys(p, g, s, f);
 }
 
+/* Elements after one at fault are read, too, so that all faults are told at once. */
 static void read_list(struct params *p, const struct param_group *g, const config_setting_t *s,
                       struct faults *f)
 {
@@ -415,6 +421,7 @@ static bool is_of_kind(const char *kind, const char *name)
     return n > 1 && kind[n - 1] == '*' && strncmp(kind, name, n - 1) == 0;
 }
 
+/* others: groups of partners, which this program does not read. */
 static bool known_group(const struct params *p, const char *const *others, const char *name)
 {
     bool known = strcmp(name, "format") == 0 || strcmp(name, "let") == 0;
@@ -436,6 +443,7 @@ static const char *nearest_group(const struct params *p, const char *const *othe
     return hint_nearest_word(&n);
 }
 
+/* Notes the names of all groups in passing. */
 static void find_unknown_groups(struct params *p, const char *const *others, struct faults *f)
 {
     const config_setting_t *root = config_root_setting(&p->cfg);
@@ -453,6 +461,8 @@ static void find_unknown_groups(struct params *p, const char *const *others, str
     }
 }
 
+/* What a run computes depends on the command line, too, but for its outputs: those do not go into
+ * the hash, so that a restart may change them. */
 static void find_unknown_overrides(struct params *p, const char *const *others, struct faults *f)
 {
     char place[256];
@@ -498,6 +508,7 @@ static void find_unused_overrides(const struct params *p, struct faults *f)
     }
 }
 
+/* Without the key the case counts as format 1. */
 static void check_format(const struct params *p, struct faults *f)
 {
     const config_setting_t *s = config_lookup(&p->cfg, "format");
@@ -509,6 +520,8 @@ static void check_format(const struct params *p, struct faults *f)
     }
 }
 
+/* Order matters: lists of the command line first, for expressions may stand in them; variables
+ * before rows, which may be expressions. */
 static void read_case(struct params *p, const char *const *texts, const char *const *others,
                       struct faults *f)
 {
@@ -535,6 +548,7 @@ static void read_case(struct params *p, const char *const *texts, const char *co
     find_unused_overrides(p, f);
 }
 
+/* Rank 0 has read the case; the others get its length first. */
 static void share_given(struct params *p, MPI_Comm comm)
 {
     int n = (int)strlen(p->given) + 1;
@@ -546,6 +560,8 @@ static void share_given(struct params *p, MPI_Comm comm)
     MPI_Bcast(p->given, n, MPI_CHAR, 0, comm);
 }
 
+/* Defaults on all ranks, values on rank 0, then their bytes to all: structs of rows hold no
+ * pointers. */
 struct params *params_read(MPI_Comm comm, const char *path, int noverrides,
                            const char *const *overrides, const struct param_group *groups,
                            int ngroups, const char *const *others, struct faults *f)
@@ -612,6 +628,7 @@ static const char *key_of(const struct params *p, const char *key, char buffer[1
     return buffer;
 }
 
+/* kind "sph": sph itself and all sph_*. */
 int params_programs(const struct params *p, const char *kind, char names[PARAM_PROGRAMS_MAX][64])
 {
     const size_t n = strlen(kind);
@@ -670,6 +687,7 @@ bool params_peek(const struct params *p, MPI_Comm comm, const char *key, double 
     return n > 0;
 }
 
+/* One number of the two corners is enough. */
 bool params_peek_pair(const struct params *p, MPI_Comm comm, const char *key, double v[2][3])
 {
     const config_setting_t *s = value_of(p, key);
@@ -692,6 +710,7 @@ bool params_peek_any(const struct params *p, MPI_Comm comm, const char *key, con
     return there;
 }
 
+/* Keys in p->given stand between blanks, so that none is found within another. */
 static bool marked(const struct params *p, const char *key, const char *mark)
 {
     char word[168], buffer[160];
@@ -709,6 +728,7 @@ void params_unused(const struct params *p, struct faults *f, const char *key, bo
         params_fault(p, f, key, "is not used: %s", why);
 }
 
+/* Only rank 0 has the words, all ranks count. */
 void params_fault(const struct params *p, struct faults *f, const char *name, const char *fmt, ...)
 {
     char place[1400], text[256], buffer[160], holds[256];
@@ -732,6 +752,7 @@ void params_fault(const struct params *p, struct faults *f, const char *name, co
     va_end(args);
 }
 
+/* Without any table: what programs a case is for. */
 bool params_list_groups(const char *path)
 {
     struct params p = {.rank = 0};
@@ -753,6 +774,7 @@ bool params_list_groups(const char *path)
     return p.read && f.n == 0;
 }
 
+/* Copied, since the stream's own memory is not of mem_new. */
 char *params_text(const struct params *p)
 {
     char *text;

@@ -73,6 +73,7 @@ struct hint_nearest hint_nearest_start(const char *word)
     return (struct hint_nearest){.word = word, .distance = most + 1};
 }
 
+/* The first of the nearest stays. */
 void hint_nearest_try(struct hint_nearest *n, const char *known)
 {
     const int d = distance(n->word, known);
@@ -157,6 +158,7 @@ static bool has_choice(const char *choices, const char *word)
     return false;
 }
 
+/* Words that newcomers use first, then slips of the pen. */
 void hint_choice(const char *choices, const char *word, char *text, size_t size)
 {
     const char *best = NULL;
@@ -183,6 +185,7 @@ void hint_keys(const struct param_group *g, char *text, size_t size)
         text_add(text, size, "%s%s", k ? ", " : "", g->rows[k].key);
 }
 
+/* Line `line', from 1, without its comment; no copy longer than size. */
 static const char *line_at(const char *text, int line, char *copy, size_t size)
 {
     for (int k = 1; k < line && text; k++) {
@@ -211,6 +214,7 @@ static bool has_unit(const char *s)
     return false;
 }
 
+/* Only before a digit, as vectors have commas, too; and only behind the sign =. */
 static bool has_decimal_comma(const char *s)
 {
     for (const char *c = strchr(s, '='); c; c = strchr(c + 1, '=')) {
@@ -341,6 +345,7 @@ static bool has_no_colon(const char *s)
            strchr("{(", *after_blanks(end));
 }
 
+/* What is likely wrong in a line, most certain first; NULL: nothing that is known. */
 static const char *slip(const char *s)
 {
     const char *open = strchr(s, '[');
@@ -410,6 +415,8 @@ static int open_group(const char *text, char *name, size_t size)
     return lines[0];
 }
 
+/* libconfig often tells the line after the one at fault: that one is looked at first, then the one
+ * before. */
 int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size)
 {
     char copy[512], name[64];
@@ -445,6 +452,7 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
     return line;
 }
 
+/* A 0 counts as no text, too. */
 const char *hint_no_text(const char *text, size_t n)
 {
     const unsigned char *b = (const unsigned char *)text;
@@ -456,6 +464,7 @@ const char *hint_no_text(const char *text, size_t n)
     return NULL;
 }
 
+/* Ten digits and more, bare: those of a real have a point, an exponent or an L behind. */
 int hint_long_integer(const char *text, char *word, size_t size)
 {
     int line = 1;

@@ -70,6 +70,7 @@ static void explain(const struct let *l, const char *text, struct expression *e)
     }
 }
 
+/* Those that the parser has met in the expression of before. */
 static void mark_used(struct let *l)
 {
     const int n = mupGetExprVarNum(l->parser);
@@ -114,6 +115,7 @@ static void compute_all(struct let *l, config_setting_t *s)
         compute_all(l, config_setting_get_elem(s, (unsigned)k));
 }
 
+/* false without a cause: it is no text, or nobody has computed it. */
 bool let_value(const config_setting_t *s, double *v, const char **why)
 {
     const struct expression *e =
@@ -143,6 +145,8 @@ static bool is_name(const char *s)
            strchr(s, '*') == NULL;
 }
 
+/* Variables are defined in their order, each from those above it. One at fault is defined, too, so
+ * that its uses are no faults of their own. */
 static void define(struct let *l, config_setting_t *s, config_setting_t *given, struct faults *f)
 {
     char place[1300];
@@ -208,6 +212,7 @@ static void read_variables(struct let *l, config_setting_t *group, struct overri
     }
 }
 
+/* Values of the command line are expressions of the case's variables. */
 struct let *let_read(config_t *cfg, const char *path, struct override *o, int noverrides,
                      struct faults *f)
 {
@@ -240,6 +245,7 @@ void let_free(struct let **l)
     *l = NULL;
 }
 
+/* As a comment: the values that follow hold the results. */
 void let_print(FILE *to, const struct let *l)
 {
     for (int k = 0; l && k < l->n; k++)

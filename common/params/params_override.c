@@ -55,6 +55,7 @@ void override_read(struct override *o, const char *text, struct faults *f)
         params_add_fault(f, place, "`%s' is not a value", value);
 }
 
+/* Lists and groups have no value of their own. */
 static void copy_scalar(config_setting_t *to, const config_setting_t *from)
 {
     switch (config_setting_type(from)) {
@@ -78,6 +79,7 @@ static void copy_scalar(config_setting_t *to, const config_setting_t *from)
     }
 }
 
+/* false: libconfig takes no such name. */
 static bool copy(config_setting_t *parent, const char *name, const config_setting_t *from)
 {
     config_setting_t *to = config_setting_add(parent, name, config_setting_type(from));

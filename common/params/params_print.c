@@ -5,6 +5,7 @@
 #include "params_hints.h"
 #include "params_use.h"
 
+/* How a value is written in a case. */
 static const char *kind(const struct param *r)
 {
     if (r->numbers == 2)
@@ -43,6 +44,7 @@ static bool is_numeric(const struct param *r)
            r->type != PARAM_LIST;
 }
 
+/* "box#" stands for box, box2, ..; a default above the range for none. */
 static const char *default_of(const struct param *r)
 {
     static char names[160];
@@ -129,6 +131,7 @@ void params_help(const struct param_group *groups, int ngroups, const char *key)
         print_unknown(groups, ngroups, key);
 }
 
+/* | would end a cell of the table. */
 static void print_cell(const char *text)
 {
     for (const char *c = text; *c; c++)
@@ -180,6 +183,7 @@ void params_manual(const struct param_group *groups, int ngroups)
         manual_rows(groups + k, true);
 }
 
+/* With 17 digits a double is itself again. */
 static void print_numbers(FILE *to, const struct param *r, const char *at, int n)
 {
     for (int k = 0; k < n; k++) {
@@ -194,6 +198,7 @@ static void print_numbers(FILE *to, const struct param *r, const char *at, int n
     fputs(n > 0 ? ")" : "()", to);
 }
 
+/* As libconfig reads it. */
 static void print_text(FILE *to, const char *text)
 {
     fputc('"', to);

@@ -40,6 +40,7 @@ static bool says(const struct param *row, const void *element)
     }
 }
 
+/* Of a key that has choices one of those that are allowed, else whether it says something. */
 static bool key_holds(const struct param_use *u, const struct param *rows, int nrows,
                       const void *element)
 {
@@ -104,6 +105,7 @@ static void check_third(const struct walk *w, const char *key, const struct para
         params_fault(w->p, w->f, key, "z in a case of 2 dimensions: leave it out");
 }
 
+/* Lists that are used at all are gone into. */
 static void check_rows(const struct walk *w, const char *path, const struct param *rows, int nrows,
                        const void *element)
 {
@@ -208,6 +210,7 @@ static void add_condition(char *to, size_t size, const struct param *rows, int n
         add(to, size, u->without ? "without " : "with ", u->key, (int)strlen(u->key));
 }
 
+/* Static memory, until the next call. */
 const char *params_use_words(const struct param *rows, int nrows, const struct param *row)
 {
     static char text[800];

@@ -6,6 +6,7 @@
 #include "params_hints.h"
 #include "params_let.h"
 
+/* Texts are numbers where they were computed as expressions. */
 bool param_number(const config_setting_t *s, double *v)
 {
     switch (config_setting_type(s)) {
@@ -36,6 +37,7 @@ void param_place(const config_setting_t *s, const char *path, const char *name, 
         snprintf(place, size, "%s: %s", path, name);
 }
 
+/* Component k of the member; bounds were looked at. */
 static void set_real(const struct param *r, void *target, int k, double v)
 {
     char *at = (char *)target + r->offset;
@@ -52,6 +54,7 @@ static bool is_integer(const struct param *r)
     return r->type == PARAM_INT || r->type == PARAM_INTS;
 }
 
+/* With what is wrong with an expression. */
 static void not_a_number(const struct param *r, const config_setting_t *s, char *why, size_t size)
 {
     const char *unit = strcmp(r->unit, "-") ? r->unit : "", *cause = NULL;
@@ -91,6 +94,7 @@ static bool get_number(const struct param *r, const config_setting_t *s, void *t
     return true;
 }
 
+/* The index of the word among the choices. */
 static bool get_choice(const struct param *r, const config_setting_t *s, void *target, char *why,
                        size_t size)
 {
@@ -116,6 +120,7 @@ static bool get_choice(const struct param *r, const config_setting_t *s, void *t
     return false;
 }
 
+/* The rest is set to 0, for ranks get bytes and defaults are compared by them. */
 static bool get_text(const struct param *r, const config_setting_t *s, void *target, char *why,
                      size_t size)
 {
@@ -258,6 +263,7 @@ static bool get_numbers(const struct param *r, const config_setting_t *s, void *
     return true;
 }
 
+/* A plain number turns about z. */
 static bool get_turn(const struct param *r, const config_setting_t *s, void *target, char *why,
                      size_t size)
 {
@@ -310,6 +316,7 @@ void param_default_of(const struct param_group *g, const struct param *r, void *
         *number = 0;
 }
 
+/* A default is text of the table: it goes through the same reader as a value of a case. */
 void param_default(const struct param_group *g, const struct param *r, void *target)
 {
     char line[512], why[256];

@@ -34,6 +34,7 @@ static void polygon(int n, const double *x, double centroid[3], double *volume)
         centroid[d] = x[d] + sum[d] / area;
 }
 
+/* corner NULL: the first n. */
 static void mean(int n, const double *x, const int *corner, double out[3])
 {
     for (int d = 0; d < 3; d++) {

@@ -15,6 +15,7 @@
 
 static const double look_every = 0.05; /* s between looks at whether the others live */
 
+/* An error of a partner stays: each later call returns it. */
 int client_error(struct cpl *c, int code, const char *fmt, ...)
 {
     va_list args;
@@ -80,6 +81,7 @@ static struct message *from_inbox(struct cpl *c, enum wire_kind kind, int field,
     return NULL;
 }
 
+/* What is said of this rank if it is lost. */
 static void at_work(const struct cpl *c)
 {
     char doing[64];
@@ -346,6 +348,7 @@ int cpl_window(struct cpl *c, double *t0, double *t1, int *action, int *code)
     return CPL_OK;
 }
 
+/* Kept until the next message that takes figures along. */
 int cpl_tell(struct cpl *c, const char *key, double value)
 {
     if (strlen(key) >= TOLD_KEY)
@@ -391,6 +394,7 @@ int cpl_advance(struct cpl *c, double t1, int stop)
     return CPL_OK;
 }
 
+/* The name goes into a line of the manifest, so it is one word. */
 int cpl_saved(struct cpl *c, const char *file)
 {
     struct pack p;
@@ -418,6 +422,7 @@ void cpl_obituary(int fd) { failure_obituary(fd); }
 
 /* --- the end --- */
 
+/* Does not return. */
 void cpl_fail(struct cpl *c, int code, const char *reason)
 {
     char text[512];

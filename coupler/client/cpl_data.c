@@ -10,6 +10,7 @@
 
 #include "cpl_client.h"
 
+/* The last user frees them. */
 static void places_release(struct client_places **p)
 {
     if (*p && --(*p)->users == 0) {
@@ -31,6 +32,7 @@ static void *copy(const void *from, size_t n)
 
 static bool in_window(const struct cpl *c) { return c->state == PLANNED || c->state == IN_WINDOW; }
 
+/* What is common to giving and taking. d: CPL_PUT or CPL_GET. */
 int client_check_field(struct cpl *c, int field, int d, const char *call)
 {
     if (c->error)
@@ -86,6 +88,7 @@ int cpl_move(struct cpl *c, int set, long n, const double *x, const int64_t *gid
     return CPL_OK;
 }
 
+/* Only volumes above 0 are taken: a cell without one would weigh nothing. */
 int cpl_move_cells(struct cpl *c, int set, long n, const int *nvertex, const double *x,
                    const int64_t *gid)
 {
@@ -256,6 +259,7 @@ static int64_t tick_of(const struct cpl *c, double t)
     return fabs(t - c->t0) < fabs(t - c->t1) ? c->window : c->window + 1;
 }
 
+/* An empty slot has the tick -1. */
 static void clear_slot(struct slot *s)
 {
     for (int k = 0; k < CPL_TERMS; k++)
@@ -327,6 +331,7 @@ int cpl_put_course(struct cpl *c, int field, double t, long n, int nterms,
     return CPL_OK;
 }
 
+/* How far each field has been put, by which the coupler sees who waits for what. */
 void client_pack_ticks(const struct cpl *c, struct pack *p)
 {
     pack_int(p, c->nfields);

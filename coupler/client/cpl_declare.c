@@ -6,6 +6,7 @@
 
 #include "cpl_client.h"
 
+/* s is borrowed from c, as long as that lives. */
 static int new_set(struct cpl *c, const char *name, int dim, struct client_set **s, int *id)
 {
     if (c->state != MET)
@@ -45,6 +46,7 @@ int cpl_grid(struct cpl *c, const char *set, const struct cpl_grid *g, int *id)
     return code;
 }
 
+/* A support of a set that only gives is not read. */
 int cpl_points(struct cpl *c, const char *set, int dim, double support, int *id)
 {
     struct client_set *s = NULL;
@@ -54,6 +56,7 @@ int cpl_points(struct cpl *c, const char *set, int dim, double support, int *id)
     return code;
 }
 
+/* 0: none along that axis. */
 int cpl_period(struct cpl *c, int set, const double period[3])
 {
     if (c->state != MET || set < 0 || set >= c->nsets || c->set[set].is_grid)

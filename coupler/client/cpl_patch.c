@@ -248,6 +248,7 @@ static void point_any(const struct client_patch *p, const struct patch_stencil q
     }
 }
 
+/* Four components are a velocity and a pressure; more are rare. */
 static point_body *body_of(int ncomp, int width)
 {
     static point_body *const linear[] = {point_1_2, point_2_2, point_3_2, point_4_2};
@@ -257,6 +258,7 @@ static point_body *body_of(int ncomp, int width)
     return width == 2 ? linear[ncomp - 1] : cubic[ncomp - 1];
 }
 
+/* Width along x is a constant of the bodies, widths along y and z are those of the stencils. */
 void patch_eval(const struct client_patch *p, double t, long n, const double *x, double *v,
                 double *grad)
 {

@@ -152,6 +152,7 @@ static int check_read(struct cpl *c, int field, bool patch, enum cpl_when when, 
     return CPL_OK;
 }
 
+/* Times are judged with the slack of cpl_advance. */
 int cpl_get_at(struct cpl *c, int field, enum cpl_when when, double t, long n, double *v,
                unsigned char *mask)
 {

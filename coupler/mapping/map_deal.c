@@ -15,6 +15,7 @@ struct deal {
     double *w; /* scratch */
 };
 
+/* Of all points of a cloud, m. */
 static void box_of(const struct map_cloud *c, int dim, double lo[3], double hi[3])
 {
     for (int d = 0; d < dim; d++) {

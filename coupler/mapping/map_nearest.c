@@ -6,6 +6,7 @@
 
 #include "near.h"
 
+/* Its place in the list; of an empty one 0. */
 int reach_nearest(int dim, const struct reach *r, const struct map_cloud *c, const double *x)
 {
     int best = 0;

@@ -10,6 +10,7 @@
 static const double least_weight = 1e-6; /* sum w W below which nothing is there */
 static const double worst_condition = 1e6;
 
+/* Wendland's C2 kernel of the support R; q = r/R. */
 double map_kernel(int dim, double q, double R)
 {
     const double c = dim == 2 ? 7.0 / (M_PI * R * R) : 21.0 / (2.0 * M_PI * R * R * R);
@@ -114,6 +115,7 @@ static bool map_one(int dim, double R, int ncomp, bool mls, const struct reach *
     return !(total < least_weight);
 }
 
+/* Of no source the sum is 0, and that is its value. */
 static bool sum_one(int dim, double R, int ncomp, const struct reach *r, const struct map_cloud *c,
                     const double *x, double *v)
 {

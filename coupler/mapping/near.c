@@ -12,6 +12,7 @@ void map_cloud_free(struct map_cloud *c)
     *c = (struct map_cloud){0};
 }
 
+/* n: points in all, after it. */
 void map_cloud_room(struct map_cloud *c, int dim, long ncomp, long n)
 {
     ROOM_IN(NULL, c->x, n * dim);
@@ -62,6 +63,7 @@ static void *reordered(const void *old, const struct near_place *p, long n, size
     return out;
 }
 
+/* The order of sums is then the same on any number of ranks. */
 void near_sort(struct map_cloud *c, int dim, int ncomp)
 {
     struct near_place *p = NEW(struct near_place, c->n), *room = NEW(struct near_place, c->n);
@@ -79,6 +81,7 @@ void near_sort(struct map_cloud *c, int dim, int ncomp)
     mem_free(p);
 }
 
+/* Places outside go to the outermost cells. */
 static long cell_of(const struct near *g, const double *x)
 {
     long cell = 0;

@@ -21,6 +21,7 @@ static const char *const of_scene[] = {"fluid",  "initial", "walls", "bodies",  
                                        "probes", "gauges",  "waves", "coupling"};
 enum { OF_SCENE = sizeof of_scene / sizeof *of_scene, OTHERS = OF_SCENE + HANDSHAKE_PROGRAMS + 8 };
 
+/* The scene's groups first, then the coupler's own. */
 void job_groups(struct job *j, struct scene *s, struct param_group *groups)
 {
     scene_groups(s, groups);
@@ -75,6 +76,7 @@ static void look(struct scene *s, MPI_Comm comm, const struct command_line *l)
     mem_free(scrap.text);
 }
 
+/* What the case gives in group coupler goes first. */
 static void set_period(struct job *j, const struct scene_domain *d)
 {
     for (int a = 0; a < 3; a++)
@@ -120,6 +122,7 @@ struct params *job_read(struct job *j, struct scene *s, MPI_Comm comm, const str
     return p;
 }
 
+/* A name that is too long comes back empty. */
 bool job_next_program(const char **at, char name[HANDSHAKE_NAME])
 {
     *at += strspn(*at, " \t,");

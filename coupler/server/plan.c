@@ -9,6 +9,7 @@
 
 #include "../../common/run/run.h"
 
+/* A line more in a text of TEXT bytes; where it is full, it says so once. */
 void problem(char *text, const char *fmt, ...)
 {
     static const char more[] = "\n... and more";
@@ -28,6 +29,7 @@ void problem(char *text, const char *fmt, ...)
 
 /* --- meeting --- */
 
+/* In the order of cpl_meet. */
 void plan_take_meet(struct coupler *c, struct solver *s, struct message *m)
 {
     s->restart_window = m->head.tick;
@@ -86,6 +88,7 @@ static bool holds_line(const char *text, const char *line, size_t n)
     return false;
 }
 
+/* A line that several programs found in the same case is said once. */
 void plan_say_faults(const struct coupler *c, const char *own)
 {
     for (int i = 0; i < c->nsolvers; i++)
@@ -138,6 +141,7 @@ void plan_check_meet(struct coupler *c, char *text)
     }
 }
 
+/* The verdict and all zones, the same bytes to everybody. */
 void plan_answer_meet(struct coupler *c, const char *text)
 {
     struct pack p;
@@ -253,6 +257,7 @@ static map_points *consistent(int how)
     return how >= 0 && how <= CPL_SUM ? of[how] : NULL;
 }
 
+/* Of a field that is taken conservatively. */
 static enum map_dealing dealing(int how)
 {
     const int kind = how & ~CPL_CONSERVATIVE;
@@ -337,6 +342,8 @@ void plan_make_links(struct coupler *c, char *text)
                         c->solver[g].field[j].name, c->solver[g].name);
 }
 
+/* To each solver, in the order in which it declared its fields: who gives them, on what grid, and
+ * how many take them. */
 void plan_answer_ready(struct coupler *c, const char *text)
 {
     for (int i = 0; i < c->nsolvers; i++) {
@@ -357,6 +364,7 @@ void plan_answer_ready(struct coupler *c, const char *text)
     }
 }
 
+/* In words. */
 static const char *way_of(const struct partner_link *l, int how)
 {
     static const char *const grid[] = {"linear", "cubic"};

@@ -10,6 +10,7 @@ static _Noreturn void not_planned(const struct solver *s, const struct message *
               m->head.field);
 }
 
+/* Numbers come from another program: they are looked at before they are used. */
 static struct partner_link *link_of_target(struct coupler *c, const struct solver *s,
                                            const struct message *m)
 {
@@ -27,6 +28,7 @@ static struct partner_link *link_of_source(struct coupler *c, const struct solve
     return &c->link[s->field[m->head.field].target[m->head.target]];
 }
 
+/* Of points every rank of a target asks every rank of the coupler, of patches only one. */
 void rendezvous_open(struct coupler *c)
 {
     for (int i = 0; i < c->nlinks; i++) {
@@ -40,6 +42,7 @@ void rendezvous_open(struct coupler *c)
     }
 }
 
+/* Frees what was put for one tick. */
 static void drop(const struct coupler *c, struct partner_link *l, struct arrival *a)
 {
     for (int r = 0; r < c->solver[l->source].size; r++)
@@ -92,6 +95,7 @@ static void own_share(const struct coupler *c, const struct partner_link *l, lon
     *last = l->map ? (long)n : (long)(n * (c->rank + 1) / c->size);
 }
 
+/* x[n][dim], by rank of the target; owned by the caller. */
 static double *all_targets(const struct coupler *c, const struct partner_link *l, long n)
 {
     double *x = NEW(double, n * l->dim);
@@ -218,6 +222,7 @@ static struct map_cloud assemble(struct coupler *c, const struct partner_link *l
     return s;
 }
 
+/* Places, ids and volumes of all targets, without values; owned by the caller. */
 static struct map_cloud target_cloud(const struct coupler *c, const struct partner_link *l, long n)
 {
     struct map_cloud t = {.n = n, .x = all_targets(c, l, n)};
@@ -406,6 +411,7 @@ static void try_answer(struct coupler *c, struct partner_link *l)
     l->served++;
 }
 
+/* Ids and volumes come along where all ranks deal out alike, of conservative mappings. */
 static void take_targets(struct coupler *c, const struct partner_link *l, struct asker *a,
                          struct message *m)
 {

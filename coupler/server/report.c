@@ -45,6 +45,7 @@ static bool in_progress_line(const char *key)
     return !is_norm(key) && !strchr(key, '.');
 }
 
+/* The share of the time so far that each solver has waited. */
 static void waiting(const struct coupler *c, char *line, double elapsed)
 {
     text_add(line, LINE, "  wait");
@@ -96,6 +97,7 @@ struct report_norm {
     double unit; /* of _rms and _linf, as the solvers have it; else that of the field */
 };
 
+/* NULL: more kinds of errors than there is room for. */
 static struct report_norm *norm_named(struct report_norm *all, int *n, const char *name,
                                       size_t length)
 {
@@ -136,6 +138,7 @@ static int add_norms(const struct coupler *c, struct report_norm *all)
     return n;
 }
 
+/* group.name and what, "error.velocity_l2". */
 static void put_number(struct summary *s, const char *group, const char *name, const char *what,
                        double v)
 {
@@ -166,6 +169,7 @@ static void put_errors(const struct coupler *c, struct summary *s)
     }
 }
 
+/* All that is neither a part of a norm nor of a sum goes under its program's name. */
 static void put_told(const struct coupler *c, struct summary *s)
 {
     for (int i = 0; i < c->nsolvers; i++)

@@ -3,6 +3,7 @@
  */
 #include "coupler.h"
 
+/* By rank 0's word for its program. */
 void rendezvous_take_ticks(struct coupler *c, struct solver *s, struct message *m)
 {
     const int64_t n = take_int(&c->wire, m);
@@ -44,6 +45,8 @@ static bool waits_in_a_circle(const struct coupler *c, int solver, char *text)
     }
 }
 
+/* A source that has ended the step gives nothing more in it; who waits for it, or in a circle,
+ * waits for ever. */
 bool rendezvous_starved(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nsolvers; i++) {
@@ -85,6 +88,7 @@ bool rendezvous_skipped(const struct coupler *c, char *text)
     return false;
 }
 
+/* For the message about a step that takes long. */
 void rendezvous_waiting(const struct coupler *c, char *text)
 {
     for (int i = 0; i < c->nlinks; i++) {

@@ -10,6 +10,7 @@
 
 static const double same_time = 1e-9; /* relative */
 
+/* The end as the case has it, to the last bit. */
 double window_start(const struct coupler *c, int64_t k)
 {
     const double span = c->t_end - c->t_base;

@@ -37,6 +37,7 @@ static struct {
 
 void alive_patience(double s) { self.patience = s; }
 
+/* Before alive_begin, by the handshake. */
 void alive_add(const char *program, int rank)
 {
     self.of = wire_grow(self.of, (size_t)(self.n + 1) * sizeof *self.of);
@@ -50,6 +51,7 @@ static void path_of(const char *program, int rank, char *path)
     snprintf(path, PATH, "%s/.alive-%.63s-%d", self.dir, program, rank);
 }
 
+/* Where the folder is not there yet, no sign is left: the thread tries again. */
 void alive_sign(void)
 {
     const int fd = open(self.own, O_WRONLY | O_CREAT, 0644);
@@ -95,6 +97,7 @@ void alive_begin(const char *dir, const char *program, int rank)
         pthread_detach(thread);
 }
 
+/* The thread ends by itself after its pause. */
 void alive_end(void)
 {
     if (self.open)
@@ -105,6 +108,7 @@ void alive_end(void)
     self.of = NULL;
 }
 
+/* Any change of the file's time is a sign, whatever that host's clock says. */
 static void look(struct person *p, double now)
 {
     char path[PATH];

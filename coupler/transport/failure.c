@@ -43,6 +43,7 @@ static void append(char *text, const char *more)
     text[n + (m < room ? m : room)] = '\0';
 }
 
+/* write() alone is safe in handlers. */
 static void put(int fd, const char *text)
 {
     const char *at = text;
@@ -107,6 +108,7 @@ static bool silent(char *text)
     return true;
 }
 
+/* The one call for who waits: processes of this host first, which costs no file. */
 bool failure_seen(void)
 {
     char text[TEXT];
@@ -275,6 +277,7 @@ static void on_term(int signal_number)
     raise(signal_number);
 }
 
+/* Handlers of the program stay. */
 static void guard(void)
 {
     struct sigaction now;

@@ -164,6 +164,7 @@ static void check_versions(const struct hello *all, int rank, int size, int vers
     }
 }
 
+/* A job has a coupler and somebody beside it. */
 static void check_programs(struct handshake *h)
 {
     if (h->nprograms == 1 && h->coupler < 0)

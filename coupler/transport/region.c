@@ -19,6 +19,7 @@ static int cell_of(const struct region *r, double x)
     return (int)fmin(fmax(floor(x / r->edge), -1e9), 1e9);
 }
 
+/* Of a cell that is inside. */
 static unsigned char *cell_at(const struct region *r, int i, int j, int k)
 {
     return r->wanted +
@@ -183,6 +184,7 @@ int region_images(const struct region *r, const double *x, double image[27][3])
     return n;
 }
 
+/* Both ends are of one version, so the struct goes as it is, without its pointers. */
 void region_pack(struct pack *p, const struct region *r)
 {
     struct region flat = *r;

@@ -21,6 +21,7 @@ struct pending {
     unsigned char *bytes;
 };
 
+/* s, of a clock that nobody sets. */
 double wire_time(void)
 {
     struct timespec now;
@@ -28,6 +29,7 @@ double wire_time(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* The library's own memory: without the suite's common folder. */
 void *wire_grow(void *p, size_t n)
 {
     void *q = realloc(p, n ? n : 1);
@@ -42,6 +44,7 @@ void *wire_alloc(size_t n) { return wire_grow(NULL, n); }
 
 /* --- building --- */
 
+/* n bytes at the end; they move when more is packed. */
 void *pack_room(struct pack *p, size_t n)
 {
     if (p->n + n > p->capacity) {
@@ -52,6 +55,7 @@ void *pack_room(struct pack *p, size_t n)
     return p->bytes + p->n - n;
 }
 
+/* p: taken over; freed by the send. */
 void pack_begin(struct pack *p, enum wire_kind kind, int field, int64_t tick)
 {
     const struct wire_head head = {.magic = MAGIC,
@@ -92,6 +96,7 @@ static void broken(const struct wire *w, const char *what)
     abort();
 }
 
+/* The next n bytes as they lie in the message, as long as that lives. */
 const void *take_view(struct wire *w, struct message *m, size_t n)
 {
     if (n > (size_t)m->head.bytes - m->at) {
@@ -124,6 +129,7 @@ double take_real(struct wire *w, struct message *m)
     return r;
 }
 
+/* Cut to size - 1 bytes. */
 void take_text(struct wire *w, struct message *m, char *to, size_t size)
 {
     const size_t n = (size_t)take_int(w, m);
@@ -205,6 +211,7 @@ bool wire_flushed(struct wire *w)
     return !w->pending;
 }
 
+/* A wait that leaves the core to others. */
 static void finish(MPI_Request *request)
 {
     struct backoff backoff;
