@@ -12,6 +12,7 @@
 
 enum { PARTS = 64 }; /* chords of a curve, before corners are left out */
 
+/* A corner, unless the last one is there. */
 static void add(struct outline *is, double x, double y)
 {
     if (is->n > 0 && is->x[is->n - 1][0] == x && is->x[is->n - 1][1] == y)
@@ -102,6 +103,7 @@ static double page_height(const char *text)
     return *value ? strtod(value, NULL) : NAN;
 }
 
+/* NAN: there is none, and c stays. */
 static double number(const char **c)
 {
     char *end;
@@ -110,6 +112,13 @@ static double number(const char **c)
     const bool any = end != *c;
     *c = end;
     return any ? v : NAN;
+}
+
+/* A flag of an arc: 0 or 1, behind which no separator need stand. */
+static double flag(const char **c)
+{
+    *c += strspn(*c, " \t\r\n,");
+    return **c == '0' || **c == '1' ? *(*c)++ - '0' : NAN;
 }
 
 /* A Bezier curve from p[0] to p[3] with control points p[1], p[2]: PARTS corners at equal steps of
@@ -138,7 +147,7 @@ static void arc(struct outline *is, const double p[2], double rx, double ry, dou
                  v = c * dy - s * dx;
     rx = fabs(rx);
     ry = fabs(ry);
-    if (!(rx > 0.0 && ry > 0.0)) {
+    if (!(rx > 0.0 && ry > 0.0) || (dx == 0.0 && dy == 0.0)) {
         add(is, q[0], q[1]);
         return;
     }
@@ -252,8 +261,8 @@ static bool read_path(const char *d, struct outline *is, char *why, size_t size)
             return false;
         }
         for (int k = 0; k < n; k++)
-            v[k] = number(&d);
-        if (!isfinite(v[n - 1])) {
+            v[k] = n == 7 && (k == 3 || k == 4) ? flag(&d) : number(&d);
+        if (!isfinite(v[n - 1]) || (n == 7 && !isfinite(v[3] + v[4]))) {
             snprintf(why, size, "a number is missing behind %c of its path", command);
             return false;
         }
@@ -263,6 +272,7 @@ static bool read_path(const char *d, struct outline *is, char *why, size_t size)
     return true;
 }
 
+/* As long as there are pairs. */
 static void read_corners(const char *points, struct outline *is)
 {
     for (;;) {
@@ -325,6 +335,7 @@ static bool read_drawing(const char *text, const char *id, struct outline *is, c
 
 /* --- fewer corners --- */
 
+/* Distance from the line through a and b; of a closed outline the two ends are one. */
 static double off_chord(const double *p, const double *a, const double *b)
 {
     const double t[2] = {b[0] - a[0], b[1] - a[1]}, d[2] = {p[0] - a[0], p[1] - a[1]};
@@ -350,6 +361,7 @@ static void keep(const struct outline *is, int lo, int hi, double within, bool *
     keep(is, far, hi, within, stays);
 }
 
+/* stays[n]: filled; how many stay. */
 static int kept(const struct outline *is, double within, bool *stays)
 {
     int n = 0;

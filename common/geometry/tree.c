@@ -26,6 +26,7 @@ struct tree {
 
 /* --- making --- */
 
+/* Bounds of one triangle, m. */
 static void box_of(const struct tree *t, int triangle, double lo[3], double hi[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -82,6 +83,7 @@ static void select_first(int *order, int n, int first, const float (*c)[3], int 
     }
 }
 
+/* Of the centres, which is what is halved. */
 static int longest_axis(const int *order, int n, const float (*c)[3])
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -144,6 +146,7 @@ static void find_normals(struct tree *t)
     mem_free(sum);
 }
 
+/* Centres in float, from the middle of the mesh, where their digits are. */
 struct tree *tree_create(const struct trimesh *m)
 {
     struct tree *t = NEW(struct tree, 1);
@@ -180,6 +183,7 @@ static int ascending(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+/* Whether the boxes of both meet, touching included. */
 static bool triangle_meets(const struct tree *t, int triangle, const double *lo, const double *hi)
 {
     double low[3], high[3];
@@ -237,6 +241,7 @@ enum { FACE = 0, EDGE = 1, VERTEX = 4 };
 /* Weights of the vertices below this are nought: the point is on the edge across from them. */
 static const double on_edge = 1e-12;
 
+/* Two weights of nought: a vertex; one: the edge across from its vertex. */
 static int feature_of(const double w[3])
 {
     int zeros = 0, which = 0, kept = 0;
@@ -312,6 +317,7 @@ static void look_at(const struct tree *t, int triangle, const double *x, struct 
     }
 }
 
+/* Square of the distance from a box, 0 within; m^2. */
 static double to_node(const struct node *b, const double *x)
 {
     double sum = 0.0;
@@ -379,6 +385,8 @@ static bool pseudonormal(const struct tree *t, const struct nearest *best, doubl
     return false;
 }
 
+/* The sign is that of the side on which x lies, by the pseudonormal (Baerentzen & Aanaes, IEEE
+ * Trans. Vis. Comput. Graph. 11, 2005). */
 struct tree_foot tree_nearest(const struct tree *t, const double x[3], double reach)
 {
     struct nearest best = {.d2 = reach * reach, .triangle = -1};
@@ -436,6 +444,7 @@ static double crossing(const struct trimesh *m, int triangle, const double *a, c
                                                                                      : INFINITY;
 }
 
+/* where NULL: any crossing will do, the first that is found ends the walk. */
 bool tree_crosses(const struct tree *t, const double a[3], const double b[3], double *where)
 {
     int stack[DEPTH], depth = 0;
@@ -463,6 +472,7 @@ bool tree_crosses(const struct tree *t, const double a[3], const double b[3], do
 
 /* --- winding --- */
 
+/* By solid angles (van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30, 1983); O(n). */
 double trimesh_winding(const struct trimesh *m, const double x[3])
 {
     double sum = 0.0;

@@ -12,6 +12,7 @@ void trimesh_free(struct trimesh *m)
     *m = (struct trimesh){0};
 }
 
+/* Owned by the caller; from NULL: zeros. */
 static void *copy_of(const void *from, int n, size_t size)
 {
     void *to = mem_new((size_t)n, size);
@@ -20,6 +21,7 @@ static void *copy_of(const void *from, int n, size_t size)
     return to;
 }
 
+/* All arrays are its own. */
 struct trimesh trimesh_copy(const struct trimesh *m)
 {
     struct trimesh c = *m;
@@ -30,6 +32,7 @@ struct trimesh trimesh_copy(const struct trimesh *m)
     return c;
 }
 
+/* Neighbours and parts of m are then those of before: trimesh_connect finds them anew. */
 void trimesh_append(struct trimesh *m, const struct trimesh *more)
 {
     GROW(m->x, m->nvertices, m->nvertices + more->nvertices);
@@ -142,6 +145,7 @@ static void find_parts(struct trimesh *m)
     mem_free(stack);
 }
 
+/* closed: each side of each triangle has a neighbour. */
 void trimesh_connect(struct trimesh *m)
 {
     FREE(m->neighbour, m->part);
@@ -205,6 +209,7 @@ void trimesh_middle(const struct trimesh *m, int triangle, double x[3])
         x[a] = (m->x[v[0]][a] + m->x[v[1]][a] + m->x[v[2]][a]) / 3.0;
 }
 
+/* On the plane counts as before it, so that a vertex there gives no third end. */
 bool trimesh_cut(const struct trimesh *m, int triangle, int axis, double at, double x[2][3])
 {
     int n = 0;
@@ -259,6 +264,7 @@ static void add_triangle(const double *a, const double *b, const double *c, stru
     }
 }
 
+/* Moments about the middle, then by Steiner's rule about the centre. */
 struct trimesh_solid trimesh_solid(const struct trimesh *m, int part)
 {
     struct moments o = {0};

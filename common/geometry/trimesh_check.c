@@ -29,6 +29,7 @@ static bool pierces(const struct trimesh *m, int triangle, const double *a, cons
     return u > in && w > in && u + w < 1.0 - in && at > in && at < 1.0 - in;
 }
 
+/* An edge of either through the other. */
 static bool cross(const struct trimesh *a, int t, const struct trimesh *b, int q)
 {
     bool any = false;
@@ -38,6 +39,7 @@ static bool cross(const struct trimesh *a, int t, const struct trimesh *b, int q
     return any;
 }
 
+/* Neighbours touch without piercing each other. */
 static bool share_vertex(const struct trimesh *m, int t, int q)
 {
     for (int k = 0; k < 9; k++)
@@ -173,6 +175,7 @@ static double winding_of(const struct trimesh *m, int part, const double *x)
     return w;
 }
 
+/* The box of a in that of b. */
 static bool within(const struct surface_part *a, const struct surface_part *b)
 {
     for (int k = 0; k < 3; k++)

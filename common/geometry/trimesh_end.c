@@ -22,6 +22,7 @@ struct end_section {
 
 /* --- what is before the plane --- */
 
+/* Three vertices of its own: they are welded afterwards. */
 static void add_triangle(struct trimesh *to, const double *a, const double *b, const double *c)
 {
     const double *corner[3] = {a, b, c};
@@ -63,6 +64,7 @@ static void keep(const double *const v[3], int axis, double at, int way, struct 
         add_triangle(to, kept[0], kept[k - 1], kept[k]);
 }
 
+/* Owned by the caller; open where the plane cut it. */
 static struct trimesh before_plane(const struct trimesh *m, int axis, double at, int way)
 {
     struct trimesh to = {.x = mem_new(6 * (size_t)m->ntriangles, sizeof *to.x),
@@ -81,6 +83,7 @@ static struct trimesh before_plane(const struct trimesh *m, int axis, double at,
     return to;
 }
 
+/* Sides that are infinite cut nothing. */
 struct trimesh trimesh_within(const struct trimesh *m, const double lo[3], const double hi[3])
 {
     struct trimesh of = trimesh_copy(m);
@@ -125,6 +128,7 @@ static bool find_edges(struct end_section *s)
     return true;
 }
 
+/* From `first' along its successors, until one that is done. */
 static void add_loop(struct end_section *s, int first, bool *done)
 {
     int n = 0, *loop = NEW(int, s->of->nvertices);
@@ -162,6 +166,8 @@ static bool is_ear(int n, const int *left, const double (*p)[2], int k, double l
     return true;
 }
 
+/* Where no corner is an ear, by rounding, the last one is cut off all the same: the result always
+ * has n - 2 triangles. */
 int trimesh_ears(int n, int *left, const double (*p)[2], int (*ear)[3])
 {
     double far = 0.0;
@@ -288,6 +294,8 @@ static bool close_section(struct trimesh *m, int axis, int way)
     return m->closed;
 }
 
+/* Vertices within `near' of the plane are put on it first, so that no slivers are cut. m stays as
+ * it was where the section cannot be filled. */
 bool trimesh_end(struct trimesh *m, int axis, double at, bool high, double near)
 {
     const int way = high ? 1 : -1;

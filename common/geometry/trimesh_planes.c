@@ -37,6 +37,7 @@ static int spread(const struct trimesh *m, int first, int *number, int *waiting)
     return count;
 }
 
+/* -1: alone in its plane. */
 int *trimesh_planes(const struct trimesh *m)
 {
     int *number = NEW(int, m->ntriangles), *waiting = NEW(int, m->ntriangles);

@@ -28,6 +28,7 @@ static bool is_known(const char *path)
     return false;
 }
 
+/* Readable, and not empty. */
 static bool is_file(const char *path)
 {
     FILE *f = fopen(path, "rb");

@@ -19,6 +19,7 @@ struct repair_grid {
     int *head, *next; /* chains of the vertices kept, by the hash of their cell */
 };
 
+/* Multipliers of splitmix64. */
 static uint64_t hash_of(const struct repair_grid *g, const int64_t *c)
 {
     uint64_t h = (uint64_t)c[0] * 0x9e3779b97f4a7c15u;
@@ -27,6 +28,7 @@ static uint64_t hash_of(const struct repair_grid *g, const int64_t *c)
     return (h ^ (h >> 29)) & g->mask;
 }
 
+/* beside: on which side of the cell's middle x lies, -1 or 1. */
 static void cell_of(const struct repair_grid *g, const double *x, int64_t *c, int *beside)
 {
     for (int a = 0; a < 3; a++) {
@@ -57,6 +59,7 @@ static int find_kept(const struct repair_grid *g, int v)
     return found;
 }
 
+/* A tolerance of 0 joins what is equal but for rounding. */
 static struct repair_grid grid_create(const struct trimesh *m, double tolerance)
 {
     struct repair_grid g = {.m = m, .mask = 1};
@@ -160,6 +163,8 @@ void trimesh_trim(struct trimesh *m)
 
 /* --- one sense --- */
 
+/* Whether t and its neighbour across side k run along it in one direction, so that their normals
+ * look to different sides. */
 static bool same_sense(const struct trimesh *m, int t, int k)
 {
     const int q = m->neighbour[t][k], a = m->vertex[t][k], b = m->vertex[t][(k + 1) % 3];

@@ -5,6 +5,7 @@
 #include "../base/base.h"
 #include "trimesh.h"
 
+/* Empty, with room. */
 static void reserve(struct trimesh *m, int vertices, int triangles)
 {
     *m = (struct trimesh){0};
@@ -33,6 +34,7 @@ static int box_vertex(struct trimesh *m, int *number, int n, const int *i, const
     return *at - 1;
 }
 
+/* n: squares along each edge. */
 struct trimesh trimesh_box(const double lo[3], const double hi[3], int n)
 {
     struct trimesh m;

@@ -94,6 +94,10 @@ TEST(curves_are_followed)
     near(fabs(area(&is)), 4.0 * M_PI, 0.03);
     assert_true(is.n > 20 && is.n < 120);
     mem_free(is.x);
+    /* flags without blanks, and an arc to where the pen stands, which is none */
+    assert_true(read_path("M7 4a2 2 0 11-4 0a2 2 0 0 0 0 0a2 2 0 114 0z", &is));
+    near(fabs(area(&is)), 4.0 * M_PI, 0.03);
+    mem_free(is.x);
     assert_true(
         read_path("M7 4c0 1.1046-0.8954 2-2 2s-2-0.8954-2-2s0.8954-2 2-2s2 0.8954 2 2z", &is));
     near(fabs(area(&is)), 4.0 * M_PI, 0.04);
