@@ -74,16 +74,18 @@ void fv_energies(struct fv *s, double sum[2])
 }
 
 /* Over the cells outside of the partner's part; where blocks overlap those of the latest count. A
- * cell counts by the share that no box of a partner counts. Collective. */
+ * cell counts by the share that no box of a partner counts; a force along a period has no
+ * potential. Collective. */
 void fv_tell(void *state, struct summary *report)
 {
     static const char *const names[] = {"sum.kinetic", "sum.enstrophy", "sum.signal",
                                         "sum.potential", "sum.water"};
     struct fv *s = state;
     struct overset *o = grid_overlaps(&s->grid) ? overset_search(s->run, s->m) : NULL;
-    const double rho = s->run->scene.fluid.rho, *g = s->run->scene.fluid.gravity;
-    double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+    const double rho = s->run->scene.fluid.rho;
+    double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0}, g[3];
     int i[3];
+    (void)scene_still_gravity(&s->run->scene, g);
     COMPUTED_CELLS (s, p, i, c, of) {
         const double *x = of.x;
         if (o && mesh_counts_twice(s, o, p->block, x))

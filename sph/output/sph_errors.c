@@ -169,13 +169,15 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
     return total(s, sum);
 }
 
-/* Sums of the part that is sph's own, for the coupler's totals over all programs. */
+/* Sums of the part that is sph's own, for the coupler's totals over all programs. A force along a
+ * period has no potential. */
 void sph_tell(void *state, struct summary *report)
 {
     struct sph *s = state;
     const struct exact e = exact_create(&s->run->scene);
     const int dim = s->dim;
-    double kinetic = 0.0, potential = 0.0, water = 0.0;
+    double kinetic = 0.0, potential = 0.0, water = 0.0, g[3];
+    (void)scene_still_gravity(&s->run->scene, g);
     integrate_gradients(s);
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
@@ -184,7 +186,7 @@ void sph_tell(void *state, struct summary *report)
             water += part * m / s->rho0;
             for (int a = 0; a < dim; a++) {
                 kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;
-                potential -= part * m * s->gravity[a] * y[a];
+                potential -= part * m * g[a] * y[a];
             }
         }
     summary_real(report, "sum.kinetic", total(s, kinetic));

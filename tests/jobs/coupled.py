@@ -108,6 +108,7 @@ for level in 2, 3:
     job(folder, weight, 'initial.level=%d' % level)
     near('stream with weight: p of sph', last(folder + '/sph-series.csv', 'in ['), p, 20)
     near('stream with weight: p of fv', last(folder + '/fv-series.csv', 'out ['), p, 20)
+    near('stream with weight: rho g times height', last(folder + '/series.csv', 'potential'), 9810 * 8, 80)
     overlap_below(folder, 0.01)
 
 # a free body that the stream carries out of what fv takes from the particles ends the run, as a driven one is refused
