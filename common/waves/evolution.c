@@ -43,6 +43,7 @@ struct evolution *evolution_create(const struct evolution_spec *of, struct wave_
     return e;
 }
 
+/* Fields to modes, of which those beyond `highest' go. */
 static void to_state(struct evolution *e, double *z)
 {
     wave_grid_to_modes(e->grid, 1, z, e->work[0]);
@@ -51,6 +52,7 @@ static void to_state(struct evolution *e, double *z)
             z[2 * i] = z[2 * i + 1] = 0.0;
 }
 
+/* One complex field: both are real, and cost one transform. */
 void evolution_start(struct evolution *e, const double *eta, const double *phi)
 {
     for (int i = 0; i < e->grid->cells; i++) {

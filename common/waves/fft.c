@@ -12,6 +12,7 @@ struct fft {
     double *turn; /* [n][2]: cosine and sine of 2 pi k/n */
 };
 
+/* What is left of n when 2, 3 and 5 are divided out. */
 static int without_factors(int n)
 {
     for (int r = 2; r <= RADIX; r += r == 2 ? 1 : 2)
@@ -89,6 +90,7 @@ static inline __attribute__((always_inline)) void sum_two(const struct butterfly
     }
 }
 
+/* One butterfly of radix 4, with its turns. */
 static inline __attribute__((always_inline)) void sum_four(const struct butterfly *of, double sign,
                                                            int at, int batch)
 {

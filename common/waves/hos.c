@@ -19,6 +19,7 @@ struct hos {
     double *z, *work; /* [cells][2][(TERMS + 1)/2] */
 };
 
+/* factor: k^q, for odd q times tanh kh, which is 1 beyond kh = 300 without an overflow. */
 struct hos *hos_create(const struct wave_grid *grid, double depth, int order, double highest)
 {
     struct hos *h = NEW(struct hos, 1);

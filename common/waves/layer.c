@@ -79,6 +79,7 @@ struct sigma_column {
     double one, square; /* 1/m^2: 1/D^2; (D/a)^2 */
 };
 
+/* What the operator wants of the shape in one column. */
 static struct sigma_column column_at(const struct sigma_layer *l, int i)
 {
     const double D = l->D[i];
@@ -125,6 +126,7 @@ static void column_product(const struct sigma_layer *l, int i, const double *lev
         r[j] = 0.0;
 }
 
+/* The flat operator's inverse first, so that what is multiplied is near the identity. */
 void layer_product(struct sigma_layer *l, const double *y, double *r)
 {
     const size_t rows = (size_t)l->rows;
@@ -174,6 +176,7 @@ double layer_rise(const struct sigma_layer *l, int cell)
     return l->phi_s[(size_t)cell * (size_t)l->rows] / l->D[cell];
 }
 
+/* Between sizes of modes that are kept: linear. */
 double layer_flat_rise(const struct sigma_layer *l, double k)
 {
     const struct layer_solver *s = l->solver;

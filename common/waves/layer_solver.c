@@ -114,6 +114,7 @@ static void unpack(const struct sigma_layer *l, int mode, double *re, double *im
     }
 }
 
+/* Stored transposed, so that the inner loop runs over neighbours. */
 void layer_solver_multiply(const double *transposed, int nodes, int rows, const double *x,
                            double *restrict y)
 {

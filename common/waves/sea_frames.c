@@ -58,6 +58,7 @@ struct column_velocities {
     double u[3][WAVE_NODES];
 };
 
+/* profile: along, then up, at the nodes. Long crests have nothing across. */
 static void add_component(struct column_velocities *to, const struct wave_component *q,
                           const double *profile, double co, double si)
 {
@@ -251,6 +252,7 @@ static void expect_extremes(struct waves *w)
     w->speed = 1.3 * w->crest * 2.0 * M_PI / w->period / tanh(fmin(k * h, 300.0));
 }
 
+/* Tables first, as second order wants their nodes; gains last, as they change components. */
 void sea_make(struct waves *w)
 {
     const struct wave_spec *of = &w->of;
@@ -270,6 +272,7 @@ void sea_make(struct waves *w)
         apply_gains(w);
 }
 
+/* About 0.3 ns a product. */
 double sea_seconds(const struct waves *w)
 {
     if (w->field)

@@ -33,6 +33,7 @@ double complex sea_gain_open(const struct wave_spec *of, double k, double comple
     return of->open ? p + (1.0 - p) * gain : gain;
 }
 
+/* Waves that run inwards through the side are made there, others must pass. */
 double complex sea_gain(const struct wave_spec *of, double omega, double k, double cosine)
 {
     if (!(of->zone > 0.0))

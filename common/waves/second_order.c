@@ -38,6 +38,7 @@ struct second_order {
     float (*E)[2][COLUMNS];   /* [n]: real and imaginary parts */
 };
 
+/* The two conditions of the head, solved by Cramer's rule. */
 struct bound_wave bound_wave_of(const double k1[2], const double k2[2], double w1, double w2, int s,
                                 double g, double h)
 {
@@ -190,6 +191,7 @@ double second_order_products(const struct second_order *s)
 
 /* --- columns --- */
 
+/* e: the components at x; step: from one column to the next, which saves a cosine each. */
 static void begin_row(struct second_order *s, double t, double x, double gap)
 {
     for (int i = 0; i < s->ncomponents; i++) {

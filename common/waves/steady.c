@@ -98,6 +98,7 @@ static double level(const double *q, double strip)
     return -sum;
 }
 
+/* The sum of the modes half a length from the crest, where they alternate. */
 static double trough_of(const double *q)
 {
     double y = 0.0;
@@ -251,6 +252,7 @@ static bool is_far(const struct steady *w, double x, double t)
     return w->back != 0.0 && fabs(w->k * (x - w->x - w->c * t)) > M_PI;
 }
 
+/* On the surface the inverse of the map is real but for rounding. */
 double steady_eta(const struct steady *w, double x, double t)
 {
     double complex slope;

@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+/* Third order: omega^2 = g k (1 + (k a)^2). */
 struct stokes stokes_create(double length, double g, double rho, double amplitude)
 {
     struct stokes w = {.k = 2.0 * M_PI / length, .a = amplitude, .g = g, .rho = rho};
@@ -36,6 +37,7 @@ static double bernoulli(const struct stokes *w, double x, double y)
     return w->rho * (w->omega / w->k * u[0] - 0.5 * (u[0] * u[0] + u[1] * u[1]) - w->g * y);
 }
 
+/* What the series leaves on the surface fades with depth, so that p is 0 there. */
 void stokes_point(const struct stokes *w, double x, double y, double *u, double *p)
 {
     const double eta = stokes_eta(w, x);

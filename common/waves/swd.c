@@ -35,6 +35,7 @@ static bool read_word(struct swd *s, uint32_t *word)
     return true;
 }
 
+/* Of 4 bytes, as read_word turns them. */
 static bool read_int(struct swd *s, int *v)
 {
     uint32_t word;
@@ -130,6 +131,7 @@ static void close_file(void *p)
         fclose(s->f);
 }
 
+/* NULL: what is wrong is in error. */
 struct swd *swd_open(const char *path, char *error, size_t size)
 {
     struct swd *s = NEW(struct swd, 1);
@@ -150,6 +152,7 @@ struct swd *swd_open(const char *path, char *error, size_t size)
 
 struct swd_header swd_header_of(const struct swd *s) { return s->of; }
 
+/* Files are of the lowest byte first. */
 static float host_order(const unsigned char *b)
 {
     const uint32_t word = b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
@@ -186,6 +189,7 @@ static double height_factor(const struct swd *s, double k, double z)
     return U * S + (1.0 - U) / S;
 }
 
+/* Level first, since the potential is asked for on it. */
 void swd_fields(const struct swd *s, const double *h, const double *c, int points, double *eta,
                 double *phi)
 {

@@ -91,6 +91,7 @@ static void null_vector(const struct wave *w, double complex c[4])
     }
 }
 
+/* Without viscosity as the limit of it: two of four terms, and a rate that is imaginary. */
 struct wave wave_create(double H, double length, double g, double nu, double rho, double amplitude)
 {
     struct wave w = {.H = H, .k = 2.0 * M_PI / length, .g = g, .nu = nu, .rho = rho};

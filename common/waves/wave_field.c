@@ -218,6 +218,7 @@ static void keep(struct wave_field *f)
     memcpy(f->states[slot], f->of->state, (size_t)f->of->grid->cells * 2 * sizeof(double));
 }
 
+/* The modes of the start are made once; each later start is from them. */
 static void begin(struct wave_field *f)
 {
     if (!f->begun)
@@ -226,6 +227,7 @@ static void begin(struct wave_field *f)
     evolution_restore(f->of, 0, f->start);
 }
 
+/* From a restart: the field goes on from that step. */
 void wave_field_set(struct wave_field *f, long step, const double *modes, double energy)
 {
     if (!f->begun)

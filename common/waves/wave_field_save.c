@@ -28,6 +28,7 @@ void wave_field_save(const struct wave_field *f, struct h5 *file, bool writes)
     h5_attribute_real(file, "waves_mark", mark_of(f));
 }
 
+/* Where the file has none of these waves they are made again from their start. */
 void wave_field_load(struct wave_field *f, struct h5 *file)
 {
     int64_t step, n = 0;

@@ -61,6 +61,8 @@ static void set_amplitudes(const struct wave_spec *of, double period, struct wav
         c[i].a *= scale;
 }
 
+/* Those modes of the grid that carry energy and run forwards, by wave number; *n of them, owned by
+ * the caller. */
 struct wave_component *wave_field_components(const struct wave_spec *of, double period,
                                              const struct wave_grid *g, double highest, int *n)
 {

@@ -32,6 +32,7 @@ struct wave_grid *wave_grid_create(const int n[2], const double length[2])
     return g;
 }
 
+/* Rows one by one, then all columns at once. */
 static void transform(const struct wave_grid *g, int sign, int batch, double *z, double *work)
 {
     const size_t row = (size_t)g->n[0] * 2 * (size_t)batch;

@@ -3,6 +3,7 @@
 
 #include "../base/base.h"
 
+/* The same columns as the velocities have. now = NAN: the next waves_at fills it. */
 void waves_need_pressure(struct waves *w)
 {
     if (w->of.kind == WAVE_REGULAR)
@@ -70,6 +71,8 @@ void wave_pressure_frame(struct waves *w, double share)
     }
 }
 
+/* Bernoulli's equation between z and the surface: of regular waves in their own frame, of sums with
+ * the integral of dw/dt. */
 double waves_pressure(const struct waves *w, double x, double y, double z, const double u[3])
 {
     const double eta = waves_eta(w, x, y), hydrostatic = w->of.g * (eta - z);

@@ -8,6 +8,7 @@
 
 #include "../base/base.h"
 
+/* Trapezoidal, for steps may differ. */
 static double mean_of(int n, const double *t, const double *v)
 {
     double sum = 0.0;

@@ -6,6 +6,7 @@
 
 #include "../base/base.h"
 
+/* Several rows have a third component, across. */
 struct wave_table wave_table_create(void *owner, int n, int rows, double gap, double reach,
                                     bool slope)
 {
@@ -42,6 +43,7 @@ double wave_table_height(const struct wave_table *t, int column, int node)
     return top + sigma(t, node) * (top + t->reach);
 }
 
+/* All tables are of one shape. */
 void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
                       const double *weight)
 {
@@ -61,6 +63,7 @@ void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
     }
 }
 
+/* Lagrange on -1, 0, 1, 2 at s. */
 void wave_table_cubic(double s, double weight[4])
 {
     weight[0] = -s * (s - 1.0) * (s - 2.0) / 6.0;
@@ -89,6 +92,7 @@ static void along_row(const struct wave_table *t, double x, int column[4], doubl
     wave_table_cubic(s, weight);
 }
 
+/* Along a line four columns, on a plane sixteen; beyond its edge the last ones. */
 static void columns_about(const struct wave_table *t, double x, double y, struct about *a)
 {
     a->n = 4;

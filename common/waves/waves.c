@@ -264,6 +264,7 @@ static void make_regular(struct waves *w)
     w->ahead = carg(gain) / s->k;
 }
 
+/* now = NAN: no table is filled yet. */
 struct waves *waves_create(const struct wave_spec *of)
 {
     struct waves *w = NEW(struct waves, 1);
@@ -278,6 +279,7 @@ struct waves *waves_create(const struct wave_spec *of)
     return w;
 }
 
+/* Both have the same modes; each has its own filter and tables. */
 void waves_share(struct waves *w, const struct waves *owner)
 {
     if (!w->field || w->shares)
@@ -320,6 +322,7 @@ double waves_eta(const struct waves *w, double x, double y)
     return w->grown * wave_table_eta(&w->table, place(w, x), y);
 }
 
+/* The current runs at all times, waves grow. */
 void waves_velocity(const struct waves *w, double x, double y, double z, double u[3])
 {
     const double r = w->grown * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);

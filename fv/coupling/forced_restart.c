@@ -87,6 +87,7 @@ static bool gather_forced(const struct fv *s, struct h5 *f)
     return good;
 }
 
+/* On the same ranks the lists are the same, so rows are in order. */
 static bool load_forced(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
@@ -100,6 +101,7 @@ static bool load_forced(const struct fv *s, struct h5 *f)
     return good;
 }
 
+/* The clock goes with the levels: without it they would be of other times. */
 bool forced_load(const struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;

@@ -110,6 +110,7 @@ static void find_zone(const struct link *k, const struct source *g, const char *
     partner_check(k->c, cpl_find_zone(k->c, named(g, NULL, zone), lo, hi));
 }
 
+/* Two fields at the places of the imposed cells, and of a box that moves its way at one place. */
 static void declare_source(struct fv *s, struct link *k, struct source *g, int how)
 {
     partner_check(
@@ -125,6 +126,7 @@ static void declare_source(struct fv *s, struct link *k, struct source *g, int h
                                   CPL_NEAREST, &g->way));
 }
 
+/* Where the partner's water is, at places that a kernel fills, and how much it is, at one place. */
 static void declare_water(struct fv *s, struct link *k, int q)
 {
     struct source *g = k->of + q;
@@ -138,6 +140,7 @@ static void declare_water(struct fv *s, struct link *k, int q)
     find_zone(k, g, "counted", k->of_water.box[q][0], k->of_water.box[q][1]);
 }
 
+/* What is given: averages of the patch; then what is taken of each source. */
 static void declare(struct fv *s, struct link *k)
 {
     const struct patch *p = &k->patch;
@@ -195,6 +198,7 @@ static void meet_source(struct fv *s, const struct link *k, struct source *g)
         s->speed.partner = fmax(s->speed.partner, number[0]);
 }
 
+/* Before there are cells: what they have to leave to the partners. */
 void coupling_boxes(struct fv *s, double box[PARTNERS_MAX][2][3])
 {
     struct link *k = s->link = NEW_IN(s, struct link, 1);
@@ -243,6 +247,7 @@ static void make_patch(struct fv *s, struct link *k, const double (*given)[2][3]
     refuse(k, reason);
 }
 
+/* Ends the job where lines of the scene and sides of blocks are not the same walls. */
 static void compare_walls(struct fv *s, const struct link *k, const double (*given)[2][3])
 {
     double box[PARTNERS_MAX][2][3];
@@ -343,6 +348,8 @@ static void tell_of_friction(const struct fv *s)
                     w);
 }
 
+/* What cannot be coupled is refused here, by all programs at once; then what is given and taken is
+ * declared, on the cells as they are. */
 void fv_coupling_create(struct fv *s)
 {
     struct link *k = s->link;
@@ -441,6 +448,7 @@ static void find_reference_pressure(struct fv *s)
     s->partners.pressure = all[1] > 0.0 ? all[0] / all[1] : s->partners.pressure;
 }
 
+/* Velocity, pressure and phi in turn: the terms of each are made in the same memory. */
 static void put(struct fv *s)
 {
     struct link *k = s->link;
@@ -517,6 +525,7 @@ static void count_missing(struct fv *s)
     k->missing = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
 }
 
+/* A place that is none, the water of both, the cells without an answer. */
 void coupling_judge(struct fv *s, struct diagnosis *d)
 {
     struct link *k = s->link;
@@ -581,6 +590,8 @@ static bool stand(struct fv *s)
     return true;
 }
 
+/* Before the fields are read, for it decides which cells are imposed; nothing is newly born then.
+ */
 bool coupling_stand(struct fv *s, struct h5 *f)
 {
     double way[12 * PARTNERS_MAX];
@@ -600,6 +611,8 @@ bool coupling_stand(struct fv *s, struct h5 *f)
     return true;
 }
 
+/* Twelve numbers a source: where its forced cells stand, how far it has come, the box that it
+ * counts. */
 static void save_ways(const struct link *k, struct h5 *f)
 {
     double way[12 * PARTNERS_MAX];
@@ -695,6 +708,7 @@ void fv_coupling_window_begin(void *state, double t0, double t1)
         forcing_fill(s, k->mask);
 }
 
+/* With a surface the partner knows its pressure itself. */
 void fv_coupling_window_end(void *state, double t1)
 {
     struct fv *s = state;
@@ -708,6 +722,7 @@ void fv_coupling_window_end(void *state, double t1)
         water_budget_close(s, &s->link->of_water, t1 - s->forcing->t0);
 }
 
+/* What coupling_load wants, in its order. */
 void coupling_save(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;

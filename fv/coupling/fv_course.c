@@ -256,6 +256,7 @@ static double slope_of(const struct course *c, int64_t at, int n, const double *
     return term[1];
 }
 
+/* A surface moves with the water, so two terms serve it. */
 int course_surface(struct course *c)
 {
     const double *q[COURSE_LEVELS];

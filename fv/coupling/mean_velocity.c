@@ -15,6 +15,7 @@
  * the box breathes, average out over some. Between 0.03 and 1 the results differ by a tenth. */
 static const double share = 0.2;
 
+/* Nothing in the scene may take momentum from the flow. */
 bool mean_velocity_is_known(const struct fv *s)
 {
     const struct scene *c = &s->run->scene;
@@ -64,6 +65,7 @@ static void mean_through_planes(const struct fv *s, double mean[3])
         mean[a] = sum[1][a] > 0.0 ? sum[0][a] / sum[1][a] : NAN;
 }
 
+/* Imposed cells have the partner's. */
 void mean_velocity_relax(struct fv *s)
 {
     double mean[3];

@@ -72,6 +72,7 @@ static void copy_status(const struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX
     }
 }
 
+/* Twice in turn: all is as before. */
 static void swap_status(struct mesh *m, unsigned char *was[MESH_BLOCKS_MAX])
 {
     for (int k = 0; k < m->nblocks; k++) {

@@ -214,6 +214,7 @@ static bool is_wanted_by(const struct fv *s, const struct patch *p, const double
     return around && !deep;
 }
 
+/* By any of the partners. */
 static bool is_wanted(const struct fv *s, const struct patch *p, const double *place,
                       const struct partners *by)
 {
@@ -329,6 +330,7 @@ bool patch_create(const struct fv *s, int n, const double (*box)[2][3], const do
     return true;
 }
 
+/* The grid stays, its donors are those of blocks cut anew. */
 bool patch_renew(const struct fv *s, int n, const double (*box)[2][3], const double (*inner)[2][3],
                  struct patch *p, double *where)
 {
@@ -367,6 +369,7 @@ static void look_at_rows(const struct fv *s, const struct patch *p, double *f, d
         }
 }
 
+/* From cells of whatever kind to averages of the patch. */
 void patch_look(const struct fv *s, struct patch *p, double *f, double *to)
 {
     if (s->m)

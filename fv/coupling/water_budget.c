@@ -161,6 +161,7 @@ void water_budget_close(struct fv *s, struct water_budget *w, double T)
     s->forcing->inflow = area > 0.0 ? (w->missing / tau + w->lasting) / area : 0.0;
 }
 
+/* Of all water that has been there. */
 void water_budget_judge(const struct fv *s, struct water_budget *w, struct diagnosis *d)
 {
     const double whole = w->start + s->surface->entered;

@@ -77,6 +77,7 @@ static double phi_of(const struct fv *s, int n, const int64_t *cells, const doub
     return sum;
 }
 
+/* This rank's share: the caller adds them up. */
 double mesh_value_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
                      const double *q)
 {
@@ -86,6 +87,7 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
     return sum_of(s, n, cells, weights, q);
 }
 
+/* Two cells along each axis: cubics would swing where the surface bends. */
 double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x)
 {
     int64_t cells[MOST];
@@ -96,6 +98,7 @@ double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x)
 
 bool mesh_stays(const struct fv *s) { return !s->m->moves && !s->partners.past[0][0]; }
 
+/* All ranks look for all places, for a stencil's cells may be anybody's; each keeps its own. */
 const struct block_samples *block_samples_of(struct fv *s, int gauge, int n, double (*x)[3])
 {
     struct block_samples *of = s->output->samples + gauge;

@@ -83,6 +83,7 @@ static void keep_alike(const struct fv *s, struct columns *c, int up)
         c->weight[i] /= sum;
 }
 
+/* Each axis but that of gravity doubles the columns. */
 static struct columns columns_over(const struct fv *s, const double *x, int up)
 {
     struct columns c = {.n = 1, .weight = {1.0}};

@@ -9,6 +9,7 @@
 
 enum { MOST = 4, LEAST_CELLS = 3 };
 
+/* Beyond closed sides counts as solid, ghosts of other ranks do not. */
 bool even_is_solid(const struct fv *s, const int *at)
 {
     const struct block *b = &s->b;
@@ -43,6 +44,7 @@ static bool host_number(const struct fv *s, const int *i, const double *w, int m
     return true;
 }
 
+/* A cell that holds fluid goes before one that is merely no solid; else the first. */
 void even_host(const struct fv *s, const int *i, const double *w, int host[3])
 {
     for (int dry = 0; dry < 2; dry++)

@@ -8,6 +8,7 @@
 #include "../grid/fv_grid.h"
 #include "output.h"
 
+/* Sides where blocks meet are drawn as cells. */
 static enum picture_kind kind_of(enum mesh_side side)
 {
     if (side_is_wall(side))

@@ -131,6 +131,7 @@ static void summarise_oscillation(const struct fv *s)
             summary_real(to, names[q], fabs(found[q] / s->prm.force[q] - 1.0));
 }
 
+/* of "": of all together, "force.x". */
 static void summarise_force(const struct fv *s, const char *of, const double force[4])
 {
     static const char *const names[] = {"x", "y", "z", "moment"};
@@ -142,6 +143,7 @@ static void summarise_force(const struct fv *s, const char *of, const double for
     }
 }
 
+/* Those at the end of the run. */
 void fv_summarise_forces(struct fv *s)
 {
     double all[4], of[FLOW_BODIES_MAX][4];

@@ -11,6 +11,7 @@
 
 /* ---- the fields: their components in all cells of this rank ---- */
 
+/* What a cell has is the mean over indices: files have that over its volume. */
 static void velocity(struct fv *s, double *const q[3])
 {
     for (int a = 0; a < s->dim; a++) {

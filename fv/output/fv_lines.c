@@ -158,6 +158,7 @@ static void search_line(const struct fv *s, const struct overset *o, int q, doub
     mem_free(line);
 }
 
+/* As on_even_cells. */
 static void on_blocks(const struct fv *s, double found[3])
 {
     struct overset *o = overset_search(s->run, s->m);
@@ -170,6 +171,7 @@ static void on_blocks(const struct fv *s, double found[3])
     FREE(o);
 }
 
+/* Two axes, in 3D in the plane in the middle. */
 void fv_summarise_extrema(const struct fv *s)
 {
     double found[3];

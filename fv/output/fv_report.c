@@ -11,6 +11,7 @@
 #include "mesh_output.h"
 #include "output.h"
 
+/* For the description of the run. */
 const char *report_method(const struct fv_params *prm)
 {
     static const char *const integrators[] = {"rk3, three projections a step",
@@ -86,6 +87,7 @@ int fv_columns(const struct run *r, const struct fv_params *prm, const char **co
     return n + fv_probe_columns(r, columns + n);
 }
 
+/* In the order of fv_columns; values of gauges lie before those of the watches. */
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;

@@ -15,6 +15,7 @@
 #include "../watch/fv_watch.h"
 #include "output.h"
 
+/* Names are unique in a file; who they belong to is said in messages alone. */
 static void save_numbers(struct fv *s, struct h5 *f)
 {
     struct kept_number all[FV_RESTART_NUMBERS];
@@ -75,6 +76,7 @@ static void save_samples(const struct fv *s, struct h5 *f)
         h5_write_real(f, "forces", "s, N, N", first ? o->nhistory : 0, 3, o->history[0], false);
 }
 
+/* Files of before have none: then the summary is that of the rest of the run. */
 static void load_samples(struct fv *s, struct h5 *f)
 {
     struct fv_output *o = s->output;

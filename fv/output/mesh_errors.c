@@ -44,6 +44,7 @@ int mesh_place_columns(const struct run *r, const struct fv_params *prm, const c
     return n;
 }
 
+/* In the order of mesh_place_columns: blocks that others carry along have none of their own. */
 int mesh_places(const struct fv *s, double *values)
 {
     const int dim = s->dim;

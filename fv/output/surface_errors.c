@@ -141,6 +141,7 @@ double surface_reach(const struct fv *s, int a)
     return fmin(s->m ? reach_on_blocks(s, a) : reach_on_cells(s, a), s->run->scene.domain.max[a]);
 }
 
+/* Of the water, m^dim/s^2. Collective. */
 static double enstrophy(const struct fv *s)
 {
     double sum = 0.0;
@@ -170,6 +171,7 @@ static void summarise_oscillation(struct fv *s)
     }
 }
 
+/* Volumes that were moved are told as shares of surface_volume_scale. */
 void surface_summarise(struct fv *s)
 {
     const struct surface *f = s->surface;

@@ -185,11 +185,11 @@ static bool lift(struct sph *s, const struct pair *p, const struct touch *t)
 {
     struct walls *w = s->walls;
     const int of = t->mine ? p->a : p->b, against = t->mine ? p->b : p->a;
-    const double down = -vec3_dot(s->gravity, t->out);
+    const double *gravity = s->run->scene.fluid.gravity, down = -vec3_dot(gravity, t->out);
     const bool other =
         of < 0 || !w->bodies[of].free || (against >= 0 && w->bodies[against].free && down < 0.0);
     struct body *b = w->bodies + (other ? against : of);
-    const double g = vec3_length(s->gravity), want = fabs(down) > 0.1 * g ? stand_off : side_off,
+    const double g = vec3_length(gravity), want = fabs(down) > 0.1 * g ? stand_off : side_off,
                  gap = w->bodies[p->a].contact.gap * s->dx, way = want * s->dx - (gap - t->depth);
     if (way <= 1e-6 * s->dx || b->free->hinged || b->free->slides)
         return false;
@@ -240,7 +240,7 @@ void body_contacts_start(struct sph *s)
 /* m: how deep the spring of a touch is pressed by what rests there with its weight. */
 static double sag(const struct sph *s, const struct touch *t)
 {
-    const double down = (t->mine ? -1.0 : 1.0) * vec3_dot(s->gravity, t->out),
+    const double down = (t->mine ? -1.0 : 1.0) * vec3_dot(s->run->scene.fluid.gravity, t->out),
                  rate = rate_of(s->walls);
     return fmax(down, 0.0) / (rate * rate);
 }

@@ -124,6 +124,34 @@ bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, 
     return held;
 }
 
+double touch_settle(double d, const double way[3], double e, const double beside[3], double out[3])
+{
+    if (!isfinite(e) || vec3_dot(out, beside) > 0.9) /* the same face */
+        return d;
+    memcpy(out, beside, 3 * sizeof *out);
+    return e - vec3_dot(way, out);
+}
+
+/* nearest, of corner x of segment k of a line. Corners of lines at rest have the normals of both
+ * segments in turn. */
+static double nearest_of_corner(const struct walls *w, int of, int k, int against, const double *x,
+                                double gap, double *out)
+{
+    const double d = nearest(w, against, x, 4.0 * gap, out);
+    double way[3] = {0.0, 0.0, 0.0}, y[2], beside[3];
+    int first, end;
+    if (!(fabs(d) < TOUCH_FLUSH * gap))
+        return d;
+    range(w, of, &first, &end);
+    const double *before = w->segments[k == first ? end - 1 : k - 1].n, *n = w->segments[k].n;
+    for (int a = 0; a < 2; a++) {
+        way[a] = TOUCH_FLUSH * gap * (n[a] + (of < 0 ? 0.0 : before[a]));
+        y[a] = x[a] + way[a];
+    }
+    const double e = nearest(w, against, y, 4.0 * gap, beside);
+    return touch_settle(d, way, e, beside, out);
+}
+
 /* Corners of one line that are nearer to the other than gap. */
 static void find_corners(const struct walls *w, struct pair *p, const struct touch_box *near,
                          double gap, bool mine)
@@ -138,7 +166,8 @@ static void find_corners(const struct walls *w, struct pair *p, const struct tou
             continue;
         for (int e = 0; e < (of < 0 ? 2 : 1); e++) { /* lines at rest may be open */
             const double *x = e ? g->b : g->a;
-            const double d = holds(near, x) ? nearest(w, against, x, 4.0 * gap, out) : INFINITY;
+            const double d =
+                holds(near, x) ? nearest_of_corner(w, of, k, against, x, gap, out) : INFINITY;
             if (d < gap && !pair_is_held(w, p, x, gap))
                 pair_add(w, p, x, out, gap - d, mine);
         }

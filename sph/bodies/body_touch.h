@@ -27,6 +27,15 @@ void pair_add(const struct walls *w, struct pair *p, const double *x, const doub
  * normal out of it; INFINITY: nothing is within reach. */
 double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
                       double out[3]);
+/* Faces of bodies that stand on or beside each other may be flush, as in a pile: a corner that is
+ * pressed in by next to nothing may then be nearer to a side than to the face that it stands on. So
+ * one that is no farther than TOUCH_FLUSH gaps from what it touches is looked at from a place so
+ * far inside its own solid. */
+#define TOUCH_FLUSH 0.1
+/* The distance of a corner, m, from the face that counts, whose normal goes to out. d: from what is
+ * nearest to it, with the normal out; way: to the place inside, m; e, beside: the same of that
+ * place. */
+double touch_settle(double d, const double way[3], double e, const double beside[3], double out[3]);
 /* Whether x is within `gap', m, of the axis that one of the two is hinged about. */
 bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, double gap);
 /* Adds all corners nearer than `gap', m: of polylines; pair_find3 (body_touch3.c) of meshes. */

@@ -13,20 +13,39 @@ static bool is_near(const struct walls *w, int body, const double *x, double mor
     return vec3_length(d) < b->reach + more;
 }
 
-/* A vertex at x against one mesh. */
-static void try_vertex(const struct walls *w, struct pair *p, const struct wall_mesh *m,
-                       const double *x, double gap, bool mine)
+/* Distance of x from a mesh within 4 gaps, with the normal out of it; INFINITY: it has none. */
+static double nearest(const struct wall_mesh *m, const double *x, double gap, double *out)
 {
-    double own[3], foot[3], out[3];
+    double own[3], foot[3];
     wall_mesh_to_own(m, x, own);
     const struct tree_foot f = tree_nearest(m->tree, own, 4.0 * gap);
-    if (f.triangle < 0 || f.rim || !(f.distance < gap) || pair_is_held(w, p, x, gap))
-        return;
+    if (f.triangle < 0 || f.rim)
+        return INFINITY;
     wall_mesh_to_world(m, f.foot, foot);
     wall_mesh_turn_to_world(m, f.n, out); /* into what is touched */
     for (int a = 0; a < 3; a++)
         out[a] = fabs(f.distance) > 1e-9 * gap ? (x[a] - foot[a]) / f.distance : -out[a];
-    pair_add(w, p, x, out, gap - f.distance, mine);
+    return f.distance;
+}
+
+/* The same of vertex k of a mesh, x in the world. */
+static double nearest_of_vertex(const struct wall_mesh *of, int k, const struct wall_mesh *m,
+                                const double *x, double gap, double *out)
+{
+    const double d = nearest(m, x, gap, out);
+    double way[3], y[3], beside[3];
+    if (!(fabs(d) < TOUCH_FLUSH * gap))
+        return d;
+    const struct tree_foot own = tree_nearest(of->tree, of->mesh.x[k], gap);
+    if (own.rim)
+        return d;
+    wall_mesh_turn_to_world(of, own.n, way);
+    for (int a = 0; a < 3; a++) {
+        way[a] *= TOUCH_FLUSH * gap;
+        y[a] = x[a] + way[a];
+    }
+    const double e = nearest(m, y, gap, beside);
+    return touch_settle(d, way, e, beside, out);
 }
 
 double touch_distance3(const struct walls *w, int body, const double *x, double reach,
@@ -61,9 +80,14 @@ static void find_vertices(const struct walls *w, struct pair *p, double gap, boo
             wall_mesh_to_world(m, m->mesh.x[k], x);
             if (!is_near(w, p->a, x, gap) || (p->b >= 0 && !is_near(w, p->b, x, gap)))
                 continue;
-            for (int j = 0; j < w->nmeshes; j++)
-                if (w->meshes[j].body == against && !w->meshes[j].image)
-                    try_vertex(w, p, w->meshes + j, x, gap, mine);
+            for (int j = 0; j < w->nmeshes; j++) {
+                double out[3];
+                if (w->meshes[j].body != against || w->meshes[j].image)
+                    continue;
+                const double d = nearest_of_vertex(m, k, w->meshes + j, x, gap, out);
+                if (d < gap && !pair_is_held(w, p, x, gap))
+                    pair_add(w, p, x, out, gap - d, mine);
+            }
         }
     }
 }

@@ -247,6 +247,20 @@ run_case('rises', changed(TANK, time='end = 2.6;', domain='min = (0.1, 0); max =
 draught = 0.3 - mean('rises', 'block y ', 1.7)
 check(abs(draught - 0.01875) < 0.02, 'the middle of a light block lies %g m under the first level instead of 0.01875' % draught)
 
+# Blocks of one size on each other, whose faces are flush, stand as they are drawn (by their corners they fell into each other)
+PILE = '{ name = "b%d"; free = true; density = 3000; %s }'
+run_case('pile', changed(TANK, time='end = 0.25;', shapes='{ form = "box"; box = ((0, 0), (0.1, 0.1)); }',
+                         bodies=', '.join(PILE % (k, points(0.4 + k // 3 * 0.2, k % 3 * 0.2, 0.6 + k // 3 * 0.2, k % 3 * 0.2 + 0.2)) for k in range(6)),
+                         sph='dx = 0.05;', domain='max = (1, 0.8);'))
+run_case('cubes', changed(TANK, time='end = 0.2;', domain='dim = 3; max = (0.8, 0.5, 0.8);', fluid='gravity = (0, 0, -9.81);',
+                          shapes='{ form = "box"; box = ((0, 0, 0), (0.3, 0.5, 0.1)); }', walls=sides('x_min x_max y_min y_max z_min'),
+                          bodies=', '.join(PILE % (k, 'box = ((0.4, 0.15, %g), (0.6, 0.35, %g));' % (0.2 * k, 0.2 * k + 0.2)) for k in range(2)),
+                          sph='dx = 0.1;'))
+for name, up, n in ('pile', 'y', 6), ('cubes', 'z', 2):
+    for k in range(n):
+        found = last(name + '/series.csv', 'b%d %s ' % (k, up))
+        check(abs(found - 0.1 - k % 3 * 0.2) < 0.01, '%s: block %d stands at %g m' % (name, k, found))
+
 # A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
 # round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
 FREE = 'free = true; density = 1000; contact = { restitution = %g; friction = 0.2; gap = %g; };'
