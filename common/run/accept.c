@@ -20,6 +20,7 @@ static double value_at(struct accept_series s, double t)
     return (1.0 - w) * s.v[lo] + w * s.v[hi];
 }
 
+/* Of the samples in a span of time, ends included. */
 static double largest(struct accept_series s, double from, double to)
 {
     double most = -INFINITY;
@@ -311,6 +312,7 @@ static void check_rows(const struct scene *s, int k, const struct table *t, cons
     FREE(room);
 }
 
+/* Before the run: a reference that cannot be read must not be found out after hours. */
 void accept_check(const struct scene *s, const char *case_dir, const struct params *p,
                   struct faults *f)
 {

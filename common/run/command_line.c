@@ -23,6 +23,7 @@ static const struct option options[] = {{"help", optional_argument, NULL, 'h'},
                                         {"as", required_argument, NULL, 'a'},
                                         {NULL, 0, NULL, 0}};
 
+/* All options, as the README has them. */
 static void usage(const char *name, const char *help)
 {
     printf("%s - %s\n"

@@ -7,6 +7,7 @@
 
 #include "../scene/scene.h"
 
+/* Either key; with sph.free the zones around it are not in it. */
 bool crossing_box(const struct run *r, const char *group, double box[2][3])
 {
     static const char *const keys[] = {"box", "free"};
@@ -47,6 +48,7 @@ static bool ends_inside(const struct scene *c, int up, double box[2][3])
     return ends;
 }
 
+/* Without weight there is no upright side, and no level beside it. */
 bool crossing_find(const struct run *r)
 {
     double box[PARAM_PROGRAMS_MAX][2][3];

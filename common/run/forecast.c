@@ -36,6 +36,7 @@ void forecast_warn_outputs(double every, double checkpoint, double end, double s
     warn_every("output.checkpoint", checkpoint, end, steps);
 }
 
+/* The last row of this program and dimension counts: `make bench' appends. */
 void forecast_say(const char *program, int dim, double units, double steps)
 {
     char name[64];

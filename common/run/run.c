@@ -48,6 +48,7 @@ bool run_diagnose(struct diagnosis *d, MPI_Comm comm)
 
 /* --- start --- */
 
+/* The scene's groups, then the program's own. */
 static void collect_groups(struct life *l)
 {
     scene_groups(&l->r.scene, l->groups);
@@ -254,6 +255,7 @@ static void start_series(struct life *l)
 
 /* --- while it runs --- */
 
+/* Time and step first; the program's numbers follow. */
 static void write_row(struct life *l)
 {
     double v[COLUMNS_MAX] = {l->r.t, l->r.dt};
@@ -308,6 +310,7 @@ static bool step(struct life *l, double t_stop)
     return true;
 }
 
+/* A signal may have come to one rank alone. Collective. */
 static bool stop_asked(const struct run *r)
 {
     int stop = signals_stop();
@@ -506,6 +509,7 @@ static void say_number(void *ctx, const char *key, double v)
         log_say("error      %-22s %10.4g", key + 6, v);
 }
 
+/* On the screen; the same figures are in summary.json. */
 static void say_end(const struct life *l)
 {
     const struct run *r = &l->r;
@@ -523,6 +527,7 @@ static void say_end(const struct life *l)
         log_say("look       paraview --script=%s%s/view.py%s", quote, r->dir, quote);
 }
 
+/* From the file, so that rows of before a restart count, too. */
 static void judge_gauges(const struct life *l)
 {
     char path[1400];
@@ -561,6 +566,7 @@ static int end(struct life *l, int code)
     return code;
 }
 
+/* The state first: it borrows from the scene. */
 static void free_life(struct life *l)
 {
     if (l->s)

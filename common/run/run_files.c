@@ -22,6 +22,7 @@ void files_path(const struct run *r, const char *what, char *path, size_t size)
         snprintf(path, size, "%s/%s", r->dir, what);
 }
 
+/* What any file of a run says of itself. */
 static void write_clock(const struct run_files *f, struct h5 *h)
 {
     const struct run *r = f->run;
@@ -72,6 +73,7 @@ static void write_manifest(const struct run *r, int64_t n, const char *file)
     disk_finish(f, path);
 }
 
+/* The manifest is written when the file is on the disk: it names the last sound one. */
 void files_checkpoint(struct run_files *f, int64_t n, char *file)
 {
     struct run *r = f->run;
@@ -408,6 +410,7 @@ static int prepare(const char *dir, const char *name, bool force, bool restart)
     return 0;
 }
 
+/* By rank 0; all get its verdict. */
 int run_folder(MPI_Comm comm, const char *dir, const char *name, bool force, bool restart)
 {
     int rank, code = 0;

@@ -87,6 +87,7 @@ static void leave(void)
     _exit(RUN_PARTNER);
 }
 
+/* There is no state yet that could be saved. */
 static void stopped_early(int signal)
 {
     (void)signal;

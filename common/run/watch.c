@@ -7,6 +7,7 @@
 #include "../files/files.h"
 #include "program.h"
 
+/* Comparisons are such that a NaN is beyond all bounds. Warned of once. */
 bool watch_judge(struct watch *w, double value, double t, int64_t step, struct diagnosis *d)
 {
     w->now = value;
@@ -70,6 +71,8 @@ double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_les
     return energy_less_work - least;
 }
 
+/* What has been gained for `steps' steps at least: the least of the late slots over the least of
+ * all. */
 double watch_budget_lasting(const struct watch_budget *b, int steps)
 {
     double least = INFINITY, late = INFINITY;

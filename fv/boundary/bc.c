@@ -216,6 +216,7 @@ struct bc *bc_create(struct fv *s)
     return bc;
 }
 
+/* MESH_NONE: another cell is there, of this rank or a ghost. */
 enum mesh_side bc_behind(const struct fv *s, const int *at, int a)
 {
     const struct block *b = &s->b;
@@ -335,6 +336,7 @@ void bc_slab_ghosts(const struct fv *s, int q, int j, double *u)
     }
 }
 
+/* For the last axis alone: the others have their own rows. */
 void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u)
 {
     const int k = 2 * (s->b.dim - 1) + upper;
@@ -359,6 +361,7 @@ void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
     }
 }
 
+/* Sides without an entry: periodic, or the exact velocity. */
 enum mesh_side bc_kind(const struct fv *s, int k)
 {
     const enum mesh_side kind = s->bc ? s->bc->kind[k] : MESH_NONE;

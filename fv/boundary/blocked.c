@@ -134,6 +134,7 @@ void blocked_cells(const struct scene_domain *d, const struct fv_params *p, int 
     }
 }
 
+/* Faces of boxes, then what lies beside them along each other axis. */
 struct blocked *blocked_create(const struct fv *s)
 {
     const struct block *b = &s->b;

@@ -62,6 +62,7 @@ struct outflow *carried_add(void *owner, struct outflow **list, int *count, int 
     return o;
 }
 
+/* m^dim/s, by the side's area towards larger indices. */
 double carried_flux(const struct outflow *o, int dim, int64_t i)
 {
     double sum = 0.0;
@@ -76,6 +77,7 @@ double carried_area(const struct outflow *o, int64_t i)
     return vec3_length(S);
 }
 
+/* Where water stood outside it stands still: ghosts are no drier than that level. */
 void carried_level_ghosts(const struct fv *s, double *phi)
 {
     OUTFLOWS (s, o)
@@ -86,6 +88,7 @@ void carried_level_ghosts(const struct fv *s, double *phi)
             }
 }
 
+/* What comes in brings the share that stood there. */
 void carried_share_ghosts(const struct fv *s, double *C)
 {
     OUTFLOWS (s, o)

@@ -403,6 +403,7 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     FREE(has, next);
 }
 
+/* By the exact field, or between the partner's times. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
 {
     const struct forcing *f = s->forcing;
@@ -417,6 +418,7 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
             u[a][f->partner[i]] = partner_value(f, a, i, t);
 }
 
+/* So that u + delta is what is imposed. */
 void forcing_subtract(const struct forcing *f, double *const u[3], double *const delta[3])
 {
     for (int a = 0; a < f->dim; a++) {

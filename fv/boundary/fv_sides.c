@@ -17,6 +17,7 @@ unsigned sides_kinds(const struct fv *s)
     return kinds;
 }
 
+/* Some side through which the flow may come or go. */
 bool sides_open(const struct fv *s)
 {
     const unsigned kinds = sides_kinds(s);
@@ -36,6 +37,7 @@ bool sides_give_pressure(const struct fv *s)
     return s->sides ? mesh_bc_pressure_given(s) : s->bc && s->bc->pressure_given;
 }
 
+/* Some wall that moves along itself. */
 bool sides_slide(const struct fv *s)
 {
     bool any = s->sides && mesh_bc_slides(s);

@@ -215,6 +215,7 @@ void given_gradient(const struct fv *s, enum continuation how, const double *q, 
     }
 }
 
+/* Borrowed; false: there are no more. */
 bool given_stencil(const struct forcing *f, int64_t i, int64_t *cell, int64_t *n,
                    const int64_t **place)
 {

@@ -222,6 +222,8 @@ static double conductance(const struct fv *s, const struct outflow *o, int64_t i
     return 2.0 * (s->m ? s->m->G[o->a][o->a][o->cell[i] + o->face] : 1.0 / o->h[i]);
 }
 
+/* Given levels first, then the means that follow the flow, then pressures, which are made of both.
+ */
 void levels_set(struct fv *s, double t)
 {
     if (!levels_set_any(s))
@@ -273,6 +275,7 @@ void levels_gradient(const struct fv *s, int a, double *out)
         }
 }
 
+/* Over half a cell, for the pressure is on the face. */
 void levels_face_gradient(const struct fv *s, int a, double *out)
 {
     if (!levels_set_any(s))

@@ -25,6 +25,7 @@ static void ring_at(const struct fv *s, const double *x, double *u, double *p, d
         *w = 2.0 * A;
 }
 
+/* At a point; the ring's field does not change in time. */
 void mesh_exact_at(const struct fv *s, const double *x, double t, double *u, double *p, double *w)
 {
     if (s->prm.ring)
@@ -52,6 +53,7 @@ static void average(const struct fv *s, const struct part *p, const int *i, doub
     }
 }
 
+/* The mean that a cell has: on blocks over its indices. */
 void cell_exact(const struct fv *s, const struct part *p, const int *at, double t, double *u,
                 double *pressure, double *w)
 {

@@ -72,6 +72,7 @@ void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
     }
 }
 
+/* A wall's acceleration stands in the pressure's slope there. */
 void mesh_bc_slope_fluxes(const struct fv *s, double tau, int a, double *F)
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -169,6 +170,7 @@ static void extended(double *q, int64_t in)
         q[-l * in] = 3.0 * (q[(1 - l) * in] - q[(2 - l) * in]) + q[(3 - l) * in];
 }
 
+/* One ghost, by the polynomial of the cells inside. */
 void mesh_bc_extend(const struct fv *s, double *q)
 {
     for (int k = 0; k < s->sides->n; k++) {

@@ -66,6 +66,7 @@ double mesh_bc_rate(const struct fv *s, double *speed)
     return rate;
 }
 
+/* Faces that two blocks have count once in all: share first. */
 void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                    void *with)
 {

@@ -64,6 +64,7 @@ static void bend_at(const struct mesh *m, const struct side *d, int k, int64_t c
     memcpy(bend, vec3_length(low) < vec3_length(high) ? low : high, sizeof low);
 }
 
+/* What is below 1e-6 is rounding. */
 static bool bends(const struct fv *s, const struct side *d)
 {
     double bend[3], most = 0.0;
@@ -100,6 +101,7 @@ static struct outflow *list_places(struct fv *s, const struct side *d, struct ou
     return o;
 }
 
+/* Velocities are the side's own, shared with it. */
 static void add_outflow(struct fv *s, const struct side *d)
 {
     struct outflow *o = list_places(s, d, &s->outflows->of, &s->outflows->n);

@@ -107,6 +107,7 @@ static void set_inflow(const struct fv *s, struct outflow *o, int64_t i)
     }
 }
 
+/* Some discharge that is given and is not 0 now. */
 bool outflow_pushes(const struct fv *s)
 {
     bool any = false;
@@ -117,6 +118,8 @@ bool outflow_pushes(const struct fv *s)
     return any;
 }
 
+/* The velocity on the face by the three cells inside, to third order; then the balance of volumes,
+ * and what a restart has. */
 void outflow_start(struct fv *s)
 {
     if (!s->outflows)
@@ -140,6 +143,7 @@ void outflow_start(struct fv *s)
     keep(s);
 }
 
+/* From the first ghosts, where they were kept. */
 void outflow_restore(struct fv *s)
 {
     if (!s->outflows)

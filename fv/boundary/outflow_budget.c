@@ -62,6 +62,7 @@ static void tell_shortage(struct fv *s, int side, double t)
              t, scene_side_names[side], all->area[side], size, discharge_of(s, side, t), flow);
 }
 
+/* By side of the domain: what is given, and what earlier steps lack of it. */
 void outflow_set_discharges(struct fv *s, double t)
 {
     struct outflows *all = s->outflows;
@@ -78,6 +79,7 @@ void outflow_set_discharges(struct fv *s, double t)
             all->of[k].discharge = out[all->of[k].side];
 }
 
+/* Of a sweep: volume is what crossed a face along the block's axis. */
 void outflow_count_volumes(struct fv *s, const int *axis, const double *volume)
 {
     OUTFLOWS (s, o)
@@ -87,6 +89,7 @@ void outflow_count_volumes(struct fv *s, const int *axis, const double *volume)
                     (o->in < 0 ? 1.0 : -1.0) * volume[o->cell[i] + o->face];
 }
 
+/* Without sweeps: the flux times the share of it that is water. */
 void outflow_count_flows(struct fv *s, double dt,
                          double (*share)(const struct fv *s, int64_t c, int64_t in))
 {
@@ -100,6 +103,7 @@ void outflow_count_flows(struct fv *s, double dt,
         }
 }
 
+/* What lacks is bounded, so that a side which was dry for long does not gush. */
 void outflow_settle(struct fv *s, double dt)
 {
     struct outflows *all = s->outflows;
@@ -123,6 +127,7 @@ void outflow_settle(struct fv *s, double dt)
     memset(all->passed, 0, sizeof all->passed);
 }
 
+/* With the state, for a step that is done again. */
 void outflow_keep_budget(struct fv *s)
 {
     if (!s->outflows)

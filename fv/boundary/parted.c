@@ -128,6 +128,7 @@ struct parted *parted_create(const struct fv *s, const unsigned char *forced)
     return p;
 }
 
+/* Then one pressure is free in all. */
 bool parted_all_float(const struct parted *p)
 {
     bool all = true;
@@ -136,6 +137,7 @@ bool parted_all_float(const struct parted *p)
     return all;
 }
 
+/* Of each part that floats its own. */
 void parted_remove_means(const struct parted *p, const struct fv *s, double *x)
 {
     double mean[PARTS_MAX] = {0.0};
@@ -151,6 +153,7 @@ void parted_remove_means(const struct parted *p, const struct fv *s, double *x)
             x[i] -= forced[i] ? 0.0 : mean[p->of[i]];
 }
 
+/* Outwards, m^dim/s, of the computed cells of each part. Collective. */
 void parted_net_fluxes(const struct parted *p, const struct fv *s, double *const U[3],
                        double net[PARTS_MAX])
 {

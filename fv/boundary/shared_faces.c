@@ -75,6 +75,7 @@ static bool walls_follow(const struct mesh *m, const struct side *d)
     return any;
 }
 
+/* Once, or once a time where blocks move. */
 void mesh_bc_share_faces(const struct fv *s)
 {
     const struct mesh *m = s->m;

@@ -82,6 +82,7 @@ static void add_side(struct block_walls *w, const struct mesh *m, int block, int
     w->nsides++;
 }
 
+/* All sides behind which nothing is computed, openings included. */
 struct block_walls *block_walls_create(const struct mesh *m)
 {
     struct block_walls *w = NEW(struct block_walls, 1);

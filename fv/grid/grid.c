@@ -40,6 +40,7 @@ void grid_place(const struct grid *g, int64_t c, double x[3])
     grid_centre(g, p, at, x);
 }
 
+/* xi: 0 to 1 across the cell. */
 void grid_point(const struct grid *g, const struct part *p, const int *at, const double *xi,
                 double x[3])
 {
@@ -95,6 +96,7 @@ void grid_lengths(const struct grid *g, const struct part *p, const int *at, dou
         length[a] = vec3_length(dx[a]);
 }
 
+/* Of blocks a cube of the cell's volume. */
 void grid_box(const struct grid *g, const struct part *p, const int *at, double h[3])
 {
     double x[3];
@@ -170,6 +172,7 @@ const bool *grid_periodic(const struct grid *g)
     return g->even ? g->even->periodic : never;
 }
 
+/* On a uniform grid of all ranks together. */
 int grid_longest(const struct grid *g)
 {
     int most = 0;
@@ -199,6 +202,7 @@ double grid_motion_step(const struct grid *g, double t)
     return step;
 }
 
+/* The next time at which some motion begins, ends or turns; INFINITY: none. */
 double grid_motion_event(const struct grid *g, double t)
 {
     double next = INFINITY;

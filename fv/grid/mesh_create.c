@@ -144,6 +144,7 @@ void mesh_rows(const struct mesh *m, int rank, int64_t *first, int64_t *n)
     }
 }
 
+/* By rank, then block, then cell: rows of a rank lie together. */
 int64_t mesh_row(const struct mesh *m, int block, const int *cell)
 {
     const struct mesh_block *b = m->block + block;

@@ -36,6 +36,7 @@ bool mesh_given_holds(const struct mesh *m, const struct mesh_block *b, int64_t 
     return inside;
 }
 
+/* Whole cells alone. */
 void mesh_given_mark(struct mesh *m)
 {
     for (int k = 0; k < m->nblocks && m->has_given; k++) {

@@ -177,6 +177,7 @@ static void set_vertices(struct mesh *m, int k)
             }
 }
 
+/* All faults are told; vertices are shared only if there are none. */
 bool mesh_join_blocks(const struct run *r, struct faults *f, struct mesh *m)
 {
     static const char *const sides[] = {"i_min", "i_max", "j_min", "j_max", "k_min", "k_max"};

@@ -8,6 +8,7 @@
 
 #include "../../common/geometry/geometry.h"
 
+/* Back to the place in the block as it was made; mesh_motion_now: forth. */
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to)
 {
     struct mesh_motion *v = b->motion;

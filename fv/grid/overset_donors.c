@@ -310,6 +310,7 @@ static struct overset *beside(const struct overset *o)
     return fresh;
 }
 
+/* A search of its own, so that the one of the stages stays. */
 void overset_find_rows(struct mesh *m, const struct overset *o)
 {
     struct overset *fresh = beside(o);

@@ -207,6 +207,7 @@ bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, con
     return true;
 }
 
+/* Cubic where some block has the cells, else linear. */
 bool overset_sample(const struct mesh *m, const struct overset *o, const double *x, const double *h,
                     struct mesh_request *r, double *weight)
 {

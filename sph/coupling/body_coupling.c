@@ -33,6 +33,7 @@ static bool any_partnered(const struct run *r)
     return any;
 }
 
+/* Without a job nobody could move it. */
 bool body_coupling_possible(const struct run *r)
 {
     struct faults f = {0};
@@ -89,6 +90,7 @@ static void create_bend(struct sph *s, struct body_coupling *k, int b)
     FREE(x, id, one);
 }
 
+/* All bodies are at one place of one set: their numbers have none. */
 void body_coupling_create(struct sph *s)
 {
     static const double origin[3] = {0.0, 0.0, 0.0}, one = 1.0;
@@ -168,6 +170,7 @@ static void hear(const struct sph *s, int b, double t, double *at)
     FREE(v, there);
 }
 
+/* At the very start where it begins, too; then its end is what the partner says. */
 static void take_motion(struct sph *s, int b, double t0, double t1)
 {
     struct body_course *c = s->walls->bodies[b].course;
@@ -211,6 +214,7 @@ static void put_loads(struct body_coupling *k, int b, const struct body_bend *be
     partner_check(k->c, cpl_put(k->c, k->load[b], t1, rank ? 0 : bend->n, *mean, NULL));
 }
 
+/* The force is the mean over the coupling step, by the impulse that was summed in it. */
 void body_coupling_end(struct sph *s, double t1)
 {
     struct body_coupling *k = s->body_coupling;

@@ -154,6 +154,7 @@ void overlap_judge(struct sph *s, struct diagnosis *d)
 
 enum { KEPT = 2, MEANS = 3 }; /* numbers of each watch; of the means that are judged */
 
+/* Both ways: written, or read. */
 void overlap_restart(struct overlap *o, struct h5 *f)
 {
     struct watch *of[3] = {&o->velocity, &o->pressure, &o->dry};

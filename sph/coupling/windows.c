@@ -313,6 +313,8 @@ void windows_describe(const struct run *r, const struct sph_params *prm)
     advise(r, prm, &w);
 }
 
+/* T: s, the coupling step that all programs have agreed on. A shorter one than ours has a
+ * larger gain. */
 void windows_compare(const struct run *r, const struct sph_params *prm, double T)
 {
     const struct windows w = windows_choose(r, prm);

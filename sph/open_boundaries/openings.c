@@ -137,6 +137,7 @@ double openings_age(const struct sph *s, int64_t id)
     return s->t - o->tick * (double)((id - o->first_id) / openings_faces(o));
 }
 
+/* kg: in the faces, waiting to be born, less what was born ahead. */
 double openings_held(const struct sph *s)
 {
     const struct openings *o = s->zones->openings;

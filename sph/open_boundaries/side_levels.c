@@ -287,6 +287,7 @@ void side_levels_update(const struct sph *s, struct side_levels *l)
     l->started = true;
 }
 
+/* Level outside a side, as far as its zone goes. */
 void side_levels_surface(const struct sph *s, const struct side_levels *l, int n, const double *x,
                          double *phi, double *gphi)
 {

@@ -84,6 +84,8 @@ struct side_surround {
     double W, x[2], xx[3], f[FIELDS], xf[FIELDS][2];
 };
 
+/* The 3 x 3 bins around one, nearer ones with more weight: sums for a straight line through their
+ * means. */
 static void look_around(const struct sides *d, const struct opening_side *of, const int *I,
                         struct side_surround *to)
 {
@@ -174,6 +176,8 @@ static void find_planes(struct sides *d)
 /* Sums over a line of least squares of p against the depth. */
 enum { LINE_W, LINE_D, LINE_P, LINE_DD, LINE_DP, LINE };
 
+/* Particles within a support of the zone's rim, in the free water: what is read there does not
+ * follow from what the zone sets. */
 static void add_to_lines(const struct sph *s, const struct sides *d, double lines[6][LINE])
 {
     const double rim = s->zones->buffer + s->zones->transition;
@@ -267,6 +271,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Cuts nearer than `apart' are one. */
 static void add_cut(struct opening_side *of, double x, double apart)
 {
     bool known = false;
@@ -517,6 +522,7 @@ double sides_level(const struct sph *s, int side)
     return d->levels && d->of[side].is ? side_levels_level(d->levels, side) : NAN;
 }
 
+/* What is smoothed in time; the rest follows from the particles. */
 bool sides_restart(struct sph *s, struct h5 *f)
 {
     struct sides *d = s->zones->ctx;

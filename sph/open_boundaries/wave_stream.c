@@ -39,6 +39,7 @@ static void to_axes(const struct wave_stream *w, const double v[3], double u[3])
     u[w->up] += w->sign * v[1];
 }
 
+/* calm: behind a beach the water is at rest, but for its weight. */
 static void stream_at(const struct wave_stream *w, const double *x, bool calm, double u[3],
                       double *p)
 {
@@ -73,6 +74,7 @@ static void slopes_at(const struct wave_stream *w, const double *x, bool calm, d
     }
 }
 
+/* Slopes only if they are asked for: they cost several more looks. */
 void wave_stream_eval(void *ctx, double t, int n, const double *x, double *u, double *p, double *gu,
                       double *gp)
 {
@@ -137,6 +139,7 @@ void wave_stream_create(struct sph *s, struct zones *z)
     z->gap = mem_own(z, level_gap_create(s, true));
 }
 
+/* At 0 along the other axes: along crests all are alike. */
 double wave_stream_level(const struct sph *s, int side)
 {
     const struct wave_stream *w = s->zones->ctx;

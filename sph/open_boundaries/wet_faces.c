@@ -24,6 +24,7 @@ static double below(double phi, double n0, double n1)
     return area / (2.0 * n0 * n1);
 }
 
+/* g: slope of phi at the face, which is a line in 2D, a square in 3D. */
 double wet_faces_share(int dim, int axis, double dx, double phi, const double *g)
 {
     double n[2] = {0.0, 0.0};
@@ -34,6 +35,7 @@ double wet_faces_share(int dim, int axis, double dx, double phi, const double *g
     return below(phi, fmax(n[0], n[1]), fmin(n[0], n[1]));
 }
 
+/* All faces at one time: the partner's field is evaluated in one go. */
 void wet_faces_find(struct sph *s, double t)
 {
     struct zones *z = s->zones;
@@ -91,6 +93,7 @@ void wet_faces_rain(struct sph *s, const double *y)
     o->drops++;
 }
 
+/* kg: what faces lack beyond the deficit that they may have. */
 double wet_faces_voids(const struct sph *s)
 {
     const struct openings *o = s->zones->openings;

@@ -47,6 +47,7 @@ static void eval_exact(void *ctx, double t, int n, const double *x, double *u, d
     }
 }
 
+/* A wave outside has a surface, whose level is watched. */
 static void use_exact(struct sph *s, struct zones *z)
 {
     struct exact *e = NEW_IN(z, struct exact, 1);

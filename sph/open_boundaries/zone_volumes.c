@@ -19,6 +19,8 @@ static const double memory = 4.0;     /* R/c0: short against the way through the
 static const double most = 0.1;       /* deviations beyond it are no packing's */
 static const double least_room = 0.4; /* of the support: in narrower places sums say nothing */
 
+/* Volumes go towards kernel sums as they were on the lattice, within `memory' times the time that
+ * sound takes through a support; only where whole supports are in the zone. */
 void zone_volumes_step(struct sph *s, double dt)
 {
     const struct zones *z = s->zones;

@@ -15,6 +15,7 @@ void zones_widths(const struct run *r, const struct sph_params *prm, double *tra
     *buffer = r->scene.coupling.buffer > 0.0 ? r->scene.coupling.buffer : least;
 }
 
+/* Outwards to whole particles from domain.min on. */
 void zones_around(const struct run *r, const struct sph_params *prm, int a, double free[2][3],
                   double *from, double *to)
 {
@@ -49,6 +50,7 @@ void zones_free_box(const struct run *r, const struct sph_params *prm, double lo
     }
 }
 
+/* 0: the case has no such cells. */
 double zones_cell(const struct run *r, int a, double *lo)
 {
     const struct scene_domain *d = &r->scene.domain;
@@ -145,6 +147,7 @@ void zones_room(struct zones *z, int n)
     ROOM_IN(z, z->gphi, 3 * n);
 }
 
+/* Below 0: x is beyond that side. */
 int zones_nearest(const struct zones *z, const double *x, double *below)
 {
     int nearest = 0;

@@ -8,6 +8,7 @@
 
 struct apr_params apr_given;
 
+/* As many levels as regions and criteria name, one at least. */
 static int largest_level(const struct apr_params *p)
 {
     int n = 1;
@@ -104,6 +105,8 @@ const struct param apr_rows[APR_ROWS] = {
 #undef P
 /* clang-format on */
 
+/* Filled in anew at each call, as a test may change the case; NULL: nothing is refined. Level 0 of
+ * a region is the finest. */
 const struct apr_params *apr_params_of(const struct run *r)
 {
     static struct apr_params used;

@@ -51,6 +51,7 @@ static struct held count(const struct sph *s, const struct body *b, int level)
     return to;
 }
 
+/* Warned of once a level and body. */
 static void say_left(const struct sph *s, const struct body *b, int level, const struct held *now)
 {
     log_warn("t = %g s: body %s has left the region of level %d at (%g, %g, %g) m; there the "

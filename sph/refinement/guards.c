@@ -31,6 +31,7 @@ static double reach_of(const struct sph *fine)
                : fmin(fine->R, fmax(narrow * fine->R, least * fine->dx));
 }
 
+/* Guards that step on their own need rates of their own. */
 struct guards *guards_create(const struct run *r)
 {
     struct guards *g = NEW(struct guards, 1);
@@ -194,6 +195,7 @@ static void levels_of(struct sph *s, struct sph **all)
         all[s->level] = s;
 }
 
+/* Roles of other ranks first, since givers may be there. */
 void guards_list(struct sph *s)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
@@ -444,6 +446,7 @@ static void update_level(struct sph *const *all, struct sph *s)
     g->fresh = false;
 }
 
+/* Values of all levels are taken from particles that this rank sees, others' among them. */
 void guards_share(struct sph *s, bool slopes)
 {
     timer_start(&s->run->timers, "halo");
@@ -483,6 +486,7 @@ void guards_update(struct sph *s) { set_all(s, false); }
 
 void guards_wake(struct sph *s) { set_all(s, true); }
 
+/* At a level's own stages: its edge alone, from coarser and finer ones as they are now. */
 void guards_update_edge(struct sph *s)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
@@ -509,6 +513,7 @@ void guards_remember(struct sph *s)
     }
 }
 
+/* Only where the particles are still the same. */
 void guards_come_back(struct sph *s)
 {
     for (; s; s = s->finer) {
@@ -525,6 +530,7 @@ void guards_forget(struct sph *s)
         s->guards->nprior = 0;
 }
 
+/* The edge goes with the fluid, unshifted. */
 void guards_hold_edge(struct sph *s)
 {
     const struct guards *g = s->guards;
@@ -544,6 +550,7 @@ static bool has_rates(const struct sph *s, int i)
     return s->guards->own_rates && !(s->p.role[i] & (ROLE_DEEP | ROLE_EDGE));
 }
 
+/* Guards without rates, which push nobody, need no pairs among themselves. */
 void guards_spare(struct sph *s)
 {
     const struct wall_model *w = s->walls ? s->walls->model : NULL;

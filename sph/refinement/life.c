@@ -143,6 +143,7 @@ void refinement_remember(struct sph *s)
     MPI_Allreduce(&s->step.mass, &r->mass0, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 
+/* kg, counted at the coarsest level for all; guards have no mass of their own. */
 void refinement_removed(struct sph *s, int i)
 {
     const double m = state_row(&s->p, s->p.y, i)[at_mass(s->dim)];

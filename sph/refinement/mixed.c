@@ -62,6 +62,7 @@ void mixed_start(struct sph *s)
     mixed_adapt(s);
 }
 
+/* Sizes are in the file; what follows from them is found anew. */
 bool mixed_restart(struct sph *s, struct h5 *f)
 {
     particles_add_sizes(&s->p, s->R);
@@ -224,6 +225,7 @@ static void sort_class(struct mixed *m, struct size_class *c, const struct sph *
     }
 }
 
+/* The lower index first, so that sums do not depend on who was found from whom. */
 static void add_pair(struct mixed *m, int i, int j)
 {
     if (m->npairs == m->pairs_capacity) {

@@ -265,6 +265,7 @@ RATES(SCHEME_RIEMANN, VISCOSITY_MORRIS)
 RATES(SCHEME_RIEMANN, VISCOSITY_MONAGHAN)
 RATES(SCHEME_RIEMANN, VISCOSITY_OFF)
 
+/* One pass for each scheme and viscous term, so that none asks within its loops. */
 void mixed_rates(struct sph *s)
 {
     static void (*const passes[2][3])(struct sph *) = {

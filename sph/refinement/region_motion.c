@@ -12,6 +12,7 @@ int region_body(const struct scene *c, const char *name)
     return BODIES_MAX;
 }
 
+/* As bits; -1: a letter that is no axis. An empty text is all axes. */
 int region_axes(const char *along, int dim)
 {
     int axes = 0;
@@ -181,6 +182,7 @@ void regions_set_peak(struct regions *g, const double *x, double p)
     g->peak_known = true;
 }
 
+/* A region moves by half a spacing of its finest level at most. */
 double regions_dt(const struct regions *g)
 {
     double dt = INFINITY;
@@ -190,6 +192,7 @@ double regions_dt(const struct regions *g)
     return dt;
 }
 
+/* The same of what moves around a level that steps on its own. */
 double regions_dt_outside(const struct regions *g, int level)
 {
     double dt = INFINITY;

@@ -189,6 +189,7 @@ struct least {
     double d, at[3];
 };
 
+/* Points outside the domain hold nobody. */
 static void try_point(const struct regions *g, int level, const double *x, struct least *best)
 {
     for (int a = 0; a < g->dim; a++)
@@ -506,6 +507,7 @@ static void check_region(struct check *c)
         check_motion_keys(c);
 }
 
+/* Each region by itself, then all together, which wants sound ones. */
 void regions_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct apr_params *prm = apr_params_of(r);

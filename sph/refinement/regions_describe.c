@@ -99,6 +99,7 @@ static void describe_level(const struct run *r, const struct regions *g, int n)
             n, R);
 }
 
+/* A set of its own, made for the words and dropped. */
 void regions_describe(const struct run *r, const struct sph_params *used)
 {
     struct regions *g = regions_create(r, used);

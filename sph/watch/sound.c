@@ -11,6 +11,8 @@
 
 static const double loud = 0.5; /* of rho U^2 */
 
+/* Between a given velocity and a given pressure sound has four lengths for a period, an open organ
+ * pipe's. */
 void sph_sound_create(struct sph *s)
 {
     const struct scene *c = &s->run->scene;
@@ -38,6 +40,7 @@ static double swing(const struct sph_sound *w)
     return most;
 }
 
+/* Over each period the range of the mean velocity. */
 void sph_sound_judge(struct sph *s)
 {
     struct sph_sound *w = &s->watch.sound;
@@ -56,6 +59,8 @@ void sph_sound_judge(struct sph *s)
     w->n++;
 }
 
+/* Pressures by the head's rule. Loud is measured against the flow's own, viscous ones among
+ * them. */
 void sph_sound_summarise(const struct sph *s)
 {
     const struct sph_sound *w = &s->watch.sound;

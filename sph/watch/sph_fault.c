@@ -240,6 +240,8 @@ void sph_fault_place(struct sph *base, struct diagnosis *d)
     describe_where(s, &c, &p, d);
 }
 
+/* The worst particle of all levels and ranks, what is around it, then what may be the cause.
+ * Collective. */
 void sph_fault_diagnose(struct sph *base, struct diagnosis *d)
 {
     const struct culprit c = find_worst(base);

@@ -216,6 +216,7 @@ static void sample(struct sph *s)
     sums[COUNTED] = w->crowd.counted;
 }
 
+/* At the first stage of a step all values are those of one time. */
 void sph_watch_stage(struct sph *s, bool first, double weight)
 {
     if (first && s->watch.due) {
@@ -352,6 +353,7 @@ double *sph_watch_row(const struct sph *s, double *values)
     return values;
 }
 
+/* Only what this run judges at all. */
 void sph_watch_summarise(const struct sph *s)
 {
     for (int k = 0; k < SPH_WATCHES; k++)

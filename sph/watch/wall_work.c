@@ -7,6 +7,7 @@
 #include "../sph.h"
 #include "../walls/sph_walls.h"
 
+/* Walls that move along themselves work by friction. */
 static bool any_slides(const struct scene *c)
 {
     bool any = false;
