@@ -122,6 +122,12 @@ static const char *beyond_word(const struct run *r, int axis)
                                           : "leaves the domain across";
 }
 
+static const char *place_of(int dim, const double *x)
+{
+    return dim == 3 ? key_text("(%g, %g, %g) m", x[0], x[1], x[2])
+                    : key_text("(%g, %g) m", x[0], x[1]);
+}
+
 /* The room that a body may have at a time: of the domain the free zone of the particles, m. */
 struct room {
     double lo[3], hi[3];
@@ -145,18 +151,14 @@ static bool check_room(const struct run *r, const struct room *room, int k, cons
                        const double *x, const char *when, struct faults *f)
 {
     const struct scene_domain *d = &r->scene.domain;
-    char third[24] = "";
     for (int a = 0; a < d->dim; a++) {
         const double small = 1e-6 * (d->max[a] - d->min[a]); /* a file's last digits */
         const bool leaves = x[a] < d->min[a] - small || x[a] > d->max[a] + small;
         if (x[a] >= room->lo[a] - small && x[a] <= room->hi[a] + small)
             continue;
-        if (d->dim == 3)
-            snprintf(third, sizeof third, ", %g", x[2]);
-        params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at (%g, %g%s) m, %s: %s",
-                     name,
+        params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at %s, %s: %s", name,
                      leaves ? beyond_word(r, a) : "leaves the free zone of the particles across",
-                     "xyz"[a], x[0], x[1], third, when,
+                     "xyz"[a], place_of(d->dim, x), when,
                      leaves ? beyond_remedy(r, k, a)
                             : "only there it is known; keep it 2.5 R from openings, or make "
                               "sph.box larger");
@@ -183,8 +185,21 @@ static bool is_held(const struct scene_body *b, const double *x, double gap)
     return vec3_length(arm) < gap;
 }
 
-#define HINGE_HINT                                                                                 \
-    "; only corners that near to its hinge may touch, so let it stand on a point there"
+/* d: between body k and another, m; below zero one is in the other. */
+static void fault_contact(const struct run *r, int k, const char *name, const char *other, double d,
+                          double gap, const double *at, struct faults *f)
+{
+    const char *key = key_text("bodies.[%d]", k), *place = place_of(r->scene.domain.dim, at);
+    if (d < 0.0)
+        params_fault(r->params, f, key, "%s reaches %g m into %s at %s: move it away", name, -d,
+                     other, place);
+    else
+        params_fault(r->params, f, key,
+                     "%s starts in contact with %s: %g m apart at %s, where contact holds %g m "
+                     "(contact.gap): move it away by that; only corners that near to its hinge "
+                     "may touch, so let it stand on a point there",
+                     name, other, d, place, gap);
+}
 
 /* Least distance of two lines, and of those corners of each that no hinge of b holds. */
 static double free_gap(const struct scene_body *b, const struct line *mine,
@@ -228,10 +243,7 @@ static void check_contacts(const struct run *r, const struct sph_params *used,
                 continue;
             const double d = free_gap(b, &all[k].line, &all[m].line, gap, at);
             if (d < gap)
-                params_fault(r->params, f, key_text("bodies.[%d]", k),
-                             "%s starts in contact with %s: %g m apart at (%g, %g) m, where "
-                             "contact holds %g m (contact.gap): move it away by that" HINGE_HINT,
-                             all[k].name, all[m].name, d, at[0], at[1], gap);
+                fault_contact(r, k, all[k].name, all[m].name, d, gap, at, f);
         }
 }
 
@@ -356,22 +368,6 @@ static double mesh_distance(const struct scene_body *b, const struct scene_mesh 
     return least;
 }
 
-/* Below zero: one is in the other. */
-static void fault_contact(const struct run *r, int k, const char *other, double d, double gap,
-                          const double *at, struct faults *f)
-{
-    const char *name = r->scene.bodies[k].name;
-    const char *key = key_text("bodies.[%d]", k);
-    if (d < 0.0)
-        params_fault(r->params, f, key, "%s reaches %g m into %s at (%g, %g, %g) m: move it away",
-                     name, -d, other, at[0], at[1], at[2]);
-    else
-        params_fault(r->params, f, key,
-                     "%s starts in contact with %s: %g m apart at (%g, %g, %g) m, where contact "
-                     "holds %g m (contact.gap): move it away by that" HINGE_HINT,
-                     name, other, d, at[0], at[1], at[2], gap);
-}
-
 /* A free body in 3D against sides, walls and other bodies at the start. */
 static void check_start3(const struct run *r, const struct sph_params *used, int k,
                          struct faults *f)
@@ -388,7 +384,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
     for (int i = 0; i < m->mesh.nvertices; i++) {
         const double d = side_distance(c, m->mesh.x[i], what, sizeof what);
         if (d < least && !is_held(b, m->mesh.x[i], gap)) {
-            fault_contact(r, k, what, d, gap, m->mesh.x[i], f);
+            fault_contact(r, k, b->name, what, d, gap, m->mesh.x[i], f);
             return;
         }
     }
@@ -400,7 +396,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
         const double d = mesh_distance(b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
         snprintf(what, sizeof what, "%s", n->name);
         if (d < least)
-            fault_contact(r, k, what, d, gap, at, f);
+            fault_contact(r, k, b->name, what, d, gap, at, f);
     }
 }
 
