@@ -349,20 +349,27 @@ static double side_distance(const struct scene *c, const double *x, char *what, 
 }
 
 /* Vertices of free body b, whose mesh is m, against another, those of that against the body:
- * nearest of all that its hinge does not hold. reach: of contact, of the search. */
+ * nearest of all that its hinge does not hold; of faces that are flush, whose vertices lie on each
+ * other, the middles of triangles, too. reach: of contact, of the search. */
 static double mesh_distance(const struct scene_body *b, const struct scene_mesh *m,
                             const struct scene_mesh *n, const double reach[2], double at[3])
 {
     double least = INFINITY;
     for (int e = 0; e < 2; e++) {
         const struct scene_mesh *of = e ? n : m, *against = e ? m : n;
-        for (int i = 0; i < of->mesh.nvertices; i++) {
-            const struct tree_foot t = tree_nearest(against->tree, of->mesh.x[i], reach[1]);
-            if (t.triangle < 0 || t.rim || t.distance >= least ||
-                is_held(b, of->mesh.x[i], reach[0]))
+        const int nv = of->mesh.nvertices;
+        for (int i = 0; i < nv + of->mesh.ntriangles; i++) {
+            double x[3];
+            if (i < nv)
+                memcpy(x, of->mesh.x[i], sizeof x);
+            else
+                trimesh_middle(&of->mesh, i - nv, x);
+            const struct tree_foot t = tree_nearest(against->tree, x, reach[1]);
+            if (t.triangle < 0 || t.rim || t.distance >= (i < nv ? least : fmin(least, 0.0)) ||
+                is_held(b, x, reach[0]))
                 continue;
             least = t.distance;
-            memcpy(at, of->mesh.x[i], 3 * sizeof *at);
+            memcpy(at, x, sizeof x);
         }
     }
     return least;
