@@ -535,7 +535,7 @@ TEST(a_box_goes_with_a_crest)
     struct sph *s = start(&c, 2, 0.0, 0.0);
     c.run.scene.fluid.gravity[1] = -1.0;
     c.run.scene.initial.level = 0.5;
-    c.run.scene.domain.periodic[0] = false;
+    c.run.scene.domain.periodic[0] = c.run.scene.domain.periodic[1] = false;
     s->prm.box[0][0] = 0.15;
     s->prm.box[1][0] = 0.55;
     assert_close(box_tracking_speed(&c.run), 1.0, 1e-12);
