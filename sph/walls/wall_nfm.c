@@ -614,7 +614,10 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     i.mu = m->mu;
     i.streams = i.film ? 0.0 : m->streams;
     i.open = i.in_air ? wall_air_open(l, k, dim) : 1.0;
-    const double gamma = fmax(l->gamma[k], least_gamma), gamma_1 = 1.0 / gamma;
+    double gamma = fmax(l->gamma[k], least_gamma);
+    if (dim == 3 && i.in_air)
+        gamma = wall_air_gamma(s, l, k, i.c, gamma);
+    const double gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
     double *rate = state_row(&s->p, s->p.rate, who), pairs[3], own[8] = {0.0};
     if (takes_along(s))
