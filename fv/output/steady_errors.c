@@ -127,7 +127,8 @@ void steady_summarise(struct fv *s)
 {
     double *eta, *is;
     const struct scene *c = &s->run->scene;
-    if (!scene_has_steady_wave(c) || !exact_until_end(c) || s->m || s->exact.height <= 0.0)
+    if (!scene_has_steady_wave(c) || !exact_until_end(c) || s->prm.nboxes > 0 || s->m ||
+        s->exact.height <= 0.0)
         return;
     const int n = columns(s, &eta, &is);
     (s->exact.field == FIELD_SOLITARY ? solitary : regular)(s, n, eta, is);

@@ -160,7 +160,7 @@ static void summarise_oscillation(struct fv *s)
 {
     struct summary *to = s->run->summary;
     double period, rate;
-    if (s->run->coupled || s->run->scene.nbodies > 0 || s->exact.field != FIELD_STANDING_WAVE ||
+    if (s->run->coupled || s->prm.nboxes > 0 || s->exact.field != FIELD_STANDING_WAVE ||
         !exact_oscillation(&s->exact, &period, &rate))
         return;
     exact_summarise_oscillation(&s->surface->oscillation, period, rate, to);

@@ -57,7 +57,8 @@ static struct gauge_section place(const struct sph *s, const struct scene_probe 
 {
     struct gauge_section c = {.is = probe_section_of(g, s->dim), .width = half * s->dx};
     for (int a = 0; a < s->dim; a++)
-        c.at[a] = fabs(c.is.across[a]) == 1.0 ? region_clear(s, a, g->at[a]) : g->at[a];
+        c.at[a] = fabs(c.is.across[a]) == 1.0 ? region_clear(s, a, g->at[a], region_side_passes)
+                                              : g->at[a];
     for (int k = 0; k < 2 * c.is.n; k++)
         c.stands[k / 2][k % 2] = stands_on_wall(s, &c, k / 2, k % 2);
     return c;

@@ -74,12 +74,10 @@ struct riemann_sums {
  * what is relative to it to 1 where it is half as fast. */
 static double passes(const struct sph *s)
 {
-    double drift2 = 0.0;
-    for (int a = 0; a < s->dim; a++)
-        drift2 += s->step.drift[a] * s->step.drift[a];
     if (!(s->step.stray > 0.0))
         return 0.0;
-    return fmax(0.0, fmin(4.0 * sqrt(drift2) / s->step.stray - 1.0, 1.0));
+    const double share = 4.0 * vec3_length(s->step.drift) / s->step.stray - 1.0;
+    return fmax(0.0, fmin(share, 1.0));
 }
 
 /* Over c0: jumps of u that limiters let pass. Small extrema, but not in a region with open sides

@@ -5,20 +5,29 @@
 
 static const double inside = 3.0; /* dx: half a column's width of 2 dx, and one for the birth */
 
-bool region_side_passes(const struct sph *s, int side)
+static const struct scene_wall *wall_of(const struct sph *s, int side)
 {
-    const struct scene_wall *w =
-        scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
-    return !s->periodic[side / 2] && (s->open[side] || !w || w->kind >= WALL_INFLOW);
+    return scene_wall_of(&s->run->scene, (enum scene_side)(SIDE_X_MIN + side));
 }
 
-double region_clear(const struct sph *s, int a, double x)
+bool region_side_opens(const struct sph *s, int side)
+{
+    const struct scene_wall *w = wall_of(s, side);
+    return !s->periodic[side / 2] && (s->open[side] || (w && w->kind >= WALL_INFLOW));
+}
+
+bool region_side_passes(const struct sph *s, int side)
+{
+    return region_side_opens(s, side) || (!s->periodic[side / 2] && !wall_of(s, side));
+}
+
+double region_clear(const struct sph *s, int a, double x, bool (*is)(const struct sph *, int))
 {
     const double lo = s->lo[a], hi = s->hi[a], near = 1e-6 * s->dx;
     const double depth = fmin(inside * s->dx, 0.5 * (hi - lo));
     if (x < lo - near || x > hi + near)
         return x;
-    if (x < lo + depth && region_side_passes(s, 2 * a))
+    if (x < lo + depth && is(s, 2 * a))
         return lo + depth;
-    return x > hi - depth && region_side_passes(s, 2 * a + 1) ? hi - depth : x;
+    return x > hi - depth && is(s, 2 * a + 1) ? hi - depth : x;
 }

@@ -209,7 +209,7 @@ static struct column column_at(const struct sph *s, const double *at)
     set_axis(s, &c);
     c.floor = c.ground = c.bottom;
     for (int a = 0; a < s->dim; a++)
-        c.at[a] = a == c.up ? at[a] : region_clear(s, a, at[a]);
+        c.at[a] = a == c.up ? at[a] : region_clear(s, a, at[a], region_side_opens);
     if (c.walled)
         rise_from_solid(s, &c);
     for (int a = 0; a < s->dim; a++) {

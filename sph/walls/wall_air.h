@@ -17,19 +17,23 @@ static inline bool wall_air_around(const struct sph *s, const double *slope, con
     return none;
 }
 
+/* |sum W n| of the touches of particle k, and *all, the sum of W, m^(1-dim). */
+static inline double wall_air_along(const struct wall_list *l, int k, double *all)
+{
+    double along[3] = {0.0, 0.0, 0.0};
+    *all = 0.0;
+    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
+        *all += wall_touch_counts(t);
+        vec3_add(along, t->is.W, t->n);
+    }
+    return vec3_length(along);
+}
+
 /* 1 before walls of one side and in right corners of two or three, 0 in a gap: there a layer one
  * particle thick has no air beside it. */
-static inline double wall_air_open(const struct wall_list *l, int k, const int dim)
+static inline double wall_air_open(double along, double all)
 {
-    double all = 0.0, along[3] = {0.0}, square = 0.0;
-    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
-        all += wall_touch_counts(t);
-        for (int a = 0; a < dim; a++)
-            along[a] += t->is.W * t->n[a];
-    }
-    for (int a = 0; a < dim; a++)
-        square += along[a] * along[a];
-    return all > 0.0 ? fmin(1.0, fmax(0.0, 2.5 * sqrt(square) / all - 0.4)) : 1.0;
+    return all > 0.0 ? fmin(1.0, fmax(0.0, 2.5 * along / all - 0.4)) : 1.0;
 }
 
 /* In 3D, Shepard factor of a particle with hardly a neighbour. Its pressure, which nothing beside
@@ -39,14 +43,10 @@ static inline double wall_air_open(const struct wall_list *l, int k, const int d
  * particles that stood aslant in a dam break, a ball over the floor and a loose block ended the run
  * so; with at most 1.5 the last two still did. In the plane no run did, and a jet into a corner is
  * stopped later by it (Mach 0.306 for 0.295). */
-static inline double wall_air_gamma(const struct sph *s, const struct wall_list *l, int k, double c,
-                                    double gamma)
+static inline double wall_air_gamma(const struct sph *s, double along, double c, double gamma)
 {
     const double most = 1.2;
-    double along[3] = {0.0, 0.0, 0.0};
-    for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++)
-        vec3_add(along, t->is.W, t->n);
-    return fmax(gamma, c * s->dt * vec3_length(along) / most);
+    return fmax(gamma, c * s->dt * along / most);
 }
 
 /* Of the weight of a piece, what stops a layer one particle thick, or less, before it. The kernel

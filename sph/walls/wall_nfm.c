@@ -359,13 +359,14 @@ INLINE double friction_weight(const struct wall_touch *t, const struct seen *i, 
  * normal (the wave, tension under roofs, friction) is taken away there, too. Left to its own normal
  * the bottom of a block was a roof to the particles beside the block, and its wave came on top of
  * the floor's: at 2 of the 3.3 that three stages bear they turned round at each step. */
-INLINE struct wall_touch covering(const struct wall_touch *t, const int dim)
+INLINE const struct wall_touch *covering(const struct wall_touch *t, struct wall_touch *part,
+                                         const int dim)
 {
-    struct wall_touch part = *t;
-    part.is.W = -t->is.W;
-    part.height = -t->height;
+    *part = *t;
+    part->is.W = -t->is.W;
+    part->height = -t->height;
     for (int a = 0; a < dim; a++)
-        part.n[a] = -t->n[a];
+        part->n[a] = -t->n[a];
     return part;
 }
 
@@ -473,13 +474,10 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     ROOM_IN(m, m->q, n);
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + l->first[k] + j;
+        struct wall_touch part;
         struct given to = {0};
-        if (t->is.W > 0.0 && t->on < 0)
-            to = flux(s, t, i, wave, dim);
-        else if (t->is.W > 0.0) {
-            const struct wall_touch part = covering(t, dim);
-            to = flux(s, &part, i, wave, dim);
-        }
+        if (t->is.W > 0.0)
+            to = flux(s, t->on < 0 ? t : covering(t, &part, dim), i, wave, dim);
         for (int a = 0; a < dim; a++) {
             m->q[j][a] = to.q[a];
             all.q[a] += to.q[a];
@@ -613,10 +611,14 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     struct seen i = look(s, who, dim);
     i.mu = m->mu;
     i.streams = i.film ? 0.0 : m->streams;
-    i.open = i.in_air ? wall_air_open(l, k, dim) : 1.0;
+    i.open = 1.0;
     double gamma = fmax(l->gamma[k], least_gamma);
-    if (dim == 3 && i.in_air)
-        gamma = wall_air_gamma(s, l, k, i.c, gamma);
+    if (i.in_air) {
+        double all;
+        const double along = wall_air_along(l, k, &all);
+        i.open = wall_air_open(along, all);
+        gamma = dim == 3 ? wall_air_gamma(s, along, i.c, gamma) : gamma;
+    }
     const double gamma_1 = 1.0 / gamma;
     const double mass = state_row(&s->p, s->p.y, who)[at_mass(dim)];
     double *rate = state_row(&s->p, s->p.rate, who), pairs[3], own[8] = {0.0};
