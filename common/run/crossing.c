@@ -64,13 +64,6 @@ bool crossing_find(const struct run *r)
     return ends;
 }
 
-/* The image of x along axis a that lies in the period from lo on; without a period x. */
-static double image_from(const struct scene_domain *d, int a, double lo, double x)
-{
-    const double L = d->max[a] - d->min[a];
-    return d->periodic[a] ? x - L * floor((x - lo) / L) : x;
-}
-
 /* Whether a gauge lies in a box, which may reach over a periodic side; one of the level, whose
  * column ends there, by its place on the ground alone. On a face of the box inside the domain there
  * are particles on one side alone, so it is the cells' there. */
@@ -80,7 +73,7 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
     for (int a = 0; a < c->domain.dim; a++)
         if (box[1][a] > box[0][a] && (a != up || probe_is_point(g))) {
             const double x =
-                probe_is_point(g) ? image_from(&c->domain, a, box[0][a], g->at[a]) : g->at[a];
+                probe_is_point(g) ? scene_image_from(&c->domain, a, box[0][a], g->at[a]) : g->at[a];
             const double eps = 1e-9 * (box[1][a] - box[0][a]);
             const double low = box[0][a] > c->domain.min[a] + eps ? eps : -eps;
             const double high = box[1][a] < c->domain.max[a] - eps ? eps : -eps;
@@ -132,7 +125,7 @@ static void section_in(const struct scene *c, double box[2][3], const struct sce
     for (int a = 0; a < c->domain.dim; a++) {
         if (box[1][a] <= box[0][a])
             continue;
-        const double lo = image_from(&c->domain, a, box[0][a], fmin(g->at[a], g->to[a]));
+        const double lo = scene_image_from(&c->domain, a, box[0][a], fmin(g->at[a], g->to[a]));
         const double hi = lo + fabs(g->to[a] - g->at[a]);
         const double eps = 1e-9 * (box[1][a] - box[0][a]);
         *part = *part && lo < box[1][a] - eps && hi > box[0][a] + eps;

@@ -107,9 +107,8 @@ static void find_image(const struct scene_domain *d, const double *x, double y[3
 {
     y[0] = y[1] = y[2] = 0.0;
     for (int a = 0; a < d->dim; a++) {
-        const double L = d->max[a] - d->min[a];
-        const bool beyond = d->periodic[a] && (x[a] < d->min[a] || x[a] > d->max[a]);
-        y[a] = beyond ? x[a] - L * floor((x[a] - d->min[a]) / L) : x[a];
+        const bool beyond = x[a] < d->min[a] || x[a] > d->max[a];
+        y[a] = beyond ? scene_image_from(d, a, d->min[a], x[a]) : x[a];
     }
 }
 

@@ -6,6 +6,7 @@
 #ifndef COMMON_SCENE_GROUPS_H
 #define COMMON_SCENE_GROUPS_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include "../params/params.h"
@@ -249,6 +250,13 @@ extern const char *const scene_side_names[6];
 const struct scene_wall *scene_wall_of(const struct scene *s, enum scene_side side);
 /* Whether a side of the domain is a wall, with friction or without. */
 bool scene_side_is_wall(const struct scene *s, enum scene_side side);
+
+/* The image of x along axis a, m, that lies in the period from lo on; without a period x. */
+static inline double scene_image_from(const struct scene_domain *d, int a, double lo, double x)
+{
+    const double L = d->max[a] - d->min[a];
+    return d->periodic[a] ? x - L * floor((x - lo) / L) : x;
+}
 
 /* Whether a wall is an opening with fluid outside, i.e. inflow, outflow, absorbing, wave or beach,
  * but not falls. Wave and beach are marked as slip walls before anyone asks. */

@@ -214,14 +214,6 @@ static void room(struct sph_link *k, int n)
     GROW_IN(k, k->id, old, k->capacity);
 }
 
-/* Places as the domain has them, whose periodic sides the box may have passed. */
-static double into_domain(const struct sph *s, int a, double x)
-{
-    const struct scene_domain *d = &s->run->scene.domain;
-    const double L = d->max[a] - d->min[a];
-    return d->periodic[a] ? x - L * floor((x - d->min[a]) / L) : x;
-}
-
 /* A point and a value that one rank has. Puts a value of rank 0 at time t on a set of one point at
  * the origin. */
 static void give_one(struct sph *s, int set, int field, double t, const double *value)
@@ -263,6 +255,8 @@ void sph_coupling_window_end(void *state, double t1)
 {
     struct sph *s = state;
     struct sph_link *k = s->zones->ctx;
+    const struct scene_domain *d =
+        &s->run->scene.domain; /* whose periods the box may have passed */
     const int dim = s->dim;
     int n = 0;
     room(k, s->p.n);
@@ -271,7 +265,7 @@ void sph_coupling_window_end(void *state, double t1)
         if (zones_depth(s, y) < s->zones->buffer)
             continue;
         for (int a = 0; a < 3; a++)
-            k->x[3 * n + a] = a < dim ? into_domain(s, a, y[a]) : 0.0;
+            k->x[3 * n + a] = a < dim ? scene_image_from(d, a, d->min[a], y[a]) : 0.0;
         for (int a = 0; a < dim; a++)
             k->u[dim * n + a] = y[dim + a] / y[at_mass(dim)];
         k->p[n] = scene_reference_at(&s->reference, dim, y) +

@@ -104,23 +104,17 @@ static int64_t shown_here(const struct sph *s)
     return n;
 }
 
-/* Within the periodic domain: a box that moves carries its particles past the sides. */
-static double within(const struct scene_domain *d, int a, double x)
-{
-    const double length = d->max[a] - d->min[a];
-    return d->periodic[a] ? x - floor((x - d->min[a]) / length) * length : x;
-}
-
-/* v has room for them; all datasets list particles in the same order, level after level.
- * Collective. */
+/* v has room for them; all datasets list particles in the same order, level after level. Within the
+ * periodic domain: a box that moves carries its particles past the sides. Collective. */
 static void write_positions(const struct sph *s, struct h5 *f, int64_t n, double *v)
 {
+    const struct scene_domain *d = &s->run->scene.domain;
     double *to = v;
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             if (shows(q, i))
                 for (int a = 0; a < q->dim; a++)
-                    *to++ = within(&s->run->scene.domain, a, prim_line(&q->p, i)[a]);
+                    *to++ = scene_image_from(d, a, d->min[a], prim_line(&q->p, i)[a]);
     h5_write_real(f, "position", "m", n, s->dim, v, true);
 }
 
