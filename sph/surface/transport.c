@@ -48,38 +48,72 @@ static double inner_speed(const struct sph *s, int i)
     return s->surface->is[i] == SURFACE_INNER ? share * sqrt(u2) : 0.0;
 }
 
+/* Power of the shift of particle i against gravity, over rho: w g.(u - u0). */
+static double lift(const struct sph *s, int i)
+{
+    const int dim = s->dim;
+    const double *q = prim_line(&s->p, i), *u0 = slope_line(&s->p, i) + dim + dim * dim;
+    double power = 0.0;
+    for (int a = 0; a < dim; a++)
+        power += s->gravity[a] * (q[dim + a] - u0[a]);
+    return power * q[at_volume(dim)];
+}
+
+/* What shifts do against gravity, sums over all ranks of one kind, guards or what flows. */
+struct shift_work {
+    double up, down; /* of those that lift and of those that sink, over rho, W m^3/kg */
+    double inside;   /* of w g^2 |u|: what could give it back */
+};
+
+/* Collective. */
+static void sum_work(const struct sph *s, double g2, struct shift_work work[2])
+{
+    memset(work, 0, 2 * sizeof *work);
+    for (int i = 0; i < s->p.n; i++) {
+        struct shift_work *to = work + particles_is_guard(&s->p, i);
+        const double power = lift(s, i);
+        to->up += fmax(power, 0.0);
+        to->down += fmin(power, 0.0);
+        to->inside += prim_line(&s->p, i)[at_volume(s->dim)] * g2 * inner_speed(s, i);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, work, (int)(sizeof *work / sizeof(double)) * (s->guards ? 2 : 1),
+                  MPI_DOUBLE, MPI_SUM, s->run->comm);
+}
+
 /* Where densities do not know of the shift it lets the level sink, the faster the more moves. What
  * it takes from the potential energy of all is given back by a shift against gravity of those
  * inside, in proportion to their speeds as the shift's own bound is; guards by themselves. It knows
  * nothing of walls, and pressed the first row of a dam break through the floor: those whose support
- * meets a wall take no part unless they are at rest. The sum over all ranks of w g.(u0 - u) is the
- * power of the shift, over rho; share = that over the sum of w g^2 |u|, so that after u0 -= share
- * |u| g the power is 0. Two shares: of what flows and of guards. Collective. */
+ * meets a wall take no part unless they are at rest. After u0 -= share |u| g the power is 0.
+ * No share moves a particle by more than a quarter of |u|, and in splashes nobody is inside: jets
+ * then rose by their shifts (a dam break of 20 rows gained 2.4 % of its energy while its jet
+ * climbed the far wall). What is left of a gain is taken off the shifts that lift, in one
+ * proportion; what is left of a loss is a loss. Collective. */
 static void make_workless(struct sph *s)
 {
     const int dim = s->dim;
     const double *g = s->gravity;
-    double sums[4] = {0.0}, share[2], g2 = 0.0;
+    struct shift_work work[2];
+    double share[2] = {0.0}, lifts[2], g2 = 0.0;
     for (int a = 0; a < dim; a++)
         g2 += g[a] * g[a];
     if (g2 == 0.0)
         return;
-    for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i), *u0 = slope_line(&s->p, i) + dim + dim * dim;
-        const double w = q[at_volume(dim)];
-        double *sum = sums + (particles_is_guard(&s->p, i) ? 2 : 0);
-        for (int a = 0; a < dim; a++)
-            sum[0] += w * g[a] * (u0[a] - q[dim + a]);
-        sum[1] += w * g2 * inner_speed(s, i);
+    sum_work(s, g2, work);
+    for (int k = 0; k < 2; k++) {
+        const double power = work[k].up + work[k].down, most = 0.25 * work[k].inside / sqrt(g2);
+        const double given = fmax(-most, fmin(power, most));
+        if (work[k].inside > 0.0)
+            share[k] = given / work[k].inside;
+        lifts[k] = power > given && power > 0.0 ? 1.0 - (power - given) / work[k].up : 1.0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, s->guards ? 4 : 2, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int k = 0; k < 2; k++)
-        share[k] = sums[2 * k + 1] > 0.0 ? sums[2 * k] / sums[2 * k + 1] : 0.0;
     for (int i = 0; i < s->p.n; i++) {
+        const bool guard = particles_is_guard(&s->p, i);
+        const double *u = prim_line(&s->p, i) + dim, back = share[guard] * inner_speed(s, i);
         double *u0 = slope_line(&s->p, i) + dim + dim * dim;
-        const double back = share[particles_is_guard(&s->p, i)] * inner_speed(s, i);
+        const double factor = lift(s, i) > 0.0 ? lifts[guard] : 1.0;
         for (int a = 0; a < dim; a++)
-            u0[a] -= back * g[a];
+            u0[a] = u[a] + factor * (u0[a] - u[a]) + back * g[a];
     }
 }
 
