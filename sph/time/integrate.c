@@ -180,8 +180,10 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[LEVE
     const struct rk_stages *c = s->stages;
     const double t = s->t;
     start(s, "update");
-    for (struct sph *q = s; q; q = q->finer)
+    for (struct sph *q = s; q; q = q->finer) {
+        q->dt = dt; /* walls of every level bound their waves, and what comes near them, by it */
         memcpy(q->p.y0, q->p.y, (size_t)q->p.n * q->p.nstate * sizeof(double));
+    }
     stop(s, "update");
     bodies_begin(s);
     for (int k = 0; k < c->n; k++) {

@@ -395,7 +395,8 @@ bool walls_in_body(const struct sph *s, const double *x)
 }
 
 /* The velocity relative to the wall that led behind it is taken as one impulse, reported as a hit
- * on the wall's owner, so that the momentum balance holds. Guards carry no momentum of the flow. */
+ * on the wall's owner, so that the momentum balance holds. Guards carry no momentum of the flow,
+ * and none that is back tells of water behind a wall: they are not counted. */
 void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
 {
     const int dim = s->dim;
@@ -408,8 +409,9 @@ void walls_put_before(struct sph *s, int i, const struct wall_foot *f)
         impulse[a] = m * fmax(un, 0.0) * f->n[a];
         y[dim + a] -= impulse[a];
     }
-    if (!particles_is_guard(&s->p, i))
-        forces_hit(s, f->body, f->x, impulse);
+    if (particles_is_guard(&s->p, i))
+        return;
+    forces_hit(s, f->body, f->x, impulse);
     s->walls->returned++;
 }
 
@@ -458,8 +460,9 @@ void walls_put_back_inside(struct sph *s)
             impulse[p->axis] = p->sign * fmax(p->sign * y[dim + p->axis], 0.0);
             y[p->axis] = p->at - 0.05 * s->dx * p->sign;
             y[dim + p->axis] -= impulse[p->axis];
-            if (!particles_is_guard(&s->p, i))
-                forces_hit(s, -1, y, impulse);
+            if (particles_is_guard(&s->p, i))
+                continue;
+            forces_hit(s, -1, y, impulse);
             s->walls->returned++;
         }
     }

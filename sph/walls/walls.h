@@ -158,7 +158,7 @@ struct walls {
     struct wall_forces forces;
     bool shown;        /* NAME_walls.h5 is written; wall_files.h */
     struct xdmf *view; /* its XDMF file; rank 0 */
-    int64_t returned;  /* particles found behind walls and returned; this rank */
+    int64_t returned;  /* particles, but guards, found behind walls and returned; this rank */
     int64_t gone;      /* the same, too far behind or round an open end, and removed */
     double gone_at[3]; /* m: where the first of those removed was */
 };
