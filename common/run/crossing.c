@@ -197,22 +197,17 @@ double crossing_time(const struct scene *c)
     return up < 0 ? INFINITY : sqrt(crossing_depth(c, up) / size);
 }
 
-/* Height of a shape's highest point, or of the water below a level, along sign times axis a. */
-static double top_of(const struct scene_shape *h, int a, double sign)
+/* Height of the highest point of shape k, or of the water below a level, along sign times axis a;
+ * infinite where the shape goes through. */
+static double top_of(const struct scene *c, int k, int a, double sign)
 {
-    double high = -INFINITY;
-    switch (h->form) {
-    case SHAPE_BOX:
-        return sign > 0.0 ? h->box[1][a] : -h->box[0][a];
-    case SHAPE_DISC:
-        return sign * h->centre[a] + h->radius;
-    case SHAPE_POLYGON:
-        for (int i = 0; i < h->points.n && a < 2; i++)
-            high = fmax(high, sign * h->points.x[i][a]);
-        return high;
-    default:
+    const struct scene_shape *h = c->shapes + k;
+    const struct scene_mesh *m = scene_mesh_of(c, MESH_OF_SHAPE, k);
+    double lo[3], hi[3];
+    if (h->form == SHAPE_BELOW)
         return h->level;
-    }
+    scene_shape_extent(h, lo, hi);
+    return sign > 0.0 ? (m ? m->hi : hi)[a] : -(m ? m->lo : lo)[a];
 }
 
 /* In the direction against gravity: sign turns the axis where gravity points along it, so that
@@ -227,6 +222,6 @@ double crossing_depth(const struct scene *c, int a)
         return c->initial.level - floor;
     for (int k = 0; k < c->nshapes; k++)
         if (!c->shapes[k].hole)
-            top = fmax(top, top_of(c->shapes + k, a, sign));
+            top = fmax(top, top_of(c, k, a, sign));
     return fmin(top, roof) - floor;
 }

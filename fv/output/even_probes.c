@@ -72,7 +72,9 @@ static void look_past_boxes(const struct fv *s, const double *x, int *i, double 
     even_host(s, i, w, host);
     leave_box(s, x, host);
     for (int a = 0; a < b->dim; a++) {
-        const double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];
+        double at = (x[a] - b->origin[a]) / b->h[a] - 0.5 - b->lo[a];
+        if (b->periodic[a]) /* of the image that locate has taken */
+            at += b->cells[a] * rint((i[a] + w[a] - at) / b->cells[a]);
         const bool up = at >= host[a];
         int to[3] = {host[0], host[1], host[2]};
         to[a] += up ? 1 : -1;
@@ -169,30 +171,53 @@ static void look_at(const struct fv *s, const struct flow_samples *f, const doub
     v[3] = s->surface ? linear(s, s->surface->phi, i, w) : -f->step;
 }
 
-/* The cell that a place is in, and how far from its lower faces, in its sizes. */
-static void within_cell(const struct fv *s, const int *i, const double *w, int cell[3],
-                        double at[3])
+/* The cell of this rank that x lies in, and how far from its lower faces, in its sizes: all faces
+ * of an own cell are known, of ghosts some are not. false: it is another rank's. */
+static bool cell_around(const struct block *b, const double *x, int cell[3], double at[3])
 {
     for (int a = 0; a < 3; a++) {
-        const double *e = a == 1 && s->b.rows ? s->b.rows->edge + s->b.lo[1] + i[1] : NULL;
-        const double lower = e ? (e[1] - e[0]) / (e[2] - e[0]) : 0.5; /* of the way to the next */
-        const bool up = w[a] >= lower;
-        cell[a] = i[a] + up;
-        at[a] = up ? 0.5 * (w[a] - lower) / (1.0 - lower) : 0.5 + 0.5 * w[a] / lower;
+        const int n = b->cells[a];
+        double place = a < b->dim ? (x[a] - b->origin[a]) / b->h[a] : 0.0;
+        if (a == 1 && b->rows) {
+            const double *e = b->rows->edge;
+            const int row = lookup_row(e, 1, n, x[a]);
+            place = row + (x[a] - e[row]) / (e[row + 1] - e[row]);
+        }
+        int i = (int)floor(place);
+        if (!b->periodic[a])
+            i = i < 0 ? 0 : i > n - 1 ? n - 1 : i;
+        at[a] = place - i;
+        cell[a] = (b->periodic[a] ? (i % n + n) % n : i) - b->lo[a];
+        if (cell[a] < 0 || cell[a] >= b->n[a])
+            return false;
     }
+    return true;
+}
+
+/* Beyond closed sides nothing flows. */
+static bool is_outside(const struct block *b, const double *x)
+{
+    bool out = false;
+    for (int a = 0; a < b->dim; a++)
+        out =
+            out || (!b->periodic[a] && (x[a] < b->origin[a] || x[a] > b->origin[a] + b->length[a]));
+    return out;
 }
 
 /* What crosses a sample by the faces of its cell, so that a section has the discharge of what flows
  * into and out of the scene, whatever the profile beside corners of boxes: the projected fluxes
  * without a surface; where cells keep their share of water what crossed them in the last advance,
  * so that films and jets which phi does not resolve count. All of the sample is wet. */
-static void look_at_faces(const struct fv *s, const struct flow_samples *f, const int *i,
-                          const double *w, double *v)
+static void look_at_faces(const struct fv *s, const struct flow_samples *f, const double *x,
+                          double *v)
 {
     int cell[3];
     double at[3];
-    within_cell(s, i, w, cell, at);
+    if (!cell_around(&s->b, x, cell, at))
+        return;
     const int64_t c = block_at(&s->b, cell[0], cell[1], cell[2]);
+    if (is_blocked(s, c))
+        return;
     for (int a = 0; a < s->dim; a++) {
         const double *U = s->U[a] + c;
         v[a] = f->across[a] == 0.0 ? 0.0
@@ -202,7 +227,7 @@ static void look_at_faces(const struct fv *s, const struct flow_samples *f, cons
     v[3] = -f->step;
 }
 
-/* This rank's samples; those in boxes are dry. */
+/* This rank's samples; those in boxes and outside are dry. */
 static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
 {
     (void)gauge;
@@ -214,11 +239,11 @@ static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
         int i[3];
         double w[3];
         f.value[k][3] = f.step;
-        if (!locate(s, f.x[k], i, w) || is_blocked(s, host_at(s, i, w)))
+        if (is_outside(&s->b, f.x[k]))
             continue;
         if (faces)
-            look_at_faces(s, &f, i, w, f.value[k]);
-        else
+            look_at_faces(s, &f, f.x[k], f.value[k]);
+        else if (locate(s, f.x[k], i, w) && !is_blocked(s, host_at(s, i, w)))
             look_at(s, &f, f.x[k], i, w, f.value[k]);
     }
     const double sum = flow_samples_sum(&f, s->dim);

@@ -34,15 +34,19 @@ static void set_velocity(struct fv *s, double top)
 }
 
 /* Gauges at a wall (or on a box), beside it, in the middle, and of what flows between two heights
- * that are faces of cells. */
-static void reads_the_cubic(struct fv_case *c, double low, double high, double top)
+ * that are faces of cells, also where the section goes on beyond both. x: in a period. */
+static void reads_the_cubic(struct fv_case *c, double x, double low, double high, double top)
 {
     double values[8];
+    const double beyond = 0.5 * (high - low);
     struct scene *scene = &c->run.scene;
     add_gauge(scene, PROBE_VELOCITY, low, 0.0);
     add_gauge(scene, PROBE_VELOCITY, low + 0.013, 0.0);
     add_gauge(scene, PROBE_VELOCITY, low + 0.21, 0.0);
     add_gauge(scene, PROBE_DISCHARGE, high, low);
+    add_gauge(scene, PROBE_DISCHARGE, high + beyond, low - beyond);
+    for (int k = 0; k < scene->nprobes; k++)
+        scene->probes[k].at[0] = scene->probes[k].to[0] = x;
     wall_add(c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
     wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
     struct fv *s = fv_case_start(c, NULL);
@@ -53,8 +57,9 @@ static void reads_the_cubic(struct fv_case *c, double low, double high, double t
         assert_close(values[2 * n], cubic(y[n]), 1e-12);
         assert_close(values[2 * n + 1], 0.0, 1e-12);
     }
-    /* 400 samples: (1/400)^2/24 of the slopes' difference, 12 */
+    /* 400 samples: (1/400)^2/24 of the slopes' difference, 12; 200 of the longer one */
     assert_close(fabs(values[6]), integral(high) - integral(low), 4e-6);
+    assert_close(fabs(values[7]), integral(high) - integral(low), 1.6e-5);
     fv_free(&c->s);
     blocked_given_count = 0;
 }
@@ -63,20 +68,23 @@ TEST(cells_and_layers)
 {
     struct fv_case c;
     fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
-    reads_the_cubic(&c, 0.0, 1.0, 2.0);
+    reads_the_cubic(&c, 0.3, 0.0, 1.0, 2.0);
     fv_case_set(&c, MPI_COMM_WORLD,
                 (const char *const[]){REST, "fv.cells=(8,24)", "fv.graded=(0.5,8)", NULL});
-    reads_the_cubic(&c, 0.0, 1.0, 2.0);
+    reads_the_cubic(&c, 0.3, 0.0, 1.0, 2.0);
 }
 
 TEST(beside_a_box)
 {
-    struct fv_case c;
-    blocked_given[0] = (struct blocked_params){
-        .name = "sill", .min = {0, 0, 0}, .max = {1, 0.25, 0}, .kind = WALL_NO_SLIP};
-    blocked_given_count = 1;
-    fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
-    reads_the_cubic(&c, 0.25, 1.0, 2.0);
+    static const double x[3] = {0.3, 0.01, 0.99}; /* between centres that the period divides, too */
+    for (int k = 0; k < 3; k++) {
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
+        blocked_given[0] = (struct blocked_params){
+            .name = "sill", .min = {0, 0, 0}, .max = {1, 0.25, 0}, .kind = WALL_NO_SLIP};
+        blocked_given_count = 1;
+        reads_the_cubic(&c, x[k], 0.25, 1.0, 2.0);
+    }
 }
 
 TEST(under_a_surface)
@@ -87,7 +95,7 @@ TEST(under_a_surface)
                                       "fv.cells=(8,16)", NULL});
     c.run.scene.shapes[c.run.scene.nshapes++] =
         (struct scene_shape){.form = SHAPE_BELOW, .level = 0.5};
-    reads_the_cubic(&c, 0.0, 0.5, 0.5);
+    reads_the_cubic(&c, 0.3, 0.0, 0.5, 0.5);
 }
 
 /* A gauge on the face between water and air is in the water, on whichever side it stands. */

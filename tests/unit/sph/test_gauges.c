@@ -71,6 +71,29 @@ TEST(depths_are_measured_from_where_gravity_points)
     }
 }
 
+/* In 3D along z, either way: water of triangles, and of forms that have no ends there. */
+TEST(depths_of_all_forms_of_shapes)
+{
+    static struct scene_meshes meshes = {
+        .n = 1, .of = {{.owner = MESH_OF_SHAPE, .lo = {0, 0, 0.2}, .hi = {1, 1, 0.7}}}};
+    for (int up = 0; up < 2; up++) {
+        struct sph_case c;
+        tank(&c, 1, -9.81);
+        struct scene *s = &c.run.scene;
+        s->domain.dim = 3;
+        s->domain.max[2] = 1.0;
+        s->fluid.gravity[1] = 0.0;
+        s->fluid.gravity[2] = up ? 9.81 : -9.81;
+        assert_close(crossing_depth(s, 2), 1.0, 1e-12); /* a plane box */
+        s->shapes[0].form = SHAPE_POLYGON;
+        assert_close(crossing_depth(s, 2), 1.0, 1e-12);
+        s->shapes[0].form = SHAPE_MESH;
+        s->meshes = &meshes;
+        assert_close(crossing_depth(s, 2), up ? 0.8 : 0.7, 1e-12);
+        s->meshes = NULL;
+    }
+}
+
 /* A wave of 2 m in water of 0.503 m, which ends on no row. */
 static void wave(struct sph_case *c, int cells, double amplitude, double crest)
 {
