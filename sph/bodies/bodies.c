@@ -209,6 +209,8 @@ static void judge(const struct sph *s, const struct body *b, struct diagnosis *d
 void bodies_finish(struct sph *s, struct diagnosis *d)
 {
     const bool any_free = s->walls && s->walls->any_free;
+    const bool roams =
+        s->zones && box_motion_wanted(&s->prm); /* the box may leave a body at rest */
     if (any_free) {
         take_hits(s);
         body_contacts_finish(s->walls);
@@ -218,7 +220,7 @@ void bodies_finish(struct sph *s, struct diagnosis *d)
         struct body *b = s->walls->bodies + k;
         if (b->free)
             body_finish(b);
-        if (b->free || b->paddle || b->course)
+        if (b->free || b->paddle || b->course || roams)
             judge(s, b, d);
     }
 }

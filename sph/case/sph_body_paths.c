@@ -152,6 +152,17 @@ static struct room room_at(const struct run *r, const struct sph_params *used, d
     return is;
 }
 
+/* What to do with x, which is beyond the free zone along an axis but not beyond the domain. */
+static const char *zone_remedy(const struct scene_domain *d, const struct room *room, int axis,
+                               const double *x)
+{
+    const double image = scene_image_from(d, axis, room->lo[axis], x[axis]);
+    return image != x[axis] && image <= room->hi[axis]
+               ? key_text("sph.box lies in another period: draw it %+g m farther along %c",
+                          image - x[axis], "xyz"[axis])
+               : "only there it is known; keep it 2.5 R from openings, or make sph.box larger";
+}
+
 /* Whether a corner x of body k is in its room; when: the words for the time. */
 static bool check_room(const struct run *r, const struct room *room, int k, const char *name,
                        const double *x, const char *when, struct faults *f)
@@ -165,9 +176,7 @@ static bool check_room(const struct run *r, const struct room *room, int k, cons
         params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at %s, %s: %s", name,
                      leaves ? beyond_word(r, a) : "leaves the free zone of the particles across",
                      "xyz"[a], place_of(d->dim, x), when,
-                     leaves ? beyond_remedy(r, k, a)
-                            : "only there it is known; keep it 2.5 R from openings, or make "
-                              "sph.box larger");
+                     leaves ? beyond_remedy(r, k, a) : zone_remedy(d, room, a, x));
         return false;
     }
     return true;
@@ -532,8 +541,9 @@ static void check_size(const struct run *r, const struct sph_params *used, int k
                      r->scene.bodies[k].name, size, used->dx, 0.25 * size);
 }
 
-/* Motion is followed over times so near that the fastest body goes half a spacing between two, 2000
- * at most. Checks later in the list take for granted what those before have found in order. */
+/* Motion, of bodies and of a box, is followed over times so near that the fastest goes half a
+ * spacing between two, 2000 at most. Checks later in the list take for granted what those before
+ * have found in order. */
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
@@ -565,6 +575,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
         params_fault(r->params, f, "bodies",
                      "a body moves at %g m/s, above half the speed of sound, %g m/s: raise sph.c0",
                      speed, 0.5 * used->c0);
+    speed = fmax(speed, box_motion_speed(r, used)); /* of the room that they must stay in */
     const double wanted = fmin(2.0 * speed * c->time.end / used->dx, MOST_TIMES);
     const int times = speed > 0.0 ? (int)fmax(wanted, LEAST_TIMES) : 0;
     for (int i = 0; i <= times && plane; i++) {

@@ -55,9 +55,12 @@ static bool is_wet(const struct box_water *w, const double *x)
 /* Whether x lies within the box. */
 static bool is_inside(const struct box_water *w, const double box[2][3], const double *x)
 {
+    const struct scene_domain *d = &w->scene->domain;
     bool inside = true;
-    for (int a = 0; a < w->scene->domain.dim; a++)
-        inside = inside && x[a] > box[0][a] && x[a] < box[1][a];
+    for (int a = 0; a < d->dim; a++) {
+        const double at = scene_image_from(d, a, box[0][a], x[a]);
+        inside = inside && at > box[0][a] && at < box[1][a];
+    }
     return inside;
 }
 
@@ -173,6 +176,15 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
     return true;
 }
 
+/* Whether two boxes, each narrower than a period, have something in common along axis a. */
+static bool meet(const struct scene_domain *d, int a, double box[2][3], const double other[2][3])
+{
+    const double from = scene_image_from(d, a, box[0][a], other[0][a]);
+    const double to = from + other[1][a] - other[0][a];
+    const double next = box[0][a] + (d->periodic[a] ? d->max[a] - d->min[a] : INFINITY);
+    return (from < box[1][a] && to > box[0][a]) || to > next;
+}
+
 /* Several programs of particles, each with its box: what only one of them can have. This program
  * compares its box with all others; each program does. */
 static void check_several(const struct run *r, const struct sph_params *prm, struct faults *f)
@@ -197,7 +209,7 @@ static void check_several(const struct run *r, const struct sph_params *prm, str
         double box[2][3];
         bool apart = strcmp(names[k], r->name) == 0 || !box_of_group(r, prm, names[k], box);
         for (int a = 0; a < d->dim; a++)
-            apart = apart || box[1][a] <= prm->box[0][a] || box[0][a] >= prm->box[1][a];
+            apart = apart || !meet(d, a, box, prm->box);
         if (!apart)
             params_fault(r->params, f, "sph.box",
                          "it overlaps the box of group %s (with its zones %g to %g, %g to %g m): "
@@ -333,13 +345,15 @@ static void warn_gauges(const struct run *r, const struct sph_params *prm)
     zones_free_box(r, prm, free[0], free[1]);
     for (int k = 0; k < r->scene.nprobes && r->crossed; k++) {
         const struct scene_probe *p = r->scene.probes + k;
-        for (int a = 0; a < r->scene.domain.dim; a++)
+        for (int a = 0; a < r->scene.domain.dim; a++) {
+            const double at = scene_image_from(&r->scene.domain, a, prm->box[0][a], p->at[a]);
             if (p->kind == PROBE_LEVEL && !p->body[0] && !r->gauge_elsewhere[k] && a != up &&
-                !box_motion_along(r, prm, a) && (p->at[a] < free[0][a] || p->at[a] > free[1][a]))
+                !box_motion_along(r, prm, a) && (at < free[0][a] || at > free[1][a]))
                 log_warn("probes.[%d].at: %s stands in the transition or buffer of the particles, "
                          "whose levels are up to dx/3 too high there in waves: from %g to %g m "
                          "along %c they are free, and beyond their box fv reads it",
                          k, p->name, free[0][a], free[1][a], axes[a]);
+        }
     }
 }
 

@@ -38,9 +38,9 @@ static bool is_beyond(int dim, double box[2][3], const bool *open, const double 
     return out;
 }
 
-/* First time at which a corner of a driven body leaves the box by an open side, INFINITY: never; a
- * free one is watched as it goes. 500 times in the run are looked at, with all corners or
- * vertices. */
+/* First time at which a corner of a body leaves the box by an open side, INFINITY: never; a free
+ * one, and any that a box may leave whose way nobody knows, is watched as it goes. 500 times in the
+ * run are looked at, with all corners or vertices. */
 static double leaves(const struct run *r, const struct sph_params *prm, int k, double box[2][3],
                      const bool *open)
 {
@@ -51,7 +51,8 @@ static double leaves(const struct run *r, const struct sph_params *prm, int k, d
     double when = INFINITY;
     body_create(&b, c->bodies + k, scene_body_mesh(c, k), dim, r->motions);
     const int corners = body_corners(&b);
-    for (int t = 0; t <= (b.free || !b.moves ? 0 : TIMES) && when == INFINITY; t++) {
+    const int times = !b.free && (b.moves || box_motion_wanted(prm)) ? TIMES : 0;
+    for (int t = 0; t <= times && when == INFINITY; t++) {
         const double now = c->time.end * t / TIMES;
         double way[3], at[3] = {0.0, 0.0, 0.0};
         body_move(&b, now);
@@ -85,22 +86,28 @@ void coupling_check_bodies(const struct run *r, const struct sph_params *prm, st
     }
 }
 
-/* Whether a point of a wall lies inside the domain where FV computes the flow. The walls are at
- * rest, and so is the box. */
-static bool is_partners(const struct scene_domain *d, double box[2][3], const bool *open,
-                        const double *x)
+/* What sph gives at a time: the box has moved by way, m. */
+struct given_flow {
+    const struct scene_domain *domain;
+    double (*box)[3], way[3];
+    const bool *open;
+};
+
+/* Whether a point of a wall, which is at rest, lies inside the domain where FV computes the flow.
+ */
+static bool is_partners(const struct given_flow *g, const double *x)
 {
-    static const double rest[3] = {0.0, 0.0, 0.0};
+    const struct scene_domain *d = g->domain;
     bool inside = true;
     for (int a = 0; a < d->dim; a++)
         inside = inside && x[a] > d->min[a] && x[a] < d->max[a];
-    return inside && is_beyond(d->dim, box, open, rest, x);
+    return inside && is_beyond(d->dim, g->box, g->open, g->way, x);
 }
 
 /* A line that leaves where SPH gives the flow, inside the domain: the place where it does. Points
  * `step' apart along each segment. */
-static bool line_leaves(const struct run *r, const struct scene_wall *w, double box[2][3],
-                        const bool *open, double step, double *at)
+static bool line_leaves(const struct given_flow *g, const struct scene_wall *w, double step,
+                        double *at)
 {
     for (int i = 0; i + !w->closed < w->points.n; i++) {
         const double *a = w->points.x[i], *b = w->points.x[(i + 1) % w->points.n];
@@ -108,7 +115,7 @@ static bool line_leaves(const struct run *r, const struct scene_wall *w, double 
         for (int k = 0; k <= n; k++) {
             for (int c = 0; c < 2; c++)
                 at[c] = a[c] + k * (b[c] - a[c]) / n;
-            if (is_partners(&r->scene.domain, box, open, at))
+            if (is_partners(g, at))
                 return true;
         }
     }
@@ -116,8 +123,8 @@ static bool line_leaves(const struct run *r, const struct scene_wall *w, double 
 }
 
 /* The same of a surface of triangles, each looked at in points no farther than `step' apart. */
-static bool mesh_leaves(const struct run *r, const struct trimesh *m, double box[2][3],
-                        const bool *open, double step, double *at)
+static bool mesh_leaves(const struct given_flow *g, const struct trimesh *m, double step,
+                        double *at)
 {
     for (int t = 0; t < m->ntriangles; t++) {
         const double *v[3];
@@ -131,33 +138,55 @@ static bool mesh_leaves(const struct run *r, const struct trimesh *m, double box
             for (int j = 0; i + j <= n; j++) {
                 for (int c = 0; c < 3; c++)
                     at[c] = v[0][c] + (i * (v[1][c] - v[0][c]) + j * (v[2][c] - v[0][c])) / n;
-                if (is_partners(&r->scene.domain, box, open, at))
+                if (is_partners(g, at))
                     return true;
             }
     }
     return false;
 }
 
-/* Lines are not looked at where fv has blocks, which does so itself. */
+/* Whether wall k leaves what sph gives, and where. Lines are not looked at where fv has blocks,
+ * which does so itself. */
+static bool wall_leaves(const struct run *r, const struct sph_params *prm,
+                        const struct given_flow *g, int k, double *at)
+{
+    const struct scene_wall *line = r->scene.walls + k;
+    const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_OF_WALL, k);
+    return (line->points.n > 1 && !params_has_group(r->params, "blocks") &&
+            line_leaves(g, line, 0.5 * prm->dx, at)) ||
+           (mesh && mesh_leaves(g, &mesh->mesh, 0.5 * prm->dx, at));
+}
+
+/* A box that moves leaves every wall; where nobody knows how far, it is taken to be gone. */
 void coupling_check_walls(const struct run *r, const struct sph_params *prm, struct faults *f)
 {
+    const int times = box_motion_wanted(prm) ? 100 : 0;
     double box[2][3], at[3] = {0.0, 0.0, 0.0};
     bool open[6];
     coupling_hidden(r, prm, box);
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nwalls; k++) {
-        const struct scene_wall *line = r->scene.walls + k;
-        const struct scene_mesh *mesh = scene_mesh_of(&r->scene, MESH_OF_WALL, k);
+        const int before = f->n, dim = r->scene.domain.dim;
         if (solids_elsewhere(r, MESH_OF_WALL, k))
             continue;
-        if ((line->points.n > 1 && !params_has_group(r->params, "blocks") && /* fv looks at them */
-             line_leaves(r, line, box, open, 0.5 * prm->dx, at)) ||
-            (mesh && mesh_leaves(r, &mesh->mesh, box, open, 0.5 * prm->dx, at)))
-            params_fault(r->params, f, key_text("walls.[%d].%s", k, mesh ? "mesh" : "points"),
-                         "at (%g, %g, %g) m it is outside of %s m: fv, which has no walls but the "
-                         "domain's sides, takes only what lies deeper from sph; enlarge sph.box, "
-                         "lower coupling.overlap, or refine fv.cells",
-                         at[0], at[1], at[2], zones_extent(r->scene.domain.dim, box));
+        for (int i = 0; i <= times && f->n == before; i++) {
+            struct given_flow g = {.domain = &r->scene.domain, .box = box, .open = open};
+            const double t = times ? r->scene.time.end * i / times : 0.0;
+            const bool known = box_motion_foretold(r, prm, t, g.way) || i == 0;
+            for (int a = 0; a < dim && !known; a++)
+                g.way[a] = box_motion_along(r, prm, a) ? INFINITY : 0.0;
+            if (wall_leaves(r, prm, &g, k, at))
+                params_fault(
+                    r->params, f,
+                    key_text("walls.[%d].%s", k,
+                             scene_mesh_of(&r->scene, MESH_OF_WALL, k) ? "mesh" : "points"),
+                    "at (%g, %g, %g) m it is outside of %s m%s: fv, which has no walls but the "
+                    "domain's sides, takes only what lies deeper from sph; enlarge sph.box, lower "
+                    "coupling.overlap, or refine fv.cells%s",
+                    at[0], at[1], at[2], zones_extent(dim, box),
+                    i > 0 ? ", once the box has moved" : "",
+                    i > 0 ? key_text("; or leave %s out", box_motion_key(prm)) : "");
+        }
     }
 }
 

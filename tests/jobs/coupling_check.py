@@ -107,6 +107,17 @@ two = root + '/cases/taylor_green/two_boxes.cfg'
 accepts(two)
 refuses('overlaps the box of group sph_right', two, 'sph.free=((0.3,0.3),(1.1,0.7))')
 refuses('one that moves could meet another', two, 'sph.box_velocity=(0.1,0)')
+refuses('overlaps the box of group sph_right', two, 'sph.free=((-0.7,0.3),(-0.3,0.7))')  # one period on
+# a box that moves away from what rests in it, or lies in another period than that was drawn in
+solid = open(root + '/cases/taylor_green/case.cfg').read() + 'bodies: ( { name = "post"; radius = 0.05; centre = (0.5, 0.5); } );'
+accepts(solid)
+refuses('post.* leaves the free zone of the particles across x at .*, at t = ', solid, moves)
+refuses('lies in another period: draw it .1 m farther along x', solid, 'sph.free=((1.3,0.3),(1.7,0.7))')
+accepts(varied(solid, 'centre = (0.5', 'centre = (1.5'), 'sph.free=((1.3,0.3),(1.7,0.7))')
+post = solid[solid.index('bodies:'):]
+line = varied(solid, post, 'walls: ( { points = ((0.47, 0.47), (0.53, 0.47), (0.53, 0.53), (0.47, 0.53)); closed = true; } );')
+accepts(line)
+refuses('outside of .* once the box has moved', line, moves)
 
 # surfaces of triangles: where the particles are
 lib.box_stl('cube.stl', (0.4, 0.4, 0.4), (0.6, 0.6, 0.6))
