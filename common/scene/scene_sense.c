@@ -185,6 +185,44 @@ static void check_shape(const struct scene *s, const struct params *p, struct fa
     }
 }
 
+/* Whether some shape is what shape k is, moved by `way' along axis a. */
+static bool has_image(const struct scene *s, int k, int a, double way)
+{
+    double lo[3], hi[3], other_lo[3], other_hi[3];
+    bool any = false;
+    scene_shape_extent(s->shapes + k, lo, hi);
+    for (int l = 0; l < s->nshapes; l++) {
+        scene_shape_extent(s->shapes + l, other_lo, other_hi);
+        bool same =
+            s->shapes[l].form == s->shapes[k].form && s->shapes[l].hole == s->shapes[k].hole;
+        for (int b = 0; b < s->domain.dim; b++) {
+            const double off = b == a ? way : 0.0, near = 1e-4 * fabs(way);
+            same = same && fabs(other_lo[b] - lo[b] - off) < near &&
+                   fabs(other_hi[b] - hi[b] - off) < near;
+        }
+        any = any || same;
+    }
+    return any;
+}
+
+/* Shapes have no images: what of one lies beyond a period is cut off, unless it is drawn a second
+ * time. One as long as the period has all of it. */
+static void check_shape_periods(const struct scene *s, int k)
+{
+    const struct scene_domain *d = &s->domain;
+    double lo[3], hi[3];
+    scene_shape_extent(s->shapes + k, lo, hi);
+    for (int a = 0; a < d->dim; a++) {
+        const double L = d->max[a] - d->min[a], low = d->min[a] - lo[a], high = hi[a] - d->max[a];
+        const double most = fmax(low, high), way = low > high ? L : -L;
+        if (d->periodic[a] && most > 1e-3 * L && hi[a] - lo[a] < (1.0 - 1e-6) * L &&
+            !has_image(s, k, a, way))
+            log_warn("shape %d reaches %g m beyond the periodic side %s and is cut off there: draw "
+                     "it a second time, %g m along %c from it",
+                     k + 1, most, scene_side_names[2 * a + (low <= high)], way, "xyz"[a]);
+    }
+}
+
 /* Whether anything can ever set the fluid in motion. */
 static bool is_driven(const struct scene *s)
 {
@@ -204,8 +242,10 @@ static bool is_driven(const struct scene *s)
 
 static void check_water(const struct scene *s, const struct params *p, struct faults *f)
 {
-    for (int k = 0; k < s->nshapes; k++)
+    for (int k = 0; k < s->nshapes; k++) {
         check_shape(s, p, f, k);
+        check_shape_periods(s, k);
+    }
     if (s->nshapes > 0 && !is_driven(s))
         params_fault(p, f, "fluid.gravity",
                      "a free surface, and nothing that moves the fluid: give gravity, "

@@ -210,6 +210,11 @@ for cfl in 20, 2:
     edit('tank.cfg', 's/cells = (16, 16)/& ; integrator = "newton"; cfl = %d/' % cfl)
     quiet = start('fv', 'case.cfg', '--check', '-p', 'time.end=9') == 0 and not told('layers that grow')
     holds(quiet and told('longest wave has a period of .* fv.cfl below') == (cfl > 10), "newton's long steps of a basin, fv.cfl %d" % cfl)
+# what a shape has beyond a period is cut off: accepted, with a word, or without where the shape is drawn twice
+for second in '', ', { box = ((0.8, 0), (1.5, 0.5)); }':
+    edit('tank.cfg', r's/max = (1, 1)/&; periodic = (true, false)/; s/{ side = "x_m[a-z]*"; }, //g; s/((0, 0), (0.5, 0.5)); }/((-0.2, 0), (0.5, 0.5)); }%s/' % second)
+    cut = start('fv', 'case.cfg', '--check') == 0 and told('shape 1 reaches 0.2 m beyond the periodic side x_min and is cut off')
+    holds(cut == (not second) and told('run time'), 'a box beyond a period, drawn %s' % ('twice' if second else 'once'))
 # the picture of blocks has their names and what their sides are
 drawn = start('fv', 'block.cfg', '--check=picture', '-o', 'drawn') == 0 and told('run time')
 picture = open('drawn/fv-scene.svg').read() if drawn else ''
