@@ -39,6 +39,7 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
     double x[3] = {0.0, 0.0, 0.0}, out[3], most = 0.0;
     for (int a = 0; a < s->dim; a++)
         x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
+    to->level = at->level;
     to->lack = 1.0 - wall_share(at, body, x);
     to->room = to->lack;
     to->dry = false;
@@ -95,6 +96,14 @@ int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n
     mem_free(nodes.node);
     *of = to;
     return n;
+}
+
+bool seal_points_hold(const struct sph *s, const struct seal_point *of, int n)
+{
+    bool hold = true;
+    for (int k = 0; k < n && s->finer && hold; k++)
+        hold = level_at(s, of[k].is.x)->level == of[k].level;
+    return hold;
 }
 
 /* Share of the water at a point that particles are there for, 0 to 1. */
@@ -310,7 +319,7 @@ static bool is_as_measured(const struct sph *s, const struct seal_rest *rest)
             vec3_from(rest->at[k][a], now[k][a], e);
             most = fmax(most, vec3_length(e));
         }
-    return s->dim == 3 && most < 0.02 * s->dx;
+    return s->dim == 3 && most < 0.02 * s->dx && seal_points_hold(s, rest->of, rest->n);
 }
 
 static const struct seal_rest *rest_of(const struct sph *s, int body)

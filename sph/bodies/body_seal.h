@@ -10,6 +10,7 @@
 struct seal_point {
     struct average_node is;
     int body, other;  /* the body; body or -1: walls at rest */
+    int level;        /* that flows there, whose R all that follows is measured with */
     bool dry;         /* the other lies on it */
     bool rim;         /* the other hardly matters there */
     double far;       /* -: 0 near the rim, 1 far from it */
@@ -24,6 +25,8 @@ bool seals_mark(struct walls *w, int body);
 /* The points of a body that face others with which it is sealed (walls->sealed), of two bodies
  * those of the first alone; appended to *of[n], owned by the caller; returns the new n. */
 int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n);
+/* Whether the levels of refinement that flow at the points [n] are those they are measured with. */
+bool seal_points_hold(const struct sph *s, const struct seal_point *of, int n);
 /* Presses the points [n] of one body, and their others with the opposite. Collective. */
 void seal_points_press(struct sph *s, const struct seal_point *of, int n);
 

@@ -41,16 +41,32 @@ static bool seal_body(const struct sph *s, int body)
 }
 
 /* Pairs that have been in contact since the start are marked first: what they exchange is left to
- * the seals of free bodies. The coarsest level's marks serve all levels. */
+ * the seals of free bodies. The coarsest level's marks serve all levels. Their points are laid when
+ * they are asked for, with the finest spacing and the R of the level that flows at each, for there
+ * is no finer level yet. */
 void body_wedges_find(struct sph *s)
 {
     struct walls *w = s->walls;
     for (int k = 0; k < w->nbodies && w->any_free && !s->coarser; k++)
         seals_mark(w, k);
     for (int k = 0; k < w->nbodies && !s->coarser; k++)
-        if (stays(w, k) && seal_body(s, k))
-            w->nwedges = seal_points_add(s, k, &w->wedge, w->nwedges);
-    mem_own(w, w->wedge);
+        w->wedged[k] = stays(w, k) && seal_body(s, k);
+}
+
+/* Anew when a region has come there, or has left. */
+static void lay_points(const struct sph *s)
+{
+    struct walls *w = s->walls;
+    if (w->wedge && seal_points_hold(s, w->wedge, w->nwedges))
+        return;
+    struct seal_point *to = NULL;
+    int n = 0;
+    for (int k = 0; k < w->nbodies; k++)
+        if (w->wedged[k])
+            n = seal_points_add(s, k, &to, n);
+    mem_free(w->wedge);
+    w->nwedges = n;
+    w->wedge = mem_own(w, to);
 }
 
 /* Points of one body stand together, and each body's are pressed at once, for they find the water
@@ -58,6 +74,11 @@ void body_wedges_find(struct sph *s)
 void body_wedges_add(struct sph *s)
 {
     const struct walls *w = s->walls;
+    bool any = false;
+    for (int k = 0; k < w->nbodies; k++)
+        any = any || w->wedged[k];
+    if (any)
+        lay_points(s);
     for (int k = 0, n; k < w->nwedges; k += n) {
         for (n = 1; k + n < w->nwedges && w->wedge[k + n].body == w->wedge[k].body;)
             n++;

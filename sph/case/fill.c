@@ -16,6 +16,7 @@
 #include "rims.h"
 #include "rooms.h"
 #include "surface_rows.h"
+#include "wall_gaps.h"
 
 /* In [-1, 1), a function of the particle alone, so the same on any number of ranks
  * (splitmix64: Steele, Lea & Flood, OOPSLA 2014). */
@@ -454,12 +455,15 @@ static void set_fields(struct sph *q, const struct exact *e, bool keep_volumes, 
     }
 }
 
-/* Of one finer level, when it has its children: rows at the surface, then packing. */
+/* Of one finer level, when it has its children: rows at the surface, gaps at walls, then packing.
+ */
 static void settle(struct sph *level)
 {
     surface_rows_renew(level);
-    if (level->prm.packing > 0)
-        pack_finer(level);
+    if (level->prm.packing == 0)
+        return;
+    wall_gaps_fill(level);
+    pack_finer(level);
 }
 
 void fill_check(struct sph *s, const struct fill *f)

@@ -150,8 +150,9 @@ struct walls {
      * wall_gap.c's. */
     bool sealed[BODIES_MAX + 1][BODIES_MAX + 1];
     const struct wall_joints *joints; /* of the present list of the model; NULL: it has none */
+    bool wedged[BODIES_MAX]; /* whether a body that stays stands too close to another for water */
     int nwedges;
-    struct seal_point *wedge; /* body_wedge.c: where bodies that stay stand too close for water */
+    struct seal_point *wedge;           /* body_wedge.c: where that is */
     struct seal_rest *rest[BODIES_MAX]; /* body_seal.c: the same of free bodies, as last measured */
     int nshut;
     struct shut_water *shut[SHUT_WATERS_MAX]; /* bodies/shut_water.h; owned */

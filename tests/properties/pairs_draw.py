@@ -370,6 +370,13 @@ def driven_edge(rng):
     return driven(s, rng.choice([[1.0, 0.0], [-1.0, 0.0]]), rng.uniform(0.5, 2) * s.dx)
 
 
+def flap_edge(rng):
+    """A flap that stands on a point on the floor or a side, in a refined region."""
+    s = flap_floor(rng)
+    around(s, s.bodies[0], rng)
+    return s
+
+
 def side_surface(rng):
     s = tank2(rng, rng.choice(["sides", "line", "period"]))
     s.gauges([s.dx * rng.uniform(1, s.n[0] - 1)])
@@ -779,6 +786,7 @@ PAIRS = [
     ("thin-rim", "rim of a thin mesh in water: a skirt, a baffle, 3D", 0, thin_rim),
     ("hinged-side", "hinged body x side or line", 1, hinged_side),
     ("hinged-surface", "hinged body x free surface", 1, hinged_surface),
+    ("flap-edge", "flap that stands on a point x level edge", 0, flap_edge),
     ("driven-side", "driven body x side or line", 1, driven_side),
     ("driven-surface", "driven body x free surface", 1, driven_surface),
     ("fall-floor", "free surface x floor: water that lands on it from wall to wall", 1, fall_floor),

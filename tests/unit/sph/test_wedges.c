@@ -3,6 +3,8 @@
 #include "../test.h"
 
 #include "../../../sph/bodies/bodies.h"
+#include "../../../sph/bodies/body_seal.h"
+#include "../../../sph/refinement/apr_params.h"
 #include "../../../sph/walls/forces.h"
 #include "sph_case.h"
 
@@ -12,10 +14,10 @@ static const double depth = 0.8, radius = 0.2;
 
 /* A tank of 1 m, dx 0.05 m, and a disc whose lowest corner is `low', m, above the floor, or a block
  * on it. */
-static struct sph *tank(struct sph_case *c, double low, bool block)
+static struct sph *tank_of(struct sph_case *c, int cells, double low, bool block, int packing)
 {
     static const double box[4][2] = {{0.3, 0.0}, {0.3, 0.4}, {0.7, 0.4}, {0.7, 0.0}};
-    struct scene *e = sph_case_tank(c, CELLS, 9.81, 3);
+    struct scene *e = sph_case_tank(c, cells, 9.81, 3);
     e->initial.level = 0.0;
     e->nshapes = 1;
     e->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = depth};
@@ -29,7 +31,13 @@ static struct sph *tank(struct sph_case *c, double low, bool block)
     c->prm.scheme = SCHEME_RIEMANN;
     c->prm.surface = true;
     c->prm.c0 = 40.0;
+    c->prm.packing = packing;
     return sph_case_start(c, NULL);
+}
+
+static struct sph *tank(struct sph_case *c, double low, bool block)
+{
+    return tank_of(c, CELLS, low, block, 0);
 }
 
 /* The force on the body of what is added alone, and on the walls. */
@@ -70,6 +78,39 @@ TEST(others_have_none)
 
 /* Of a plane floor: half of the kernel on it, nothing from R on; in the corner with a side three
  * quarters; and as much from a place just behind it. */
+static int flowing(const struct sph *s)
+{
+    int n = 0;
+    for (int i = 0; i < s->p.n; i++)
+        n += !particles_is_guard(&s->p, i);
+    return n;
+}
+
+/* All water is refined: the places are the finer level's, which fills the wedges, as in a tank of
+ * its spacing, and both levels' walls know the step. */
+TEST(finer_levels_know_wedges)
+{
+    struct sph_case c;
+    struct diagnosis d;
+    const int fine = tank_of(&c, 2 * CELLS, 0.0, false, 40)->p.n;
+    DROP(c.s);
+    apr_given = (struct apr_params){.levels = 1, .margin = 3.0, .regions.n = 1};
+    apr_given.regions.of[0] =
+        (struct apr_region){.level = 1, .min = {-1.0, -1.0, -1.0}, .max = {2.0, 2.0, 2.0}};
+    struct sph *s = tank_of(&c, CELLS, 0.0, false, 40);
+    apr_given = (struct apr_params){0};
+    integrate_step(s, 1.0, &d);
+    assert_int_equal(flowing(s), 0);
+    assert_close(flowing(s->finer), fine, 0.015 * fine); /* 2 % less with empty wedges */
+    assert_true(s->dt > 0.0 && s->finer->dt == s->dt);
+    assert_true(s->walls->nwedges > 0);
+    for (int k = 0; k < s->walls->nwedges; k++) {
+        assert_int_equal(s->walls->wedge[k].level, 1);
+        assert_true(s->walls->wedge[k].is.area <= 0.26 * c.prm.dx);
+    }
+    DROP(c.s);
+}
+
 TEST(shares_of_planes)
 {
     struct sph_case c;
