@@ -24,14 +24,27 @@ def values(text):
     return [v.strip() for v in found]
 
 
+def files_of(case, words=()):
+    """A case's file and all that it names in quotes, or that these words set keys to: included parts, tables, shapes, grids."""
+    folder, parts, found = os.path.dirname(case) or '.', [case], set()
+    names = [word.partition('=')[2].strip('"') for word in words]
+    while parts:
+        part = parts.pop()
+        if part not in found and os.path.isfile(part):
+            found.add(part)
+            with open(part, encoding='utf-8', errors='replace') as f:
+                text = f.read()
+            parts += [os.path.join(folder, name) for name in re.findall(r'@include\s*"([^"]+)"', text)]
+            names += re.findall(r'"([^"\n]+)"', text)
+    return sorted(found | {os.path.join(folder, name) for name in names if os.path.isfile(os.path.join(folder, name))})
+
+
 def state_of(case, words):
-    """What a run of the case with these words would depend on: the words, the case's file and the tables and shapes beside it."""
+    """What a run of the case with these words would depend on: the words, the case's file and the files that it names."""
     at = next((c for c in (case, os.path.join(case, 'case.cfg'), os.path.join(os.path.dirname(launcher), case, 'case.cfg'))
                if os.path.isfile(c)), case)
-    folder = os.path.dirname(at) or '.'
-    beside = [at] + [os.path.join(folder, n) for n in sorted(os.listdir(folder)) if n.endswith(('.cfg', '.csv', '.svg', '.stl', '.obj', '.ply'))]
     to = hashlib.sha256('\0'.join(words).encode())
-    for path in filter(os.path.isfile, beside):
+    for path in files_of(at, words):
         with open(path, 'rb') as f:
             to.update(f.read())
     return to.hexdigest()

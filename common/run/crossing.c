@@ -180,8 +180,8 @@ void crossing_deal(struct run *r, struct faults *f)
             continue;
         }
         for (int q = 0; q < n; q++)
-            inside = inside || (holds(c, up, box[q], g) &&
-                                !(g->kind == PROBE_LEVEL && is_drowned(c, up, box[q], g)));
+            inside = inside || (holds(c, up, box[q], g) && !(g->kind == PROBE_LEVEL && up >= 0 &&
+                                                             is_drowned(c, up, box[q], g)));
         if (shared && (g->body[0] || (!r->crossed && !probe_is_point(g))))
             r->gauge_elsewhere[k] = !particles; /* what moves, and a surface that is theirs alone */
         else

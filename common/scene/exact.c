@@ -255,6 +255,8 @@ bool exact_until_end(const struct scene *s)
     const struct exact e = exact_create(s);
     const bool solitary = s->initial.field == FIELD_SOLITARY;
     const double crest = e.steady.x + e.steady.c * s->time.end;
+    if (solitary && s->domain.periodic[0] && crest > s->domain.max[0])
+        return false; /* it comes in again at the other end */
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         const bool end = (w->side == SIDE_X_MIN && !solitary) || w->side == SIDE_X_MAX;

@@ -29,6 +29,8 @@ void fv_unused_check(const struct run *r, struct faults *f);
 void fv_scene_complete(struct run *r);
 /* Says which sides these are. */
 void fv_scene_describe(const struct run *r);
+/* Faults of wall k of the scene that are such on cells and on blocks: what fv does not have. */
+void fv_wall_check(const struct run *r, struct faults *f, int k);
 /* Faults of a scene on a grid of cells that contradicts itself. */
 void fv_scene_check(const struct run *r, struct faults *f);
 /* The same of its free surface alone, on any grid. */

@@ -47,21 +47,25 @@ static void wall_fault(const struct run *r, struct faults *f, int k, const char 
 
 /* --- walls and openings --- */
 
+void fv_wall_check(const struct run *r, struct faults *f, int k)
+{
+    const struct scene_wall *w = r->scene.walls + k;
+    const struct fv_params *prm = fv_params_of(r);
+    if (w->kind == WALL_ABSORBING)
+        wall_fault(r, f, k, "\"absorbing\" is not for this solver");
+    if (w->zone != ZONE_NONE && prm->integrator == INTEGRATOR_NEWTON)
+        wall_fault(r, f, k, "newton has no beaches and makes no waves: rk3 or bdf2 do");
+    if (w->carried && (w->kind != WALL_OUTFLOW || prm->steady))
+        wall_fault(r, f, k, "carried (convective outflow) is for an outflow of a run in time");
+}
+
 /* Of one wall alone, whatever the others are. */
 static void check_wall(const struct run *r, struct faults *f, int k)
 {
     const struct scene_wall *w = r->scene.walls + k;
-    const bool steady = fv_params_of(r)->steady;
     if (w->side == SIDE_NONE && !(r->coupled && r->scene.has_sph)) /* there it is the partner's */
         wall_fault(r, f, k, "a polyline is not for this solver");
-    if (w->kind == WALL_ABSORBING)
-        wall_fault(r, f, k, "\"absorbing\" is not for this solver");
-    if (w->zone != ZONE_NONE && fv_params_of(r)->integrator == INTEGRATOR_NEWTON)
-        wall_fault(r, f, k, "newton has no beaches and makes no waves: rk3 or bdf2 do");
-    if (w->carried && w->kind != WALL_OUTFLOW)
-        wall_fault(r, f, k, "carried (convective outflow) is for an outflow");
-    else if (w->carried && steady)
-        wall_fault(r, f, k, "carried (convective outflow) is for an outflow of a run in time");
+    fv_wall_check(r, f, k);
     if (w->kind == WALL_NO_SLIP && !(r->scene.fluid.nu > 0.0))
         wall_fault(r, f, k,
                    "without viscosity (fluid.nu) a wall exerts no friction: kind = \"slip\", or a "

@@ -129,14 +129,11 @@ static bool has_partner(const struct run *r) { return r->coupled && r->scene.has
 
 static void check_wall(const struct run *r, struct faults *f, int k)
 {
-    const struct scene_wall *w = r->scene.walls + k;
-    const char *key = key_text("walls.[%d]", k);
-    if (w->side == SIDE_NONE && !has_partner(r))
-        params_fault(r->params, f, key,
+    if (r->scene.walls[k].side == SIDE_NONE && !has_partner(r))
+        params_fault(r->params, f, key_text("walls.[%d]", k),
                      "walls within the domain are a block's sides here (blocks.i_min = \"wall\")");
-    else if (w->carried && (w->kind != WALL_OUTFLOW || fv_params_of(r)->steady))
-        params_fault(r->params, f, key,
-                     "carried (convective outflow) is for an outflow of a run in time");
+    else
+        fv_wall_check(r, f, k);
 }
 
 /* A wall of the scene that no block has is a mistake. */

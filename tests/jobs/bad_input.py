@@ -282,6 +282,7 @@ faulty('basin', 's/16);/16); integrator = "newton"; pseudo_cfl = 0.3;/', 'fv.pse
 faulty('basin', 's/16);/16); integrator = "newton"; tol_pressure = 1e-3;/', 'fv.tol_pressure: is not used', 'fv')
 faulty('basin', 's/nu = 0.01/nu = 0.0/', r'case.cfg:5: walls.\[0\]: .*a wall exerts no friction', 'fv')
 faulty('block', 's/nu = 0.01/nu = 0.0/', r'blocks.\[0\].i_min: .*a wall exerts no friction', 'fv')
+faulty('block', r's/i_max = "wall"; //; s/^blocks/walls: ( { side = "x_max"; kind = "absorbing"; } );\n&/', 'wall 1: "absorbing" is not for this solver', 'fv')
 faulty('basin', 's/nu = 0.01/nu = 0.0/; s/no_slip/slip/g; s/16);/16); tol_viscous = 1e-5;/', 'fv.tol_viscous: is not used', 'fv')
 faulty('basin', 's/16);/16); force = (1.0, 0.0, 0.0);/', 'fv.force: is not used', 'fv')
 faulty('basin', 's/max = (1, 1)/max = (1, 1, 1)/', 'domain.max: .*component', 'fv')

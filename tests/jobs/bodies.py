@@ -79,6 +79,7 @@ for form in 'monaghan', 'morris':
 wave = changed(TANK, time='end = 0.05;', domain='max = (6, 1);', walls=sides('x_min x_max y_min'), sph='dx = 0.1;',
                initial='field = "solitary"; amplitude = 0.1; crest = 3.0; level = 0.5;').replace('shapes:', '# shapes:')
 for name, known, case in (('plain', True, wave), ('reached', False, wave.replace('crest = 3.0', 'crest = 5.95')),
+                          ('round', False, changed(wave, domain='max = (6, 1); periodic = (true, false);', walls=sides('y_min')).replace('crest = 3.0', 'crest = 5.95')),
                           ('slope', False, wave.replace('walls: (', 'walls: ( { points = ((6, 0.9), (4, 0), (0, 0)); }, ').replace(', { side = "y_min"; kind = "slip"; }', '')),
                           ('hull', False, changed(wave, bodies='{ box = ((5, 0.3), (5.5, 0.7)); }'))):
     run_case(name, case)

@@ -92,4 +92,17 @@ if says('run again', 'said.txt'):
 does(sweep + '0.05')
 if open('said.txt').read().count('run again') != 3:
     bad('a sweep to another end', 'said.txt')
+# what a case includes, and the files that it names, belong to it
+lib.write('my/whole.cfg', 'format = 1;\n@include "rest.inc"\n')
+for k, nu in enumerate((0.1, 0.1, 0.2)):
+    lib.write('my/rest.inc', '''time: { end = 0.02; };
+fluid: { nu = %g; gravity = (0.8, 0); };
+domain: { max = (1, 1); periodic = (true, false); };
+walls: ( { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; } );
+fv: { cells = (8, 8); };
+output: { snapshots = false; };
+''' % nu)
+    does('sweep my/whole.cfg fv.cfl=0.8 -o whole')
+    if says('run again', 'said.txt') != (k == 2):
+        bad('a sweep of a case in two files, viscosity %g' % nu, 'said.txt')
 lib.end('%d faults' % lib.failed)
