@@ -72,8 +72,7 @@ static bool holds(const struct scene *c, int up, double box[2][3], const struct 
     bool inside = true;
     for (int a = 0; a < c->domain.dim; a++)
         if (box[1][a] > box[0][a] && (a != up || probe_is_point(g))) {
-            const double x =
-                probe_is_point(g) ? scene_image_from(&c->domain, a, box[0][a], g->at[a]) : g->at[a];
+            const double x = scene_image_from(&c->domain, a, box[0][a], g->at[a]);
             const double eps = 1e-9 * (box[1][a] - box[0][a]);
             const double low = box[0][a] > c->domain.min[a] + eps ? eps : -eps;
             const double high = box[1][a] < c->domain.max[a] - eps ? eps : -eps;
@@ -125,10 +124,10 @@ static void section_in(const struct scene *c, double box[2][3], const struct sce
     for (int a = 0; a < c->domain.dim; a++) {
         if (box[1][a] <= box[0][a])
             continue;
-        const double lo = scene_image_from(&c->domain, a, box[0][a], fmin(g->at[a], g->to[a]));
+        const double eps = 1e-9 * (box[1][a] - box[0][a]), from = fmin(g->at[a], g->to[a]);
+        const double lo = scene_image_from(&c->domain, a, box[0][a] - eps, from);
         const double hi = lo + fabs(g->to[a] - g->at[a]);
-        const double eps = 1e-9 * (box[1][a] - box[0][a]);
-        *part = *part && lo < box[1][a] - eps && hi > box[0][a] + eps;
+        *part = *part && scene_ranges_meet(&c->domain, a, box[0][a] + eps, box[1][a] - eps, lo, hi);
         *all = *all && lo >= box[0][a] - eps && hi <= box[1][a] + eps;
     }
     *all = *all && *part;

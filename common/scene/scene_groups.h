@@ -258,6 +258,15 @@ static inline double scene_image_from(const struct scene_domain *d, int a, doubl
     return d->periodic[a] ? x - L * floor((x - lo) / L) : x;
 }
 
+/* Whether from..to along axis a, m, has something in common with lo..hi, each no longer than a
+ * period, in whatever period. */
+static inline bool scene_ranges_meet(const struct scene_domain *d, int a, double lo, double hi,
+                                     double from, double to)
+{
+    const double x = scene_image_from(d, a, lo, from), next = lo + d->max[a] - d->min[a];
+    return (x < hi && x + to - from > lo) || (d->periodic[a] && x + to - from > next);
+}
+
 /* Whether a wall is an opening with fluid outside, i.e. inflow, outflow, absorbing, wave or beach,
  * but not falls. Wave and beach are marked as slip walls before anyone asks. */
 static inline bool scene_wall_opens(const struct scene_wall *w)

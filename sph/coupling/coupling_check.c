@@ -176,15 +176,6 @@ static bool box_of_group(const struct run *r, const struct sph_params *prm, cons
     return true;
 }
 
-/* Whether two boxes, each narrower than a period, have something in common along axis a. */
-static bool meet(const struct scene_domain *d, int a, double box[2][3], const double other[2][3])
-{
-    const double from = scene_image_from(d, a, box[0][a], other[0][a]);
-    const double to = from + other[1][a] - other[0][a];
-    const double next = box[0][a] + (d->periodic[a] ? d->max[a] - d->min[a] : INFINITY);
-    return (from < box[1][a] && to > box[0][a]) || to > next;
-}
-
 /* Several programs of particles, each with its box: what only one of them can have. This program
  * compares its box with all others; each program does. */
 static void check_several(const struct run *r, const struct sph_params *prm, struct faults *f)
@@ -209,7 +200,8 @@ static void check_several(const struct run *r, const struct sph_params *prm, str
         double box[2][3];
         bool apart = strcmp(names[k], r->name) == 0 || !box_of_group(r, prm, names[k], box);
         for (int a = 0; a < d->dim; a++)
-            apart = apart || !meet(d, a, box, prm->box);
+            apart = apart ||
+                    !scene_ranges_meet(d, a, box[0][a], box[1][a], prm->box[0][a], prm->box[1][a]);
         if (!apart)
             params_fault(r->params, f, "sph.box",
                          "it overlaps the box of group %s (with its zones %g to %g, %g to %g m): "

@@ -13,13 +13,20 @@
 #include "discharge_gauge.h"
 #include "shore.h"
 
-/* The gauge where it is now: one that is fixed to a body moves with it. */
+/* The gauge where it is now: one that is fixed to a body moves with it, one in a box that reaches
+ * over a period is there as its image. */
 static struct scene_probe placed(const struct sph *s, const struct scene_probe *g)
 {
+    const struct scene_domain *d = &s->run->scene.domain;
     struct scene_probe now = *g;
     for (int k = 0; g->body[0] && k < s->run->scene.nbodies; k++)
         if (strcmp(s->run->scene.bodies[k].name, g->body) == 0)
             body_place(s->walls->bodies + k, g->at, now.at);
+    for (int a = 0; a < s->dim; a++) {
+        const double at = now.at[a];
+        now.at[a] = s->periodic[a] ? at : scene_image_from(d, a, s->lo[a], at);
+        now.to[a] += now.at[a] - at;
+    }
     return now;
 }
 

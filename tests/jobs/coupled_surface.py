@@ -107,6 +107,25 @@ job('crests', varied(ripples, '0.0005', '0.05'), 'time.end=0.02 sph.dx=0.025 sph
 gauge('crests', 'fv', 'inside', 0.5)
 not_read('crests', sph='inside')
 
+# a box that reaches over a period holds what the case gives in the first one: levels, sections
+round_trip = '''format = 1;
+time:    { end = 0.1; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; min = (0, 0); max = (4, 0.7); periodic = (true, false); };
+walls:   ( { side = "y_min"; }, { side = "y_max"; } );
+initial: { field = "uniform"; velocity = (0.2, 0); level = 0.5; };
+shapes:  ( { form = "below"; level = 0.5; } );
+probes:  ( { name = "inside"; kind = "level"; at = (0.2, 0.5); }, { name = "flow"; kind = "discharge"; at = (0.2, 0.1); to = (0.2, 0.4); } );
+sph:     { dx = 0.05; box = ((3.2, 0), (4.8, 0.7)); };
+fv:      { cells = (40, 14); };
+output:  { snapshots = false; };
+'''
+job('round', round_trip)
+gauge('round', 'sph', 'inside', 0.5)
+close('discharge in a box over a period', last('round/sph-series.csv', 'flow'), 0.06, 0.02)
+not_read('round', fv='inside')
+refused_by('sph', round_trip, r'\(0.2, 0.1\); to = \(0.2', '(2.9, 0.1); to = (3.5', 'flow: a discharge is read by one program')
+
 # a tank as narrow as two supports: an imposed cell has images beyond both of its sides; 3D, gravity along -y
 job('narrow', '''format = 1;
 time:    { end = 0.3; };
