@@ -52,6 +52,7 @@ static void mark(const struct fv *s, struct blocked *w)
     for (int k = 0; k < n; k++)
         blocked_cells(&s->run->scene.domain, &s->prm, k, cells[k][0], cells[k][1]);
     w->box = NEW_IN(w, unsigned char, b->size);
+    w->vent = NEW_IN(w, unsigned char, b->size);
     for (int64_t c = 0; c < b->size; c++) {
         int at[3];
         block_place(b, c, at);

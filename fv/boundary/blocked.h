@@ -43,6 +43,9 @@ struct beside_box {
 /* The boxes as this rank has them; s->blocked. Arrays are owned. */
 struct blocked {
     unsigned char *box; /* [size] 0: free, else 1 + the box's number; ghosts as the cells before */
+    /* [size] bit 2 a + up: air comes in through the box's face below or above the cell along a; of
+     * this rank's cells and one layer around. surface/vents.c sets it. */
+    unsigned char *vent;
     int64_t nnear[3];
     struct near_box *near[3];
     double (*slip[3])[2][3]; /* m/s: what the next projection takes off the velocity on a box behind
@@ -78,6 +81,11 @@ int blocked_stack(const struct fv *s, const int *at, int a, int way);
 static inline bool is_blocked(const struct fv *s, int64_t c)
 {
     return s->blocked && s->blocked->box[c];
+}
+/* Whether air comes in through the box's face along a below (up 0) or above the cell c. */
+static inline bool blocked_vents(const struct fv *s, int a, int64_t c, int up)
+{
+    return s->blocked && s->blocked->vent[c] >> (2 * a + up) & 1;
 }
 /* q of the neighbour c + d, or that of c where a box is there. */
 static inline double blocked_beside(const struct fv *s, const double *q, int64_t c, int64_t d)

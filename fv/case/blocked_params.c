@@ -151,15 +151,15 @@ static void note_gap(const struct run *r, struct coarse *g, int a, int box, int 
     }
 }
 
-/* Inviscid water that leaves sharp edges under a gate (fv/NOTES.md): with 4, 8
- * cells 0.70 to 0.76, 0.67 to 0.71 of the gap for 0.605. */
+/* Inviscid water that leaves a slot under water: with 4 cells 0.83 of it for 0.73; into the air it
+ * parts from sharp edges (surface/vents.c). */
 static void warn_narrow(const struct coarse *g)
 {
     enum { ENOUGH = 12 };
     if (g->narrow > 0 && g->narrow < ENOUGH)
         log_warn(
-            "box \"%s\": %d cells along %c between it and what is next: a jet out of so narrow "
-            "an opening contracts too little, and 15 (4 cells) to 10 %% (8) too much passes at "
+            "box \"%s\": %d cells along %c between it and what is next: under water a jet out of "
+            "so narrow an opening contracts too little, and 13 %% (4 cells) too much passes at "
             "a given head; more cells (fv.cells) if that matters",
             g->prm->boxes[g->beside].name, g->narrow, "xyz"[g->across]);
 }

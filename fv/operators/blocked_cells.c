@@ -34,6 +34,14 @@ static double wall_value(const double *q, int64_t in, enum blocked_ghost rule)
     return rule == GHOST_EVEN ? (7.0 * q[0] - q[in]) / 6.0 : 0.0;
 }
 
+/* On the face of a box below or above the cell at c, which may let air in: q goes with it. */
+static double box_value(const struct fv *s, const double *q, int64_t c, int a, int up,
+                        enum blocked_ghost rule)
+{
+    return blocked_vents(s, a, c, up) ? q[c]
+                                      : wall_value(q + c, (up ? -1 : 1) * s->b.stride[a], rule);
+}
+
 /* layer: between dry cells alone; NULL: everywhere. */
 static void set_faces(const struct fv *s, int q, int a, const double *u, const double *U, double C,
                       const unsigned char *layer, double *face)
@@ -46,14 +54,16 @@ static void set_faces(const struct fv *s, int q, int a, const double *u, const d
         enum blocked_ghost rule[2];
         double v[5];
         rules(s, x, q, a, rule);
-        if (x->free[0] == 0)
-            face[c] = wall_value(u + c, d, rule[0]);
-        else if ((x->free[0] < 2 || x->free[1] < 1) && (!layer || (layer[c] && layer[c - d]))) {
+        const bool all = !layer || layer[c];
+        if (x->free[0] == 0 && all)
+            face[c] = box_value(s, u, c, a, 0, rule[0]);
+        else if (x->free[0] > 0 && (x->free[0] < 2 || x->free[1] < 1) &&
+                 (!layer || (layer[c] && layer[c - d]))) {
             blocked_line(x, u, d, 2, rule, v + 2);
             face[c] = face_value(v + 2, C > 0.0 ? U[c] : 0.0, C);
         }
-        if (x->free[1] == 0)
-            face[c + d] = wall_value(u + c, -d, rule[1]);
+        if (x->free[1] == 0 && all)
+            face[c + d] = box_value(s, u, c, a, 1, rule[1]);
     }
 }
 
@@ -84,7 +94,7 @@ static double product(const struct beside_box *x, const double *U, const double 
 }
 
 /* First the products along the tangents t, then the fluxes through the boxes' own faces, which are
- * 0. */
+ * 0 but for air that comes in. */
 void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const double *face,
                     double *F)
 {
@@ -99,10 +109,11 @@ void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const dou
         }
     for (int64_t k = 0; k < w->nnear[a]; k++) {
         const struct near_box *x = w->near[a] + k;
-        if (x->free[0] == 0)
-            F[x->cell] = 0.0;
-        if (x->free[1] == 0)
-            F[x->cell + d] = 0.0;
+        for (int up = 0; up < 2; up++) {
+            const int64_t at = x->cell + up * d;
+            if (x->free[up] == 0)
+                F[at] = blocked_vents(s, a, x->cell, up) ? U[at] * face[at] : 0.0;
+        }
     }
 }
 

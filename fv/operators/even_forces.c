@@ -71,10 +71,10 @@ static double still_at(const struct fv *s, const struct side_face *f, const int 
 }
 
 /* The fluxes of the momentum equation, so that walls take what the flow loses. On a dry wall acts
- * nothing; beside one that is wet the cell's own pressure counts; of a face that the surface
- * crosses the wet share, whose water is at rest where the cell's centre is of air and has no
- * pressure. With p the pressure on the wall, out the outward direction and d/dn inwards,
- *   F_a += out A (p + rho g.(x - level) + p_partners),   F_q += A mu du_q/dn. */
+ * nothing, nor on a box's face that lets air in; beside one that is wet the cell's own pressure
+ * counts; of a face that the surface crosses the wet share, whose water is at rest where the cell's
+ * centre is of air and has no pressure. With p the pressure on the wall, out the outward direction
+ * and d/dn inwards, F_a += out A (p + rho g.(x - level) + p_partners),   F_q += A mu du_q/dn. */
 void even_face_force(const struct fv *s, const struct side_face *f, double sum[4])
 {
     const struct block *b = &s->b;
@@ -84,7 +84,7 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
     double p[3], xi[3] = {0.5, 0.5, 0.5}, edge[3] = {0.5, 0.5, 0.5};
     int at[3];
     bool deep = true;
-    if (is_blocked(s, c))
+    if (is_blocked(s, c) || (f->body && blocked_vents(s, f->a, c, f->side % 2)))
         return;
     part_index(f->part, c, at);
     const double share = wet_share(s, f, at, xi, edge), area = share * f->flow_area;

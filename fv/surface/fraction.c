@@ -383,7 +383,9 @@ static double plane_in(const struct fv *s, int64_t c, int a, double lo, double h
 static double water_across(const struct fv *s, int64_t c, int64_t d, int a, double v)
 {
     const struct fraction *f = s->surface->fraction;
-    const int64_t from = v > 0.0 ? c - d : c;
+    const int64_t from = v > 0.0 ? c - d : c, to = v > 0.0 ? c : c - d;
+    if (is_blocked(s, to)) /* air comes in there (vents.c), no water leaves */
+        return 0.0;
     const double C = f->C[from], part = lesser(1.0, fabs(v) / f->volume[from]);
     if (!fraction_is_mixed(C))
         return v * (surface_holds_none(s, from) ? lesser(1.0, C) : C);

@@ -88,4 +88,9 @@ static inline bool level_next_run(const double *phi, double band, int64_t end, i
     return *n > 0;
 }
 
+/* vents.c: which faces of boxes let air in, by the flow of the last step. Collective. Then their
+ * cuts along axis a. */
+void vents_find(struct fv *s);
+void vents_add_cuts(struct fv *s, int a);
+
 #endif

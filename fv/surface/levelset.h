@@ -90,16 +90,17 @@ struct surface {
     /* m^dim: volume to be conserved, including what has come in through openings; net volume that
      * the shifts have restored. */
     double volume0, returned;
-    double lost, gained;   /* m^dim: parts of returned: restored losses, removed surplus */
-    double passed;         /* m^dim: through openings and a partner's interface, in and out */
-    double whole;          /* m^dim: water of all programs of a coupled job at the start */
-    double entered;        /* m^dim: through openings, in less out */
-    double carried_in;     /* m^dim: the same of the first half of a step, by the shares */
-    double through[3];     /* m^dim/s: at the start of a step, see flows() */
-    double travelled;      /* -: cells that it has moved since the last reinitialisation */
-    double least, largest; /* m: sizes of cells */
-    struct band *band;     /* scratch of reinit.c, owned */
-    bool keeps;            /* slopes of phi behind inclined walls stay as they are */
+    double lost, gained;      /* m^dim: parts of returned: restored losses, removed surplus */
+    double passed;            /* m^dim: through openings and a partner's interface, in and out */
+    double whole;             /* m^dim: water of all programs of a coupled job at the start */
+    double entered;           /* m^dim: through openings, in less out */
+    double carried_in;        /* m^dim: the same of the first half of a step, by the shares */
+    double through[3];        /* m^dim/s: at the start of a step, see flows() */
+    double calm, calm_before; /* steps: surface_note_calm; at the start of a step */
+    double travelled;         /* -: cells that it has moved since the last reinitialisation */
+    double least, largest;    /* m: sizes of cells */
+    struct band *band;        /* scratch of reinit.c, owned */
+    bool keeps;               /* slopes of phi behind inclined walls stay as they are */
     bool inclined[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
     bool any_inclined;              /* those of some block */
     double across;          /* m: least spacing of cells across gravity, of 45 degrees and less */
@@ -176,6 +177,9 @@ void surface_reinit(struct fv *s, int steps);
 /* The same after a small change: exact beside the surface, one pseudo-time step elsewhere near
  * it. */
 void surface_redistance(struct fv *s);
+/* Once a step, and at the start, where blocks overlap: counts the steps since phi has been smooth
+ * all along the surface. Collective. */
+void surface_note_calm(struct fv *s, bool start);
 
 /* extension.c: finds the layers and stencils of the present phi. */
 void extension_build(struct fv *s);

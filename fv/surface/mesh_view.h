@@ -37,8 +37,8 @@ struct shared_cell {
 struct surface_mesh {
     double size[MESH_BLOCKS_MAX][3]; /* m: mean spacing of a part's cells along its indices */
     double *x[3];                    /* m: centres, with ghosts */
-    bool boxes; /* no blocks overlap, lines of cells are straight and at right angles, and no cell
-                   is flat, in all parts of all ranks */
+    bool boxes; /* lines of cells are straight and at right angles, and no cell is flat, in all
+                   parts of all ranks */
     double *line[MESH_BLOCKS_MAX][3]; /* m: of boxes, places of centres along an index, from the
                                          first ghost on; NULL: `size' apart */
     double *K[3][3];                  /* -: grad xi_a . grad xi_b, times the two sizes; a <= b */

@@ -15,6 +15,7 @@
 enum {
     NARROW = 6 /* the same each half step: those that are advected, and one */
 };
+enum { CALM = 20 };             /* steps until water is calm */
 static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surface that stay as is */
 
 /* Share of the step d after which the quadratic through q is 0; q[0] and q[d] differ in sign. */
@@ -151,13 +152,69 @@ static void mark_band(const struct fv *s, int width, double *mark)
     }
 }
 
+/* Whether phi bends little and is a distance at cell i of local row j. Sides mirror it, which says
+ * nothing: cells beside them pass. */
+static bool is_smooth(const struct fv *s, const struct part *p, const double *phi, int64_t i, int j)
+{
+    for (int a = 0; a < s->dim; a++) {
+        const int64_t d = p->stride[a];
+        if (surface_holds_none(s, i - d) || surface_holds_none(s, i + d))
+            return true;
+        if (fabs(bend(phi + i, d)) > 0.3 * s->surface->reinit->height(s, p, i, a, j))
+            return false;
+    }
+    const double slope = slope_of(s, p, phi, i, j);
+    return slope > 0.77 && slope < 1.27;
+}
+
+/* Whether the surface passes within a cell, counted across itself. */
+static bool is_near(const struct fv *s, const struct part *p, const double *phi, int64_t i, int j)
+{
+    double n[3], across = 0.0;
+    if (is_left_out(s, i) || fabs(phi[i]) > 1.5 * s->surface->largest * sqrt(s->dim))
+        return false;
+    surface_slopes(s, p, i, n);
+    for (int a = 0; a < s->dim; a++)
+        across += fabs(n[a]);
+    across /= fmax(1.0, slope_of(s, p, phi, i, j));
+    return fabs(phi[i]) <= fmax(across, s->surface->least);
+}
+
+/* Collective. */
+static bool is_calm(const struct fv *s, const double *phi)
+{
+    bool calm = true;
+    FLOW_ROWS_AT (s, part, j, c, len)
+        for (int64_t i = c; i < c + len && calm; i++)
+            calm = !is_near(s, part, phi, i, j) || is_smooth(s, part, phi, i, j);
+    return ranks_all(s->comm, calm);
+}
+
+/* Only where blocks overlap. Steps since the water became calm; what is so at the start has long
+ * been. */
+void surface_note_calm(struct fv *s, bool start)
+{
+    struct surface *f = s->surface;
+    if (!f->reinit->is_known || !grid_overlaps(&s->grid))
+        return;
+    f->calm = is_calm(s, f->phi) ? fmin(start ? CALM : f->calm + 1.0, CALM) : 0.0;
+}
+
+/* Whether distances that closest.c knows are held. Where blocks overlap films lose twice as much by
+ * them, and no share of water keeps it: there in calm water alone. */
+static bool holds_exact(const struct fv *s)
+{
+    const struct surface *f = s->surface;
+    return f->reinit->is_known && (!grid_overlaps(&s->grid) || f->calm == CALM);
+}
+
 /* The band's cells; all others are at least as far off as it is wide. */
 static void list_band(struct fv *s, int width, struct band *w)
 {
     double *phi = s->surface->phi, *mark = s->surface->phi_new, *exact = s->surface->rate;
     const double far = s->surface->least * (width - 1);
     bool (*const is_known)(const struct fv *, const struct part *, const double *, int64_t, bool,
-                           double *) = s->surface->reinit->is_known;
+                           double *) = w->exact ? s->surface->reinit->is_known : NULL;
     int64_t cells = 0;
     mark_band(s, width, mark);
     FLOW_NEAR (s, c, len)
@@ -203,7 +260,7 @@ static void set_exact(struct fv *s, const struct band *w)
 {
     double *phi = s->surface->phi;
     const double *exact = s->surface->rate;
-    if (!s->surface->reinit->is_known)
+    if (!w->exact)
         return;
     for (int64_t k = 0; k < w->nspots; k++)
         if (w->spots[k].sign == 0.0)
@@ -250,11 +307,12 @@ static void redistance(struct fv *s, int width, int steps)
     struct surface *f = s->surface;
     if (!f->band)
         f->band = mem_own(f, NEW(struct band, 1));
+    f->band->exact = holds_exact(s);
     list_band(s, width, f->band);
     set_exact(s, f->band);
     s->surface->keeps = true;
     for (int k = 0; k < steps; k++)
-        (steps > 1 && s->surface->reinit->is_known ? carry_step : pseudo_step)(s, f->band);
+        (steps > 1 && f->band->exact ? carry_step : pseudo_step)(s, f->band);
     s->surface->keeps = false;
 }
 
@@ -265,4 +323,8 @@ void surface_reinit(struct fv *s, int steps)
     s->surface->reinits++;
 }
 
-void surface_redistance(struct fv *s) { redistance(s, NARROW, 1); }
+void surface_redistance(struct fv *s)
+{
+    if (holds_exact(s))
+        redistance(s, NARROW, 1);
+}

@@ -27,6 +27,7 @@ struct spot {
  */
 struct band {
     int64_t nstrips, nspots;
+    bool exact; /* distances that are known are held */
     struct strip *strips;
     struct spot *spots;
 };

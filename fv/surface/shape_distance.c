@@ -67,6 +67,29 @@ static bool is_closed(const struct fv *s, const struct scene_shape *h, const dou
     return is_wall(s, y, a, side, out) || is_block_wall(s, h, x, a, side, out);
 }
 
+/* m: along the side, from x, to where a box that is cut out no longer lies on it, and air does; its
+ * edges are faces of cells. INFINITY: not within CELLS of them, or not before the side ends. */
+static double to_open(const struct fv *s, const struct scene_shape *h, const double *x, int a,
+                      int upper)
+{
+    enum { CELLS = 12 };
+    double least = INFINITY;
+    for (int t = 0; t < s->dim && s->blocked; t++)
+        for (int way = -1; way <= 1 && t != a; way += 2) {
+            double y[3] = {x[0], x[1], x[2]};
+            for (int k = 1; k <= CELLS; k++) {
+                y[t] = x[t] + way * k * s->b.h[t];
+                if (h->box[1][t] > h->box[0][t] && (y[t] < h->box[0][t] || y[t] > h->box[1][t]))
+                    break;
+                if (!is_closed(s, h, y, a, upper)) {
+                    least = fmin(least, (k - 0.5) * s->b.h[t]);
+                    break;
+                }
+            }
+        }
+    return least;
+}
+
 /* Sides of the box that lie on or beyond the domain's, on a wall of a block, or on a box that is
  * cut out, are walls, not surface. What lies beyond such a side of a hole is far from it. */
 static double box(const struct fv *s, const struct scene_shape *h, const double *x)
@@ -88,6 +111,8 @@ static double box(const struct fv *s, const struct scene_shape *h, const double 
                 return INFINITY;
             if (!closed || h->hole)
                 d = fmax(d, beyond);
+            else if (beyond < 0.0) /* the surface begins beside what closes it */
+                d = fmax(d, -hypot(beyond, to_open(s, h, x, a, upper)));
         }
         in = fmax(in, d);
         out2 += d > 0.0 ? d * d : 0.0;

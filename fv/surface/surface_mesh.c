@@ -302,8 +302,7 @@ struct surface_mesh *surface_mesh_create(const struct fv *s, struct surface *f)
             w->slopes[a][up] = NEW_IN(w, double, most);
     set_out(s, w);
     set_sizes(s, w, f);
-    /* where blocks overlap films lose twice as much, and eight flat cells a wave are no cubics */
-    w->boxes = !s->m->has_fringe && f->largest <= 8.0 * f->least;
+    w->boxes = f->largest <= 8.0 * f->least; /* eight flat cells a wave are no cubics */
     for (int q = 0; q < s->grid.nparts; q++)
         w->boxes = set_lines(s, s->grid.part + q, w) && w->boxes;
     w->boxes = ranks_all(s->comm, w->boxes);

@@ -85,8 +85,13 @@ static bool dry_water_side(const struct fv *s, int64_t c)
     return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
 }
 
-/* Wet cells whose fourth-order gradient along a would read dry ones: they take the mean of their
- * two faces. */
+static bool has_vent(const struct fv *s, int a, int64_t c)
+{
+    return blocked_vents(s, a, c, 0) || blocked_vents(s, a, c, 1);
+}
+
+/* Wet cells whose fourth-order gradient along a would read dry ones, or a box's face that is none
+ * now: they take the mean of their two faces. */
 static void find_leaving(struct fv *s, int a)
 {
     struct surface *f = s->surface;
@@ -95,7 +100,8 @@ static void find_leaving(struct fv *s, int a)
     BLOCK_WET (s, 0, c, n)
         for (int64_t i = c; i < c + n; i++) {
             if (f->layer[i] || !(dry_water_side(s, i - d) || dry_water_side(s, i + d) ||
-                                 dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d)))
+                                 dry_water_side(s, i - 2 * d) || dry_water_side(s, i + 2 * d) ||
+                                 has_vent(s, a, i)))
                 continue;
             ROOM_IN(f, f->leaving[a], f->nleaving[a] + 1);
             f->leaving[a][f->nleaving[a]++] = i;
@@ -104,8 +110,12 @@ static void find_leaving(struct fv *s, int a)
 
 void level_find_cuts(struct fv *s)
 {
+    if (s->blocked && s->surface->fraction)
+        vents_find(s);
     for (int a = 0; a < s->dim; a++) {
         find_cuts(s, a);
+        if (s->blocked && s->surface->fraction)
+            vents_add_cuts(s, a);
         find_leaving(s, a);
     }
 }

@@ -90,7 +90,8 @@ static void add_surface(struct kept_numbers *to, struct surface *f)
     const struct kept_number volumes[] = {
         {"volume0", .real = &f->volume0},     {"returned", .real = &f->returned},
         {"lost", .real = &f->lost},           {"gained", .real = &f->gained},
-        {"travelled", .real = &f->travelled}, {"passed", .real = &f->passed}};
+        {"travelled", .real = &f->travelled}, {"passed", .real = &f->passed},
+        {"calm_steps", .real = &f->calm}};
     ADD(to, "surface", volumes);
     if (f->fraction) {
         struct fraction *q = f->fraction;

@@ -169,6 +169,7 @@ void surface_start(struct fv *s)
     }
     f->volume0 = surface_volume(s);
     rebuild(s);
+    surface_note_calm(s, true);
     if (f->fraction)
         fraction_note_layers(s);
     set_level(s);
@@ -188,6 +189,7 @@ static void refresh_band(struct fv *s)
 static void refresh(struct fv *s)
 {
     const double travelled = s->surface->travelled, before = s->surface->travelled_before;
+    surface_note_calm(s, false);
     if (travelled > 2.0)
         surface_reinit(s, REINIT_STEPS);
     else if (s->surface->reinit->is_known && floor(10.0 * travelled) != floor(10.0 * before))
@@ -404,6 +406,7 @@ void surface_keep_state(struct fv *s)
     }
     near_water_keep(s);
     s->surface->travelled_before = s->surface->travelled;
+    s->surface->calm_before = s->surface->calm;
     levels_keep(s);
     outflow_keep_budget(s);
     if (s->surface->fraction)
@@ -422,6 +425,7 @@ void surface_back(struct fv *s)
     outflow_restore(s);
     outflow_budget_back(s);
     s->surface->travelled = s->surface->travelled_before;
+    s->surface->calm = s->surface->calm_before;
     levels_back(s);
     if (s->surface->fraction)
         s->surface->fraction->first = s->surface->fraction->first_before;
