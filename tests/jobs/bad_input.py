@@ -228,7 +228,7 @@ def box(words, change):
 
 
 edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.625); } );\n&/')
-holds(start('fv', 'case.cfg', '--check') == 0 and told('box "b": 4 cells along x between it and what is next: a jet'), 'a narrow gap')
+holds(start('fv', 'case.cfg', '--check') == 0 and told('box "b": 4 cells along x between it and what is next: under water a jet'), 'a narrow gap')
 edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0, 0); max = (0.25, 0.25); } );\n&/')
 holds(start('fv', 'case.cfg', '--check') == 0 and not told('a jet out of'), 'a wide gap')
 
