@@ -79,9 +79,9 @@ $(B)/o/common/run/view.inc: common/run/view.py
 $(version_o): CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 $(version_o): $(wildcard .git/logs/HEAD)
 
-# ---- tests: unit/ has one program a file, jobs/ scripts and their partners (mock*.c know cpl.h alone) -------
-tests_src = $(wildcard tests/unit/*/test_*.c tests/bench/bench_*.c tests/jobs/toy*.c)
-tests_bin = $(patsubst %.c,$(B)/tests/%,$(notdir $(tests_src)))
+# ---- tests: unit/ is one program, jobs/ scripts and their partners (mock*.c know cpl.h alone) ----------------
+tests_src = $(wildcard tests/bench/bench_*.c tests/jobs/toy*.c)
+tests_bin = $(B)/tests/units $(patsubst %.c,$(B)/tests/%,$(notdir $(tests_src)))
 mocks = $(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls
 $(mocks): $(B)/tests/%: $(B)/o/tests/jobs/%.o $(B)/libcpl.a
 	@mkdir -p $(@D)
@@ -95,7 +95,7 @@ $(examples): $(B)/examples/%: $(B)/o/coupler/examples/%.o $(B)/public/libcpl.a #
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
 $(foreach f,$(tests_src),$(eval $(B)/tests/$(basename $(notdir $f)): $(B)/o/$(f:.c=.o)))
-$(filter $(B)/tests/test_%,$(tests_bin)): $(B)/o/tests/unit/unit.o
+$(B)/tests/units: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/unit/unit.c tests/unit/*/test_*.c))
 $(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a | $(version_o)
 	@mkdir -p $(@D)
 	@echo "LD $@"
@@ -110,13 +110,13 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 	@echo "LD $@"
 	@cc $(SAN) -o $@ $^ -lm
 # the tests' own lines take little of their time, and more than half of the compiler's if it is to make them fast
-$(B)/o/tests/unit/%.o: CFLAGS += -O0 -g1
-units: $(filter $(B)/tests/test_% $(B)/tests/toy%,$(tests_bin))
+$(B)/o/tests/unit/%.o: CFLAGS += -O0 -DUNIT=$(basename $(@F))
+units: $(filter $(B)/tests/units $(B)/tests/toy%,$(tests_bin))
 tests: all $(tests_bin) $(mocks) $(examples) $(preloaded) $(B)/tests/properties_scene
 # (a pointer that overflows is one past memory, too)
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-Og -march=native -fno-math-errno" \
-	    SAN="-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow -fno-omit-frame-pointer" units
+	    SAN="-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer" units
 
 # ---- what a user types ---------------------------------------------------------------------------------
 deps:

@@ -36,20 +36,38 @@ static inline bool is_alone(void)
     return size == 1;
 }
 
-/* A test of a unit, which enlists itself: TEST(what_holds) { .. }. They run under MPI, in the order
- * of the source; main stands in unit.c. */
+/* Units share one program, which runs the tests of one of them, in the order of the source; main
+ * stands in unit.c. UNIT, the name of the file, comes from the Makefile. */
+struct unit_test {
+    const char *unit, *name;
+    CMUnitTestFunction run;
+    void (*begin)(void); /* NULL: none */
+    int line;
+    struct unit_test *next;
+};
+void unit_enlist(struct unit_test *t); /* borrowed for good */
+
+#define UNIT_JOINED(a, b) a##b
+#define UNIT_JOIN(a, b) UNIT_JOINED(a, b)
+#define UNIT_QUOTED(a) #a
+#define UNIT_QUOTE(a) UNIT_QUOTED(a)
+
+/* What a unit does before its first test, under MPI; one that has nothing to do has no such
+ * function. */
+#define unit_begin UNIT_JOIN(begin_, UNIT)
+void unit_begin(void) __attribute__((weak));
+
+/* A test of a unit, which enlists itself: TEST(what_holds) { .. }. They run under MPI. */
 #define TEST(name)                                                                                 \
     static void name(void **state);                                                                \
     __attribute__((constructor)) static void enlist_##name(void)                                   \
     {                                                                                              \
-        unit_enlist(#name, name, __LINE__);                                                        \
+        static struct unit_test t = {UNIT_QUOTE(UNIT), #name, name, NULL, __LINE__, NULL};         \
+        t.begin = unit_begin;                                                                      \
+        unit_enlist(&t);                                                                           \
     }                                                                                              \
     static void name(__attribute__((unused)) void **state)
-void unit_enlist(const char *name, CMUnitTestFunction test, int line);
 
-/* What a unit does before its first test, under MPI; one that has nothing to do has no such
- * function. */
-void unit_begin(void);
 /* The path of a file for the tests of this unit, its last word `name`: the same on all ranks,
  * removed at the end. Of use within unit_begin and later; one file a unit. */
 const char *unit_file(const char *name);

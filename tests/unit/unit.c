@@ -1,26 +1,21 @@
-/* unit.c - what all units share: the list of their tests, main, and a file of their own.
+/* unit.c - what all units share: the list of their tests, main, and a file of their own. All are
+ * one program, since to link each takes as long as to run most of them. usage: units NAME
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
 #include <unistd.h>
 
-static struct {
-    struct CMUnitTest test;
-    int line;
-} list[64];
-static int n;
+static struct unit_test *all; /* of all units, by line */
 static char file[512];
 
 /* Keeps the order of the source, which constructors need not have. */
-void unit_enlist(const char *name, CMUnitTestFunction test, int line)
+void unit_enlist(struct unit_test *t)
 {
-    int at = n++;
-    if (n > (int)(sizeof list / sizeof *list))
-        abort();
-    for (; at > 0 && list[at - 1].line > line; at--)
-        list[at] = list[at - 1];
-    list[at].test = (struct CMUnitTest){.name = name, .test_func = test};
-    list[at].line = line;
+    struct unit_test **at = &all;
+    while (*at && (*at)->line < t->line)
+        at = &(*at)->next;
+    t->next = *at;
+    *at = t;
 }
 
 const char *unit_file(const char *name)
@@ -32,17 +27,25 @@ const char *unit_file(const char *name)
     return file;
 }
 
-__attribute__((weak)) void unit_begin(void) {}
-
 int main(int argc, char **argv)
 {
-    struct CMUnitTest tests[sizeof list / sizeof *list];
-    for (int i = 0; i < n; i++)
-        tests[i] = list[i].test;
-    int rank;
+    enum { MOST = 256 };
+    struct CMUnitTest tests[MOST];
+    void (*begin)(void) = NULL;
+    int rank, n = 0;
+    for (const struct unit_test *t = all; t && argc == 2; t = t->next)
+        if (strcmp(t->unit, argv[1]) == 0 && n < MOST) {
+            tests[n++] = (struct CMUnitTest){.name = t->name, .test_func = t->run};
+            begin = t->begin;
+        }
+    if (n == 0 || n == MOST) {
+        fprintf(stderr, "usage: %s NAME, of a unit of fewer than %d tests\n", argv[0], MOST);
+        return 2;
+    }
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    unit_begin();
+    if (begin)
+        begin();
     const int failed = _cmocka_run_group_tests("tests", tests, (size_t)n, NULL, NULL);
     if (rank == 0 && file[0])
         unlink(file);
