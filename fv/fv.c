@@ -169,7 +169,7 @@ static void finish(void *state)
 static void progress(void *state, char *line, int size)
 {
     const struct fv *s = state;
-    const double steps = s->run->step > 0 ? (double)s->run->step : 1.0;
+    const double steps = fmax(1.0, (double)(s->run->step - s->output->begun));
     snprintf(line, (size_t)size, "dt %.3g s (%s)  CFL %.2f  pressure %.1f its  |u| %.3g m/s",
              s->step.dt, limit_name(s->step.limit), s->max.rate * s->step.dt,
              (double)s->totals.iterations / steps, fv_fastest(s));

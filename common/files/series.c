@@ -13,18 +13,64 @@ struct series {
     int ncolumns;
 };
 
-/* Keeps the header and the rows up to t of an existing file; they hold t in 12 digits. A row that a
- * kill cut short goes, too. Twelve digits round by up to 5e-12 of t, hence 1e-11. The shorter file
- * takes the place of the old one by rename. */
-static void drop_later_rows(const char *path, double t)
+/* The k-th field of a line, of that length; NULL: the line has fewer. */
+static const char *field_of(const char *line, int k, int *length)
+{
+    for (; line && k > 0; k--) {
+        line = strchr(line, ',');
+        line += line != NULL;
+    }
+    *length = line ? (int)strcspn(line, ",\r\n") : 0;
+    return line;
+}
+
+/* The field of a header that has this name; -1: none. */
+static int find_field(const char *header, const char *name)
+{
+    const size_t n = strlen(name);
+    int length;
+    const char *at;
+    for (int k = 0; (at = field_of(header, k, &length)); k++)
+        if (n == (size_t)length && strncmp(at, name, n) == 0)
+            return k;
+    return -1;
+}
+
+static void write_header(FILE *f, int n, const char *const *columns)
+{
+    for (int k = 0; k < n; k++)
+        fprintf(f, "%s%s", columns[k], k < n - 1 ? "," : "\n");
+}
+
+/* A row of the earlier run, from[k] its field in column k; nan: it had none. */
+static void write_earlier(FILE *f, const char *line, int n, const int *from)
+{
+    for (int k = 0; k < n; k++) {
+        int length = 3;
+        const char *at = from[k] >= 0 ? field_of(line, from[k], &length) : "nan";
+        fprintf(f, "%.*s%s", length, at ? at : "", k < n - 1 ? "," : "\n");
+    }
+}
+
+/* Keeps the rows up to t of an existing file, which hold t in 12 digits, under the columns of this
+ * run: a case may have other gauges after a restart. A row that a kill cut short goes, too. Twelve
+ * digits round by up to 5e-12 of t, hence 1e-11. The shorter file takes the place of the old one by
+ * rename. */
+static void drop_later_rows(const char *path, double t, int n, const char *const *columns)
 {
     char *line = NULL;
     size_t room = 0;
+    int *from = NEW(int, n);
     FILE *in = fopen(path, "r"), *out = disk_begin(path);
-    for (bool header = true; in && getline(&line, &room, in) > 0; header = false)
-        if (strchr(line, '\n') && (header || atof(line) <= t * (1.0 + 1e-11)))
-            fputs(line, out);
+    write_header(out, n, columns);
+    if (in && getline(&line, &room, in) > 0)
+        for (int k = 0; k < n; k++)
+            from[k] = find_field(line, columns[k]);
+    while (in && getline(&line, &room, in) > 0)
+        if (strchr(line, '\n') && atof(line) <= t * (1.0 + 1e-11))
+            write_earlier(out, line, n, from);
     free(line);
+    mem_free(from);
     if (in)
         fclose(in);
     disk_finish(out, path);
@@ -59,15 +105,15 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
     FILE *old = keep ? fopen(path, "r") : NULL;
     if (old) {
         fclose(old);
-        drop_later_rows(path, t_restart);
+        drop_later_rows(path, t_restart, ncolumns, columns);
     }
     snprintf(s->path, sizeof s->path, "%s", path);
     s->file = fopen(path, old ? "a" : "w");
     if (!s->file)
         disk_failed(path);
     setvbuf(s->file, NULL, _IOLBF, 0);
-    for (int k = 0; !old && k < ncolumns; k++)
-        fprintf(s->file, "%s%s", columns[k], k < ncolumns - 1 ? "," : "\n");
+    if (!old)
+        write_header(s->file, ncolumns, columns);
     if (ferror(s->file))
         disk_failed(path);
     return s;

@@ -11,7 +11,8 @@
 struct series;
 /* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; two of the
  * same name end the run through abort_run(). keep: append to an existing file, without its rows
- * later than t_restart, s, and without a last row that is cut short. path NULL: nothing is written.
+ * later than t_restart, s, and without a last row that is cut short; where its columns are others,
+ * rows keep what they have by the names of these, nan in new ones. path NULL: nothing is written.
  * A file that cannot be written ends the run (disk_failed). */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart);

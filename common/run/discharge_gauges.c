@@ -28,7 +28,7 @@ static void judge_one(const struct scene *s, const struct scene_probe *g, const 
     for (int row = 0; row < t->nrows && column >= 0; row++) {
         const double *v = t->v + (size_t)row * t->ncolumns;
         largest = fmax(largest, fabs(v[column]));
-        if (row > 0)
+        if (row > 0 && isfinite(v[column] + v[column - t->ncolumns])) /* nan: before a restart */
             add_interval(v[0] - v[-t->ncolumns], v[column - t->ncolumns], v[column], volume);
     }
     const double all[] = {volume[0] - volume[1], volume[0], volume[1], largest};

@@ -117,8 +117,8 @@ void fv_row(void *state, double *values)
     watches_values(s->watches, values + n);
 }
 
-/* Rates per cell and step over the timers of the steps, in all and outside of the pressure
- * solver. */
+/* Rates per cell and step over the timers of the steps, in all and outside of the pressure solver,
+ * and iterations per step: of this process, which timed and counted none before a restart. */
 static void summarise_cost(const struct fv *s, double cells)
 {
     static const char *const parts[] = {"operators", "convection", "viscous",
@@ -127,12 +127,12 @@ static void summarise_cost(const struct fv *s, double cells)
     double loop = 0.0;
     for (int k = 0; k < 6; k++)
         loop += timer_wall(&r->timers, parts[k]);
-    const double steps = r->step > 0 ? (double)r->step : 1.0;
+    const double steps = fmax(1.0, (double)(r->step - s->output->begun));
     summary_real(r->summary, "cell_steps_per_s", loop > 0.0 ? cells * steps / loop : 0.0);
     summary_real(r->summary, "us_per_cell_step_outside_hypre",
                  1e6 * (loop - timer_wall(&r->timers, "pressure")) / (cells * steps));
     if (s->newton)
-        newton_summarise(s->newton, steps, r->summary);
+        newton_summarise(s->newton, steps, fmax(1.0, (double)r->step), r->summary);
     summary_real(r->summary, "poisson_iterations", (double)s->totals.iterations / steps);
     summary_real(r->summary, "viscous_iterations", (double)s->totals.viscous_iterations / steps);
 }

@@ -11,6 +11,7 @@ struct fv_output {
     struct block_samples *samples; /* blocks: of each gauge of a level or discharge */
     int nhistory;
     double (*history)[3]; /* blocks: s, N: t, force x, force y of each row of the series */
+    int64_t begun;        /* step of the run that this process began with */
 };
 
 /* output_state.c: what outputs of this grid need; owned by the caller (FREE). Collective. */
@@ -74,7 +75,7 @@ double surface_level(const struct fv *s, const double *x);
 int newton_columns(const struct fv_params *prm, const char **columns);
 /* Sets their values now, counts as sums since the start, and returns their number; w NULL: 0. */
 int newton_values(const struct newton *w, double *values);
-/* Adds iterations and halvings of the run, which took so many steps, to the summary. */
-void newton_summarise(const struct newton *w, double steps, struct summary *to);
+/* Adds iterations and halvings to the summary; steps: of this process, all: of the run. */
+void newton_summarise(const struct newton *w, double steps, double all, struct summary *to);
 
 #endif

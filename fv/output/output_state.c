@@ -9,6 +9,7 @@
 struct fv_output *output_create(const struct fv *s)
 {
     struct fv_output *o = NEW(struct fv_output, 1);
+    o->begun = s->run->step;
     if (s->m && s->run->scene.nprobes > 0) {
         o->search = mem_own(o, overset_search(s->run, s->m));
         o->samples = NEW_IN(o, struct block_samples, s->run->scene.nprobes);

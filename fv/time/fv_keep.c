@@ -145,7 +145,10 @@ int fv_restart_numbers(struct fv *s, struct kept_number *of)
     struct kept_numbers all = {.is = of};
     const struct kept_number steps[] = {{"dt", .real = &s->step.dt},
                                         {"dt_old", .real = &s->step.dt_old}};
+    const struct kept_number most[] = {{"max_cfl", .real = &s->totals.max_cfl},
+                                       {"fastest", .real = &s->totals.fastest}};
     ADD(&all, "time step", steps);
+    ADD(&all, "maxima of the run", most);
     if (s->newton)
         add_newton(&all, s->newton);
     if (s->surface)

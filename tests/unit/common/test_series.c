@@ -59,6 +59,17 @@ TEST(a_restart_leaves_no_trace)
     }
 }
 
+/* A gauge more, before others, moves none of the old values to another column. */
+TEST(a_restart_with_other_columns_keeps_values_by_name)
+{
+    static const char *const others[] = {"t [s]", "dt [s]", "P [Pa]", "Ma"};
+    write_rows(false, 0, 1, 2, 0.25);
+    struct series *s = series_create(path, 4, others, true, 0.25);
+    series_row(s, (double[]){0.5, 0.25, 7.0, 0.2});
+    FREE(s);
+    assert_string_equal(text(), "t [s],dt [s],P [Pa],Ma\n0.25,0.25,nan,0.1\n0.5,0.25,7,0.2\n");
+}
+
 TEST(a_restart_without_an_old_file_begins_one)
 {
     unlink(path);

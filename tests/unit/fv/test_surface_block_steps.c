@@ -111,7 +111,7 @@ static double period_with_sound(const char *blocks, const char *c0)
 {
     struct mesh_case c;
     struct fv *s = start_blocks(&c, MPI_COMM_WORLD, blocks,
-                                (const char *const[]){WAVE, NEWTON, "fv.cfl=0.3", c0, NULL}, NULL);
+                                (const char *const[]){WAVE, NEWTON, "fv.cfl=0.6", c0, NULL}, NULL);
     assert_true(mesh_case_run(s, 1000, 10.0));
     const double period = fit_period(&s->surface->oscillation);
     print_message("wave with sound, %s: %g s\n", c0, period);
