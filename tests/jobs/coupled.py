@@ -47,7 +47,7 @@ for what in 'velocity_l2', 'velocity_linf', 'pressure_rms', 'pressure_l2':
 
 # a carried flow, windows and memory as the flow wants them: at least as good as the flow at rest
 for folder, velocity in ('still', '(0.0,0.0)'), ('carried', '(0.8,0.6)'):
-    job(folder, 'taylor_green', 'sph.dx=0.02 fv.cells=(16,16) sph.c0=18 time.end=0.5 output.every=0 coupling.steps=0 '
+    job(folder, 'taylor_green', 'sph.dx=0.02 fv.cells=(16,16) sph.c0=18 time.end=0.3 output.every=0 coupling.steps=0 '
         'coupling.overlap=0.08 initial.velocity=' + velocity)
 error_below('carried', 0.004)
 error_below('carried', error('still'))
@@ -289,7 +289,7 @@ told('sinks', 'diverged .*free surface lies in the transition')
 
 # three dimensions
 cube = 'sph.dx=0.041666666666666667 fv.cells=(16,16,16) output.every=0.02 output.snapshots=false output.series=1 '
-job('cube', 'beltrami', cube + 'time.end=0.1')
+job('cube', 'beltrami', cube + 'time.end=0.06')
 error_below('cube', 0.002)
 below('beltrami: mass off by', number('cube', 'mass_fluctuation'), 0.005)
 job('cube2', 'beltrami', cube + 'time.end=0.02', ranks='2:2:2')
