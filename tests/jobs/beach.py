@@ -17,7 +17,7 @@ output:  { snapshots = false; };
 '''
 beach = ' beach = 1.5; beach_period = 0.836;'
 short = varied(tank, '(4, 0.4)', '(2.5, 0.4)', '(128, 16)', '(80, 16)')
-grains = varied(short, 'end = 16', 'end = 7', 'fv:      { cells = (80, 16); };', 'sph:     { dx = 0.02; scheme = "riemann_ale"; };')
+grains = varied(short, 'end = 16', 'end = 7', 'fv:      { cells = (80, 16); };', 'sph:     { dx = 0.025; scheme = "riemann_ale"; };')
 alone('fv', 'beach', tank)
 alone('fv', 'wall', varied(tank, beach, ''))
 alone('fv', 'slow', varied(short, 'end = 16', 'end = 10', 'gravity', 'nu = 1e-6; gravity', '(80, 16);', '(80, 16); integrator = "bdf2";'))

@@ -22,7 +22,7 @@ initial: field couette | U 1.7 | L 0.7 | velocity (0.1,0.2) | amplitude 0.03 | L
 coupling: steps 7 | transition 0.15 | buffer 0.15 | overlap 0.15 | memory 3 | keep_mass false | mapping shepard
     interpolation linear | in_time linear | blend all | deadline 7
 output: every 0.003 | snapshots true | series 2 | checkpoint 0.002
-sph: dx 0.05 | R_dx 3 | c0 17 | gamma 1 | scheme standard | riemann exact | limiter minmod | transport none
+sph: dx 0.08 | R_dx 3 | c0 17 | gamma 1 | scheme standard | riemann exact | limiter minmod | transport none
     surface_shift beta | viscosity monaghan | low_dissipation false | dissipation 0.4 | dissipation_order third | damper 0.4 | alpha 0.05
     delta 0.1 | background true | integrator rk4 | cfl 0.2 | cfl_viscous 0.0001 | box ((-1,-1),(1,0.5))
     free ((-1,-1),(1,0.5)) | box_velocity (0.1,0) | box_follows b | outer exact | density_limit 1e-6 | walls ghosts
@@ -74,7 +74,7 @@ touch   bodies.free false | bodies.contact.friction None
 mesh    sph.viscosity morris | domain.dim 2 | sph.packing 0 | bodies.thin None
 wave    sph.viscosity morris | walls.kind "slip" | domain.periodic (false,false)
 lines   sph.viscosity morris | walls.kind "slip"
-swirls  sph.dx 0.04
+swirls  sph.dx 0.04 | sph.cfl_viscous 0.001
 delta   sph.surface None
 box     sph.outer None | domain.dim None | domain.min None | domain.max None | domain.periodic None
 body    sph.background None
