@@ -60,6 +60,8 @@ static bool add_increment(struct fv *s, double c, double t, double scale)
     for (int a = 0; a < s->dim; a++) {
         double *restrict u = s->u[a];
         const double *restrict d = viscous ? s->delta[a] : s->rhs[a];
+        if (s->surface && !viscous) /* as viscous_solve: convection of air is anything */
+            surface_zero(s, s->rhs[a]);
         FLOW_WET (s, at, n)
             for (int64_t i = at; i < at + n; i++)
                 u[i] += d[i];
