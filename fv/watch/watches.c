@@ -245,11 +245,17 @@ void watches_summarise(const struct watches *w, struct summary *to)
                      "more cells");
 }
 
+/* With the last looks, which stand in the series until the next ones. */
 void watches_restart(struct watches *w, struct h5 *f)
 {
     struct watch *const all[WATCHES] = {&w->energy, &w->velocity, &w->pressure, &w->growth,
                                         &w->returned};
     for (int k = 0; k < WATCHES; k++)
-        if (watch_of(w, k))
+        if (watch_of(w, k)) {
             (void)h5_keep(f, all[k]->key, &all[k]->worst);
+            (void)h5_keep(f, key_text("%s_now", all[k]->key), &all[k]->now);
+        }
+    (void)h5_keep(f, "odd_even_velocity_all", &w->waves.velocity_all);
+    (void)h5_keep(f, "odd_even_pressure_all", &w->waves.pressure_all);
+    (void)h5_keep(f, "odd_even_t", &w->waves_t);
 }
