@@ -4,7 +4,7 @@ same as one; of a column that falls half goes through the middle; bodies take ga
 import math
 
 import lib
-from lib import bad, check, column, last, near, refused, run, run_case, says, start, summary, varied, write
+from lib import bad, check, column, last, mean, near, refused, run, run_case, says, start, summary, varied, write
 
 lib.scratch()
 
@@ -289,6 +289,14 @@ run_case('lined', varied(inclined, '{ side = "x_min"; }, { side = "x_max"; }, { 
                          '{ points = ((0, 0.6), (0, 0), (1, 0), (1, 0.6)); }'))
 for gauge in 'left', 'right':
     near('level at a wall drawn as a line: ' + gauge, column('lined', gauge)[0], column('sided', gauge)[0], 0.25 * 0.02, 'lined.txt')
+# the floor of water a few rows deep, whose rows are all near the surface (7 % low with 3 rows by their own gradients)
+for rows in 2, 3, 4:
+    run_case('rows_%d' % rows, scene(1, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (0.5, 0.2); };
+walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "box"; box = ((0, 0), (0.5, %g)); } );
+probes: ( { name = "floor"; at = (0.25, 0); } ); sph: { dx = 0.02; };
+''' % (0.02 * rows), series=5), program='sph')
+    floor = mean('rows_%d/series.csv' % rows, 'floor', 0.5)
+    near('Pa on the floor below %d rows' % rows, floor, 9810 * 0.02 * rows, 0.03 * 9810 * 0.02 * rows)
 # two periods of a steady wave before the end are two, though its period, which is found, is not 2 to the last digit
 waves = scene(12, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (14, 0.75); };
 waves: { height = 0.03; period = 2.0; }; shapes: ( { form = "below"; level = 0.5; } );
