@@ -403,7 +403,9 @@ void forcing_fill(const struct fv *s, const unsigned char *mask)
     FREE(has, next);
 }
 
-/* By the exact field, or between the partner's times. */
+/* By the exact field, or between the partner's times. What lies deeper in the hole is nobody's:
+ * left to the operators it gathered speed beside walls until the run ended. With a free surface the
+ * velocity is extended into it. */
 void forcing_velocity(const struct fv *s, double t, double *const u[3])
 {
     const struct forcing *f = s->forcing;
@@ -416,6 +418,10 @@ void forcing_velocity(const struct fv *s, double t, double *const u[3])
     for (int a = 0; a < f->dim; a++)
         for (int64_t i = 0; i < f->npartner; i++)
             u[a][f->partner[i]] = partner_value(f, a, i, t);
+    for (int64_t i = 0; i < f->nlocal && !s->surface; i++)
+        if (f->forced[f->local[i]] == 1 && !f->layer[f->local[i]])
+            for (int a = 0; a < f->dim; a++)
+                u[a][f->local[i]] = 0.0;
 }
 
 /* So that u + delta is what is imposed. */

@@ -112,3 +112,26 @@ TEST(an_outlet_feels_no_source)
     assert_true(fabs(net[0]) < 1e-14 && net[1] > 0.1);
     fv_free(&c.s);
 }
+
+/* A hole from wall to wall: nothing but zero is in its depth, whatever was there. */
+TEST(the_depth_of_a_hole_is_at_rest)
+{
+    static const double box[2][3] = {{-INFINITY, 0.25, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
+    struct fv_case c;
+    fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){"fv.cells=(16,32)", NULL});
+    struct fv *s = fv_case_start(&c, NULL);
+    int64_t deep = 0;
+    s->forcing = mem_own(s, forcing_create(s, 1, &box, true));
+    const struct forcing *f = s->forcing;
+    fill_partner(s, s->forcing);
+    for (int a = 0; a < s->b.dim; a++)
+        for (int64_t i = 0; i < s->b.size; i++)
+            s->u[a][i] = 1e3;
+    forcing_velocity(s, 0.0, s->u);
+    for (int64_t i = 0; i < f->nlocal; i++)
+        for (int a = 0; a < s->b.dim && !f->layer[f->local[i]]; a++, deep++)
+            assert_close(s->u[a][f->local[i]], 0.0, 0.0);
+    MPI_Allreduce(MPI_IN_PLACE, &deep, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    assert_true(deep > 0);
+    fv_free(&c.s);
+}
