@@ -12,7 +12,8 @@ struct series;
 /* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; two of the
  * same name end the run through abort_run(). keep: append to an existing file, without its rows
  * later than t_restart, s, and without a last row that is cut short; where its columns are others,
- * rows keep what they have by the names of these, nan in new ones. path NULL: nothing is written.
+ * rows keep what they have by the names of these, nan in new ones, and where one is no more the
+ * whole file stays as PATH.before-T. path NULL: nothing is written.
  * A file that cannot be written ends the run (disk_failed). */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart);

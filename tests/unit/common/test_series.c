@@ -68,6 +68,11 @@ TEST(a_restart_with_other_columns_keeps_values_by_name)
     series_row(s, (double[]){0.5, 0.25, 7.0, 0.2});
     FREE(s);
     assert_string_equal(text(), "t [s],dt [s],P [Pa],Ma\n0.25,0.25,nan,0.1\n0.5,0.25,7,0.2\n");
+    FREE(series_create(path, 3, others, true, 0.25)); /* without Ma, whose values stay elsewhere */
+    assert_string_equal(text(), "t [s],dt [s],P [Pa]\n0.25,0.25,nan\n");
+    char before[600];
+    snprintf(before, sizeof before, "%s.before-0.25", path);
+    assert_int_equal(unlink(before), 0);
 }
 
 TEST(a_restart_without_an_old_file_begins_one)

@@ -76,8 +76,6 @@ TEST(others_have_none)
     DROP(c.s);
 }
 
-/* Of a plane floor: half of the kernel on it, nothing from R on; in the corner with a side three
- * quarters; and as much from a place just behind it. */
 static int flowing(const struct sph *s)
 {
     int n = 0;
@@ -111,6 +109,8 @@ TEST(finer_levels_know_wedges)
     DROP(c.s);
 }
 
+/* Of a plane floor: half of the kernel on it, nothing from R on; in the corner with a side three
+ * quarters; and as much from a place just behind it. */
 TEST(shares_of_planes)
 {
     struct sph_case c;
