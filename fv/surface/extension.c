@@ -21,21 +21,29 @@ struct least_squares {
     double w[STENCIL];
 };
 
-/* Cholesky's; false: a pivot has lost six digits, so the cells do not tell the terms apart. */
+/* Cholesky's; false: the cells do not tell the terms apart. A pivot has lost six digits, or all of
+ * them ten: two rows of cells that lean by 0.001 have no second derivative across, which costs six
+ * at each of two pivots, and of the third only rounding is left, 1e-4 of it. Or a term is rounding
+ * itself at all cells (a tangent, of cells in one line along the normal), which loses none. Their
+ * slopes were noise over noise and drove films aside at random. Terms are in sizes of a cell. */
 static bool factor(struct least_squares *q)
 {
+    const double scale = q->A[0][0];
+    double left = 1.0;
     for (int i = 0; i < q->m; i++) {
         const double whole = q->A[i][i];
         for (int j = 0; j <= i; j++) {
             double sum = q->A[i][j];
             for (int k = 0; k < j; k++)
                 sum -= q->A[i][k] * q->A[j][k];
-            if (i != j)
+            if (i != j) {
                 q->A[i][j] = sum / q->A[j][j];
-            else if (sum > 1e-6 * whole)
-                q->A[i][i] = sqrt(sum);
-            else
+                continue;
+            }
+            left *= sum / whole;
+            if (!(whole > 1e-12 * scale && sum > 1e-6 * whole && left > 1e-10))
                 return false;
+            q->A[i][i] = sqrt(sum);
         }
     }
     return true;

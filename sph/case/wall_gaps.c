@@ -71,7 +71,8 @@ static struct gap_places find_near(const struct sph *s, const double *origin)
                                                  .x = {x[0], x[1]},
                                                  .rho = x[at_rho(2)]});
     }
-    qsort(near.of, (size_t)near.n, sizeof *near.of, by_cell);
+    if (near.n > 0)
+        qsort(near.of, (size_t)near.n, sizeof *near.of, by_cell);
     return near;
 }
 
@@ -159,7 +160,8 @@ static int64_t fill_next(const struct gap_filling *f)
     struct gap_places near = find_near(s, f->origin), to = {0};
     for (int k = 0; k < near.n; k++)
         look_around(f, &near, near.of + k, &to);
-    qsort(to.of, (size_t)to.n, sizeof *to.of, by_word);
+    if (to.n > 0)
+        qsort(to.of, (size_t)to.n, sizeof *to.of, by_word);
     int64_t n = 0;
     s->p.nghost = 0;
     for (int k = 0; k < to.n; k++)
