@@ -21,11 +21,13 @@ struct least_squares {
     double w[STENCIL];
 };
 
-/* Cholesky's; false: the cells do not tell the terms apart. A pivot has lost six digits, or all of
- * them ten: two rows of cells that lean by 0.001 have no second derivative across, which costs six
- * at each of two pivots, and of the third only rounding is left, 1e-4 of it. Or a term is rounding
- * itself at all cells (a tangent, of cells in one line along the normal), which loses none. Their
- * slopes were noise over noise and drove films aside at random. Terms are in sizes of a cell. */
+/* Cholesky's; false: the cells do not tell the terms apart. A pivot has lost six digits, or those
+ * that have lost two and more have together lost six beyond that: two rows of cells that lean by
+ * 0.001 have no second derivative across, which costs six at each of two pivots, and of the third
+ * only rounding is left, 1e-4 of it. Or a term is rounding itself at all cells (a tangent, of cells
+ * in one line along the normal), which loses none. Their slopes were noise over noise and drove
+ * films aside at random. Terms are in sizes of a cell; good fits have pivots of 0.05 and more, ten
+ * of them in 3D. */
 static bool factor(struct least_squares *q)
 {
     const double scale = q->A[0][0];
@@ -40,8 +42,8 @@ static bool factor(struct least_squares *q)
                 q->A[i][j] = sum / q->A[j][j];
                 continue;
             }
-            left *= sum / whole;
-            if (!(whole > 1e-12 * scale && sum > 1e-6 * whole && left > 1e-10))
+            left *= lesser(1.0, 100.0 * sum / whole);
+            if (!(whole > 1e-12 * scale && sum > 1e-6 * whole && left > 1e-6))
                 return false;
             q->A[i][i] = sqrt(sum);
         }
