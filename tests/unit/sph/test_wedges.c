@@ -89,7 +89,7 @@ static int flowing(const struct sph *s)
 TEST(finer_levels_know_wedges)
 {
     struct sph_case c;
-    struct diagnosis d;
+    struct diagnosis d = {0};
     const int fine = tank_of(&c, 2 * CELLS, 0.0, false, 40)->p.n;
     DROP(c.s);
     apr_given = (struct apr_params){.levels = 1, .margin = 3.0, .regions.n = 1};
