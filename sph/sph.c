@@ -246,10 +246,9 @@ static void warn_of_lift(const struct run *r, const struct sph_params *prm)
 static void warn_of_start(const struct run *r, const struct sph_params *prm)
 {
     const struct scene *c = &r->scene;
-    bool rests = c->initial.field == FIELD_REST && !scene_has_surface(c);
+    const bool rests =
+        c->initial.field == FIELD_REST && !scene_has_surface(c) && !scene_shapes_flow(c);
     double U = 0.0;
-    for (int k = 0; k < c->nshapes; k++)
-        rests = rests && vec3_length(c->shapes[k].velocity) == 0.0;
     for (int k = 0; k < c->nwalls && rests; k++)
         if (c->walls[k].kind == WALL_INFLOW)
             U = fmax(U, vec3_length(c->walls[k].velocity));

@@ -52,24 +52,14 @@ static void write_earlier(FILE *f, const char *line, int n, const int *from)
     }
 }
 
-/* The earlier values of a column that this run has no more would be lost: then the old file stays
- * under another name. */
-static void keep_dropped(const char *path, double t, const char *header, int n,
-                         const char *const *columns)
+/* The earlier values of a column that this run has no more would be lost: where the header has more
+ * than the `kept' ones the old file stays under another name. */
+static void keep_dropped(const char *path, double t, const char *header, int kept)
 {
     char to[1200];
     int length;
-    bool any = false;
-    const char *at;
-    for (int k = 0; (at = field_of(header, k, &length)); k++) {
-        bool found = false;
-        for (int i = 0; i < n; i++)
-            found = found || ((int)strlen(columns[i]) == length &&
-                              strncmp(columns[i], at, (size_t)length) == 0);
-        any = any || !found;
-    }
     snprintf(to, sizeof to, "%s.before-%g", path, t);
-    if (any && rename(path, to) == 0)
+    if (field_of(header, kept, &length) && rename(path, to) == 0)
         log_warn("%s had columns that this run does not write: it is kept as %s", path, to);
 }
 
@@ -81,13 +71,15 @@ static void drop_later_rows(const char *path, double t, int n, const char *const
 {
     char *line = NULL;
     size_t room = 0;
-    int *from = NEW(int, n);
+    int *from = NEW(int, n), kept = 0;
     FILE *in = fopen(path, "r"), *out = disk_begin(path);
     write_header(out, n, columns);
     if (in && getline(&line, &room, in) > 0) {
-        for (int k = 0; k < n; k++)
+        for (int k = 0; k < n; k++) {
             from[k] = find_field(line, columns[k]);
-        keep_dropped(path, t, line, n, columns);
+            kept += from[k] >= 0;
+        }
+        keep_dropped(path, t, line, kept);
     }
     while (in && getline(&line, &room, in) > 0)
         if (strchr(line, '\n') && atof(line) <= t * (1.0 + 1e-11))

@@ -358,6 +358,14 @@ bool scene_side_is_wall(const struct scene *s, enum scene_side side)
     return w && w->kind < WALL_INFLOW;
 }
 
+bool scene_shapes_flow(const struct scene *s)
+{
+    bool any = false;
+    for (int k = 0; k < s->nshapes; k++)
+        any = any || vec3_length(s->shapes[k].velocity) > 0.0;
+    return any;
+}
+
 bool scene_has_wave(const struct scene *s)
 {
     return s->initial.field == FIELD_STANDING_WAVE || s->initial.field == FIELD_STOKES ||

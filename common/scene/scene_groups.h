@@ -274,6 +274,8 @@ static inline bool scene_wall_opens(const struct scene_wall *w)
     return w->kind >= WALL_INFLOW && w->kind != WALL_FALLS;
 }
 
+/* Whether a shape of the start has a velocity. */
+bool scene_shapes_flow(const struct scene *s);
 /* Whether the initial field is a wave with a free surface of its own. */
 bool scene_has_wave(const struct scene *s);
 /* Whether that wave is of permanent form: steady.h. */

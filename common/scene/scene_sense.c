@@ -226,14 +226,11 @@ static void check_shape_periods(const struct scene *s, int k)
 /* Whether anything can ever set the fluid in motion. */
 static bool is_driven(const struct scene *s)
 {
-    bool any = s->fluid.central != 0.0 || s->initial.field != FIELD_REST;
+    bool any = s->fluid.central != 0.0 || s->initial.field != FIELD_REST || scene_shapes_flow(s);
     for (int k = 0; k < s->nbodies; k++)
         any = any || scene_body_moves(s->bodies + k);
     for (int a = 0; a < 3; a++)
         any = any || s->fluid.gravity[a] != 0.0;
-    for (int k = 0; k < s->nshapes; k++)
-        for (int a = 0; a < 3; a++)
-            any = any || s->shapes[k].velocity[a] != 0.0;
     for (int k = 0; k < s->nwalls; k++)
         for (int a = 0; a < 3; a++)
             any = any || s->walls[k].velocity[a] != 0.0 || s->walls[k].kind >= WALL_INFLOW;

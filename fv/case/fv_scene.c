@@ -302,26 +302,17 @@ static void warn_of_level(const struct scene *s)
             s->initial.level, high, s->initial.level);
 }
 
-/* Whether the water moves at the start. */
-static bool starts_moving(const struct scene *s)
-{
-    const double *v = s->initial.velocity;
-    bool any = s->initial.field != FIELD_REST && (v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0);
-    for (int k = 0; k < s->nshapes; k++)
-        for (int a = 0; a < s->domain.dim; a++)
-            any = any || s->shapes[k].velocity[a] != 0.0;
-    return any;
-}
-
 /* What lets waves out at either end, c (u - U) with U the mean over T = 2 L/c, takes a steady
  * difference g dz of levels for a wave: L du/dt = g dz - 2 c (u - U), (u - U)' = du/dt - (u - U)/T,
  * tends to a fifth, L du/dt = g dz/5. Out of water at rest nothing runs faster than sqrt(2 g dz):
  * u = sqrt(2 g dz) tanh(t/t_0), t_0 = 5 L sqrt(2/(g dz)). */
 static void warn_of_slow_start(const struct scene *s)
 {
-    for (int a = 0; a < s->domain.dim; a++) {
+    const bool moves = scene_shapes_flow(s) ||
+                       (s->initial.field != FIELD_REST && vec3_length(s->initial.velocity) > 0.0);
+    for (int a = 0; a < s->domain.dim && !moves; a++) {
         const struct scene_wall *w[2] = {wall_on(s, a, 0), wall_on(s, a, 1)};
-        if (!w[0] || !w[1] || !w[0]->has_level || !w[1]->has_level || starts_moving(s))
+        if (!w[0] || !w[1] || !w[0]->has_level || !w[1]->has_level)
             continue;
         const double z[2] = {wall_level(w[0], 0.0), wall_level(w[1], 0.0)},
                      push = vec3_length(s->fluid.gravity) * fabs(z[0] - z[1]),

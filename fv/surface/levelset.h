@@ -12,10 +12,11 @@
 #include "patterns.h"
 
 enum {
-    LAYERS = 6,    /* of dry cells that carry a velocity, for the advection of phi */
-    STENCILS = 2,  /* of them that stencils of wet cells reach */
-    DEEP = 99,     /* layer of dry cells further off */
-    BAND_WIDTH = 8 /* cells on either side of the surface that are reinitialised */
+    LAYERS = 6,       /* of dry cells that carry a velocity, for the advection of phi */
+    STENCILS = 2,     /* of them that stencils of wet cells reach */
+    DEEP = 99,        /* layer of dry cells further off */
+    BAND_WIDTH = 8,   /* cells on either side of the surface that are reinitialised */
+    SURFACE_CALM = 20 /* steps until calm water is left to phi, and phi to exact distances */
 };
 
 /* A face between a wet and a dry cell, where the surface crosses the line of their centres. */

@@ -15,7 +15,6 @@
 enum {
     NARROW = 6 /* the same each half step: those that are advected, and one */
 };
-enum { CALM = 20 };             /* steps until water is calm */
 static const double good = 0.1; /* | |grad phi| - 1 | of cells beside the surface that stay as is */
 
 /* Share of the step d after which the quadratic through q is 0; q[0] and q[d] differ in sign. */
@@ -197,7 +196,7 @@ void surface_note_calm(struct fv *s, bool start)
     struct surface *f = s->surface;
     if (!f->reinit->is_known || !grid_overlaps(&s->grid))
         return;
-    f->calm = is_calm(s, f->phi) ? fmin(start ? CALM : f->calm + 1.0, CALM) : 0.0;
+    f->calm = is_calm(s, f->phi) ? fmin(start ? SURFACE_CALM : f->calm + 1.0, SURFACE_CALM) : 0.0;
 }
 
 /* Whether distances that closest.c knows are held. Where blocks overlap films lose twice as much by
@@ -205,7 +204,7 @@ void surface_note_calm(struct fv *s, bool start)
 static bool holds_exact(const struct fv *s)
 {
     const struct surface *f = s->surface;
-    return f->reinit->is_known && (!grid_overlaps(&s->grid) || f->calm == CALM);
+    return f->reinit->is_known && (!grid_overlaps(&s->grid) || f->calm == SURFACE_CALM);
 }
 
 /* The band's cells; all others are at least as far off as it is wide. */

@@ -82,7 +82,7 @@ static void find_cuts(struct fv *s, int a)
 
 static bool dry_water_side(const struct fv *s, int64_t c)
 {
-    return s->surface->layer[c] && !(s->forcing && s->forcing->forced[c]);
+    return s->surface->layer[c] && forcing_is_free(s, c);
 }
 
 static bool has_vent(const struct fv *s, int a, int64_t c)

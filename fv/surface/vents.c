@@ -26,7 +26,7 @@ static bool touches_air(const struct fv *s, int64_t c)
         for (int j = -1; j <= 1; j++)
             for (int i = -1; i <= 1; i++) {
                 const int64_t at = c + i + j * s->b.stride[1] + k * s->b.stride[2];
-                if (s->surface->layer[at] && !s->forcing->forced[at])
+                if (s->surface->layer[at] && forcing_is_free(s, at))
                     return true;
             }
     return false;
@@ -55,9 +55,7 @@ static bool lets_in(const struct fv *s, int a, int64_t c, int64_t face, double o
 static void share(struct fv *s)
 {
     double *const field = s->surface->kept;
-    int ranks;
-    MPI_Comm_size(s->comm, &ranks);
-    if (ranks == 1)
+    if (s->run->size == 1)
         return;
     for (int64_t c = 0; c < s->size; c++)
         field[c] = s->blocked->vent[c];

@@ -293,7 +293,6 @@ static void advance_water(struct fv *s, double t, double dt)
         fraction_advance(s, dt, parts);
 }
 
-enum { CALM = 20 }; /* steps until calm water is left to phi */
 /* -: of the water, what phi loses in a step of water that is not calm, however smooth. Running
  * waves lose 2e-6 and less, 2e-5 a tank that sways until it breaks, from where the shares take
  * over. */
@@ -321,8 +320,8 @@ static void keep_water(struct fv *s)
     if (!f)
         return;
     const bool calm = !loses(s, before) && fraction_is_calm(s);
-    f->calm = calm ? fmin(f->calm + 1.0, CALM) : 0.0;
-    if (is_carried(s) && f->calm == CALM) {
+    f->calm = calm ? fmin(f->calm + 1.0, SURFACE_CALM) : 0.0;
+    if (is_carried(s) && f->calm == SURFACE_CALM) {
         f->carries = 0.0;
         surface_keep_volume(s);
     } else if (!is_carried(s) && !calm) {

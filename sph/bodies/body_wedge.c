@@ -57,7 +57,7 @@ void body_wedges_find(struct sph *s)
 static void lay_points(const struct sph *s)
 {
     struct walls *w = s->walls;
-    if (w->wedge && seal_points_hold(s, w->wedge, w->nwedges))
+    if (w->laid && seal_points_hold(s, w->wedge, w->nwedges))
         return;
     struct seal_point *to = NULL;
     int n = 0;
@@ -67,6 +67,7 @@ static void lay_points(const struct sph *s)
     mem_free(w->wedge);
     w->nwedges = n;
     w->wedge = mem_own(w, to);
+    w->laid = true;
 }
 
 /* Points of one body stand together, and each body's are pressed at once, for they find the water
@@ -74,11 +75,7 @@ static void lay_points(const struct sph *s)
 void body_wedges_add(struct sph *s)
 {
     const struct walls *w = s->walls;
-    bool any = false;
-    for (int k = 0; k < w->nbodies; k++)
-        any = any || w->wedged[k];
-    if (any)
-        lay_points(s);
+    lay_points(s);
     for (int k = 0, n; k < w->nwedges; k += n) {
         for (n = 1; k + n < w->nwedges && w->wedge[k + n].body == w->wedge[k].body;)
             n++;

@@ -167,7 +167,8 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
     sph_params_open(r, prm, open);
     for (int k = 0; k < r->scene.nwalls; k++) {
         const int before = f->n, dim = r->scene.domain.dim;
-        if (solids_elsewhere(r, MESH_OF_WALL, k))
+        const bool mesh = scene_mesh_of(&r->scene, MESH_OF_WALL, k) != NULL;
+        if ((!mesh && r->scene.walls[k].points.n < 2) || solids_elsewhere(r, MESH_OF_WALL, k))
             continue;
         for (int i = 0; i <= times && f->n == before; i++) {
             struct given_flow g = {.domain = &r->scene.domain, .box = box, .open = open};
@@ -177,9 +178,7 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
                 g.way[a] = box_motion_along(r, prm, a) ? INFINITY : 0.0;
             if (wall_leaves(r, prm, &g, k, at))
                 params_fault(
-                    r->params, f,
-                    key_text("walls.[%d].%s", k,
-                             scene_mesh_of(&r->scene, MESH_OF_WALL, k) ? "mesh" : "points"),
+                    r->params, f, key_text("walls.[%d].%s", k, mesh ? "mesh" : "points"),
                     "at (%g, %g, %g) m it is outside of %s m%s: fv, which has no walls but the "
                     "domain's sides, takes only what lies deeper from sph; enlarge sph.box, lower "
                     "coupling.overlap, or refine fv.cells%s",
