@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Error against processor time, uniform spacing beside refinement, of the runs in CASE/time.csv (columns: line, spacing,
-particles, processor time s, error) -> CASE/time.svg. usage: apr_time.py cases/apr_vortices ["error of the velocity"]
+particles, processor time s, error) -> CASE/time.svg.
 SPDX-License-Identifier: BSD-3-Clause"""
+import argparse
 import csv
 import os
 import sys
@@ -10,7 +11,11 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 from estran import drawing
 import matplotlib.figure
 
-case, what = sys.argv[1], (sys.argv[2:] + ['error'])[0]
+p = argparse.ArgumentParser(description=__doc__.split('SPDX')[0])
+p.add_argument('case', metavar='CASE', help='folder with time.csv')
+p.add_argument('what', nargs='?', default='error', help='what the error is of, on the picture')
+o = p.parse_args()
+case, what = o.case, o.what
 lines = {}
 with open(os.path.join(case, 'time.csv')) as f:
     for row in csv.reader(line for line in f if not line.startswith('#')):

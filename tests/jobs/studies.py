@@ -24,6 +24,11 @@ def does(command, *words, fails=False):
         told(command, word, 'said.txt')
 
 
+# What runs for long asks before: words that it does not know start nothing.
+for command, word in [('report now', 'unrecognized'), ('stability now', 'no variant begins with now'), ('gallery now', 'no case now'),
+                      ('tune --help', 'trials of a coupled job')]:
+    does(command, word, fails=True)
+
 alone('fv', 'tank', '''format = 1;
 time:    { end = 0.1; };
 fluid:   { gravity = (0, -9.81); };

@@ -199,6 +199,9 @@ def main():
         return 0
     scenes = [(o.pair, k) for k in range(o.seed, o.seed + o.n)]
     if o.scenes:
+        wrong = [scene for scene in o.scenes if not scene.partition(":")[2].isdigit()]
+        if wrong:
+            p.error("%s: give scenes as PAIR:SEED" % wrong[0])
         scenes = [(pair, int(k)) for pair, _, k in (scene.partition(":") for scene in o.scenes)]
     count = {"passed": 0, "refused": 0, "failed": 0}
     with concurrent.futures.ThreadPoolExecutor(o.j) as pool:
