@@ -1,4 +1,5 @@
 """Several runs of a case: their figures in a table.  SPDX-License-Identifier: BSD-3-Clause"""
+import argparse
 import csv
 import hashlib
 import os
@@ -10,6 +11,14 @@ import numpy as np
 from . import page, reading
 
 launcher = os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), 'run')
+
+
+def setting(word):
+    """A word key=value of a command line as key and value."""
+    key, equals, value = word.partition('=')
+    if not key or not equals:
+        raise argparse.ArgumentTypeError('%s: expected key=value, as in sph.dx=0.01' % word)
+    return key, value
 
 
 def values(text):
@@ -40,11 +49,13 @@ def files_of(case, words=()):
 
 
 def state_of(case, words):
-    """What a run of the case with these words would depend on: the words, the case's file and the files that it names."""
+    """What a run of the case with these words would depend on: the words, the case's file, the files that it names, the programs."""
     at = next((c for c in (case, os.path.join(case, 'case.cfg'), os.path.join(os.path.dirname(launcher), case, 'case.cfg'))
                if os.path.isfile(c)), case)
     to = hashlib.sha256('\0'.join(words).encode())
-    for path in files_of(at, words):
+    build = os.environ.get('ESTRAN_BUILD') or os.path.join(os.path.dirname(os.path.dirname(launcher)), 'build')
+    programs = [os.path.join(build, name) for name in ('sph', 'fv', 'coupler')]
+    for path in files_of(at, words) + list(filter(os.path.isfile, programs)):
         with open(path, 'rb') as f:
             to.update(f.read())
     return to.hexdigest()

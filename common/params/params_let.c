@@ -248,8 +248,10 @@ void let_free(struct let **l)
 /* As a comment: the values that follow hold the results. */
 void let_print(FILE *to, const struct let *l)
 {
+    char text[32];
     for (int k = 0; l && k < l->n; k++)
-        fprintf(to, "%s%.80s = %.17g", k ? ", " : "# let: ", l->of[k].name, l->of[k].value);
+        fprintf(to, "%s%.80s = %s", k ? ", " : "# let: ", l->of[k].name,
+                param_real(l->of[k].value, text));
     if (l && l->n > 0)
         fputs("\n", to);
 }

@@ -4,6 +4,7 @@
 #include "../base/base.h"
 #include "params_hints.h"
 #include "params_use.h"
+#include "params_value.h"
 
 /* How a value is written in a case. */
 static const char *kind(const struct param *r)
@@ -183,9 +184,9 @@ void params_manual(const struct param_group *groups, int ngroups)
         manual_rows(groups + k, true);
 }
 
-/* With 17 digits a double is itself again. */
 static void print_numbers(FILE *to, const struct param *r, const char *at, int n)
 {
+    char text[32];
     for (int k = 0; k < n; k++) {
         fputs(k ? ", " : "(", to);
         if (r->type == PARAM_INTS)
@@ -193,7 +194,7 @@ static void print_numbers(FILE *to, const struct param *r, const char *at, int n
         else if (r->type == PARAM_BOOLS)
             fputs(((const bool *)(const void *)at)[k] ? "true" : "false", to);
         else
-            fprintf(to, "%.17g", ((const double *)(const void *)at)[k]);
+            fputs(param_real(((const double *)(const void *)at)[k], text), to);
     }
     fputs(n > 0 ? ")" : "()", to);
 }
@@ -210,11 +211,12 @@ static void print_text(FILE *to, const char *text)
 /* n points x[n][dim] as ((x, y), ..). */
 static void print_points(FILE *to, int n, int dim, const double *x)
 {
+    char text[32];
     fputs("(", to);
     for (int k = 0; k < n; k++)
         for (int a = 0; a < dim; a++)
-            fprintf(to, "%s%s%.17g%s", k || a ? ", " : "", a ? "" : "(", x[dim * k + a],
-                    a == dim - 1 ? ")" : "");
+            fprintf(to, "%s%s%s%s", k || a ? ", " : "", a ? "" : "(",
+                    param_real(x[dim * k + a], text), a == dim - 1 ? ")" : "");
     fputs(")", to);
 }
 
@@ -225,9 +227,10 @@ static void print_value(FILE *to, const struct param *r, const void *target)
     const struct param_numbers *numbers = (const void *)at;
     const struct param_points *points = (const void *)at;
     const struct param_places *places = (const void *)at;
+    char text[32];
     switch (r->type) {
     case PARAM_REAL:
-        fprintf(to, "%.17g", *(const double *)(const void *)at);
+        fputs(param_real(*(const double *)(const void *)at, text), to);
         break;
     case PARAM_INT:
         fprintf(to, "%d", *(const int *)(const void *)at);

@@ -24,6 +24,16 @@ bool param_number(const config_setting_t *s, double *v)
     }
 }
 
+const char *param_real(double v, char text[32])
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, 32, "%.*g", digits, v);
+        if (strtod(text, NULL) == v)
+            break;
+    }
+    return text;
+}
+
 void param_place(const config_setting_t *s, const char *path, const char *name, char *place,
                  size_t size)
 {

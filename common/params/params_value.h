@@ -11,6 +11,9 @@
 /* Sets *v to a number of any kind, or to the value of a text that is an expression (params_let.h);
  * false: the setting is neither. */
 bool param_number(const config_setting_t *s, double *v);
+/* Writes v to text[32] with the fewest digits, 15 to 17, that read as the same number: 0.04.
+ * Returns text. */
+const char *param_real(double v, char text[32]);
 /* Where a fault of `name' stands, for its message: the setting's file and line ("path" if libconfig
  * names no file), "command line", or the path alone where s is NULL. place[size] is cut. */
 void param_place(const config_setting_t *s, const char *path, const char *name, char *place,

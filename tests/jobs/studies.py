@@ -82,7 +82,10 @@ does('sweep channel_fv --together fv.cells=(8,8),(16,8) fv.cfl=0.8,0.7 -p time.e
 does('sweep channel_fv --together fv.cells=(8,8),(16,8) fv.cfl=0.8 -o sweep', fails=True)  # unlike lists
 if len(open('sweep/sweep.csv').readlines()) != 3 or os.path.getsize('sweep/sweep.png') == 0:
     bad('files of cases/sweep')
-does('ensemble channel_fv -n 2 -p fv.cells=(8,8) -p time.end=0.1 -o ensemble')
+does('ensemble channel_fv -n 2 -p fv.cells=(8,8) -p fv.cfl=0.5 -p time.end=0.1 -o ensemble')
+told('a given Courant number is each member\'s own', 'cfl = 0.4[89]', 'ensemble/1/fv-case.cfg')
+does('ensemble channel_fv -n 1', 'one run has no scatter', fails=True)
+does('ensemble channel_fv -p fv.cfl', 'expected key=value', fails=True)
 told('ensemble', '^cpu_s,', 'ensemble/ensemble.csv')
 # where nothing is known to be right, the gauges of the last run are what the others are compared with; what is there is
 # not run again, unless other settings are asked for
