@@ -20,7 +20,6 @@ enum continuation { CONTINUE_EVEN, CONTINUE_CUBIC, CONTINUE_VARIATION };
 /* What the gradient of a free cell near the interface has beyond the plain form: weights of the
  * cells from -REACH to REACH along the axis, 1/m. */
 struct fix {
-    int64_t cell;
     double cubic[2 * REACH + 1], even[2 * REACH + 1];
     double given; /* what an outflow's pressure adds to the cubic one, m/s^2 */
 };
@@ -54,6 +53,7 @@ struct forcing {
     double *given[3]; /* [size] its velocities at the time of a flux */
     int64_t nfix[3];
     struct fix *fix[3];         /* one-sided gradients along each axis */
+    int64_t *fix_cell[3];       /* where: apart, as under a surface most of them are dry */
     struct one_sided *gradient; /* those of blocks; NULL: no blocks */
     /* faces of the interface: index in U, sign of the flow out of the fluid, whether this rank
      * counts it */

@@ -115,7 +115,7 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
     const int64_t d = b->stride[a];
     BLOCK_ROWS_AT (b, 0, j, at, n)
         for (int64_t c = at; c < at + n; c++) {
-            struct fix x = {.cell = c};
+            struct fix x = {.given = 0.0};
             bool any = false;
             double plain[5];
             if (f->forced[c])
@@ -129,6 +129,8 @@ void forcing_list_fixes(const struct fv *s, struct forcing *f, int a)
             if (!any)
                 continue;
             ROOM_IN(f, f->fix[a], f->nfix[a] + 1);
+            ROOM_IN(f, f->fix_cell[a], f->nfix[a] + 1);
+            f->fix_cell[a][f->nfix[a]] = c;
             f->fix[a][f->nfix[a]++] = x;
         }
 }
@@ -141,13 +143,14 @@ void forcing_gradient(const struct fv *s, int a, enum continuation how, const un
     const int64_t d = s->b.stride[a];
     for (int64_t i = 0; i < f->nfix[a]; i++) {
         const struct fix *x = f->fix[a] + i;
-        if (dry && dry[x->cell])
+        const int64_t c = f->fix_cell[a][i];
+        if (dry && dry[c])
             continue;
-        const double *w = (how == CONTINUE_EVEN ? x->even : x->cubic) + REACH, *at = q + x->cell;
+        const double *w = (how == CONTINUE_EVEN ? x->even : x->cubic) + REACH, *at = q + c;
         for (int m = -REACH; m <= REACH; m++)
-            out[x->cell] += w[m] * at[m * d];
+            out[c] += w[m] * at[m * d];
         if (how == CONTINUE_CUBIC)
-            out[x->cell] += x->given;
+            out[c] += x->given;
     }
 }
 

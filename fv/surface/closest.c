@@ -79,8 +79,12 @@ static void set_cubic(const struct around *w, int a, double x, struct cubic *q)
     const double *X = w->x[a], near = 1e-9 * w->h, per = w->per[a];
     const int last = w->hi[a] - 2;
     int i = w->lo[a] + 1;
-    while (i < last && x > X[i + 1] + near)
-        i++;
+    if (per > 0.0) { /* as the loop does, without a jump that cannot be foreseen */
+        const int at = (int)ceil((x - near) * per) + REACH - 1, most = i > last ? i : last;
+        i = at < i ? i : at > most ? most : at;
+    } else
+        while (i < last && x > X[i + 1] + near)
+            i++;
     const bool on = i < last && x > X[i + 1] - near;
     const double share = on ? 0.5 : 1.0;
     *q = (struct cubic){.first = i - 1, .n = 4 + on};
@@ -204,12 +208,18 @@ void surface_note_bends(const struct fv *s, const double *phi)
 static bool is_straight(const struct around *w, const struct cubic q[3])
 {
     const unsigned char *corner = w->bent + corner_of(w, q);
-    int bad = 0;
+    uint32_t bad = 0;
     for (int k = 0; k < q[2].n; k++)
         for (int j = 0; j < q[1].n; j++) {
             const unsigned char *row = corner + j * w->stride[1] + k * w->stride[2];
-            const int ends =
+            const unsigned ends =
                 BLANK | (j > 0 && j < q[1].n - 1 ? 2 : 0) | (k > 0 && k < q[2].n - 1 ? 4 : 0);
+            if (q[0].n == 4) { /* nearly all: the line at once */
+                uint32_t four;
+                memcpy(&four, row, sizeof four);
+                bad |= four & (ends * UINT32_C(0x01010101) | UINT32_C(0x00010100));
+                continue;
+            }
             bad |= (row[0] | row[q[0].n - 1]) & ends;
             for (int i = 1; i < q[0].n - 1; i++)
                 bad |= row[i] & (ends | 1);

@@ -286,14 +286,47 @@ static double beside(const struct fv *s, const struct part *p, int64_t c, int a,
     return sum / 8.0 / (t1 < 0 ? 1.0 : 2.0);
 }
 
+/* What lies above cell c less what lies below, along each axis: `beside' on either side. */
+static void differences(const struct fv *s, const struct part *p, int64_t c, double *across)
+{
+    const double *C = s->surface->fraction->C + c;
+    const int64_t sy = p->stride[1], sz = s->dim == 3 ? p->stride[2] : 0;
+    double line[3][3], slope[3][3]; /* along x, of the lines around: sums 1, 2, 1, differences */
+    for (int a = 0; a < s->dim && s->surface->fraction->boxes; a++)
+        across[a] = beside(s, p, c, a, p->stride[a]) - beside(s, p, c, a, -p->stride[a]);
+    if (s->surface->fraction->boxes)
+        return;
+    for (int k = 0; k < (sz ? 3 : 1); k++)
+        for (int j = 0; j < 3; j++) {
+            const double *q = C + (j - 1) * sy + (k - 1) * sz;
+            line[k][j] = 2.0 * q[0] + (q[-1] + q[1]);
+            slope[k][j] = q[1] - q[-1];
+        }
+    if (!sz) {
+        across[0] = (2.0 * slope[0][1] + (slope[0][0] + slope[0][2])) / 4.0;
+        across[1] = (line[0][2] - line[0][0]) / 4.0;
+        return;
+    }
+    double along[3], beyond[3], up[3]; /* of the layers of lines */
+    for (int k = 0; k < 3; k++) {
+        along[k] = 2.0 * slope[k][1] + (slope[k][0] + slope[k][2]);
+        beyond[k] = line[k][2] - line[k][0];
+        up[k] = 2.0 * line[k][1] + (line[k][0] + line[k][2]);
+    }
+    across[0] = (2.0 * along[1] + (along[0] + along[2])) / 16.0;
+    across[1] = (2.0 * beyond[1] + (beyond[0] + beyond[2])) / 16.0;
+    across[2] = (up[2] - up[0]) / 16.0;
+}
+
 bool fraction_normal(const struct fv *s, const struct part *p, int64_t c, double *n)
 {
-    double sum = 0.0;
+    double sum = 0.0, across[3];
+    differences(s, p, c, across);
     for (int a = 0; a < s->dim; a++) {
         const int64_t d = p->stride[a];
         const double h = fraction_height(s, c, a),
                      over = 0.5 * (fraction_height(s, c - d, a) + fraction_height(s, c + d, a)) + h;
-        n[a] = -(beside(s, p, c, a, d) - beside(s, p, c, a, -d)) * h / over;
+        n[a] = -across[a] * h / over;
         sum += fabs(n[a]);
     }
     return sum > 1e-12;

@@ -280,7 +280,7 @@ static void gradient_beside_partner(const struct fv *s, int a, const double *F, 
     const struct forcing *g = s->forcing;
     const int64_t d = s->b.stride[a];
     for (int64_t i = 0; i < g->nfix[a]; i++) {
-        const int64_t c = g->fix[a][i].cell;
+        const int64_t c = g->fix_cell[a][i];
         bool dry = false;
         for (int way = -1; way <= 1; way += 2)
             for (int m = 1; m <= REACH && !g->forced[c + way * m * d]; m++)
