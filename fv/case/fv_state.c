@@ -193,14 +193,16 @@ static void meet_surface(struct fv *s)
     levels_back(s);
 }
 
-/* Heights were checked: where none fit nothing is set. */
+/* Heights were checked: some fit. */
 static void make_rows(struct fv *s)
 {
     const int n = s->b.cells[1], even = (int)s->prm.graded[1];
     double *h = NEW(double, n);
-    if (even > 0 &&
-        rows_heights(n, even, s->prm.graded[0] - s->b.origin[1], s->b.length[1], h) > 0.0)
+    if (even > 0) {
+        const double above = s->prm.graded[0] - s->b.origin[1];
+        require(rows_heights(n, even, above, s->b.length[1], h) > 0.0);
         block_set_rows(&s->b, even, h);
+    }
     mem_free(h);
 }
 

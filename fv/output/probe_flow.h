@@ -12,9 +12,14 @@ struct flow_samples {
     double (*x)[3];               /* m */
     double (*value)[FLOW_VALUES]; /* all 0: to be filled */
     double across[3];
-    double area, step; /* m^(dim-1) of a sample; m: distance of two */
+    double *area; /* m^(dim-1): of each sample */
+    double step;  /* m: largest distance of two */
 };
+/* Equal parts. */
 struct flow_samples flow_samples_create(const struct fv *s, const struct scene_probe *g);
+/* Uniform cells and layers: what lies of the section in each cell is one, so that sums of what
+ * crosses cells are exact. */
+struct flow_samples flow_samples_of_cells(const struct fv *s, const struct scene_probe *g);
 void flow_samples_free(struct flow_samples *f);
 /* m^dim/s: of samples that are filled. */
 double flow_samples_sum(const struct flow_samples *f, int dim);

@@ -1,10 +1,12 @@
 /* test_fv_gauges.c - gauges of velocity and discharge read averages of a cubic exactly, up to walls
  * and boxes and under a surface, whatever stands in the air; on a stretched block they are of
- * fourth order; levels are heights against gravity. ranks: 1 2.
+ * fourth order; sections through faces have what crosses the cells; levels are heights against
+ * gravity. ranks: 1 2.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/boundary/blocked.h"
+#include "../../../fv/output/probe_flow.h"
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
@@ -70,7 +72,7 @@ TEST(cells_and_layers)
     fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,16)", NULL});
     reads_the_cubic(&c, 0.3, 0.0, 1.0, 2.0);
     fv_case_set(&c, MPI_COMM_WORLD,
-                (const char *const[]){REST, "fv.cells=(8,24)", "fv.graded=(0.5,8)", NULL});
+                (const char *const[]){REST, "fv.cells=(8,24)", "fv.graded=(0.5,14)", NULL});
     reads_the_cubic(&c, 0.3, 0.0, 1.0, 2.0);
 }
 
@@ -121,6 +123,79 @@ TEST(between_water_and_air)
         assert_close(value[0], 7.0, 1e-12);
         fv_free(&c.s);
     }
+}
+
+/* A stream function at corners of cells with a period of eight, then within cells as fluxes have it
+ * that are linear between faces. */
+static double corner(int i, int j) { return sin(3.0 * ((i % 8 + 8) % 8) + 5.0 * j) + 0.1 * j * j; }
+
+static double stream(double x, double y)
+{
+    const double X = 8.0 * x, Y = 10.0 * y;
+    const int i = (int)floor(X), j = (int)floor(Y);
+    const double a = X - i, b = Y - j;
+    return (1.0 - b) * ((1.0 - a) * corner(i, j) + a * corner(i + 1, j)) +
+           b * ((1.0 - a) * corner(i, j + 1) + a * corner(i + 1, j + 1));
+}
+
+/* What flows through a section is the difference of the stream function at its ends, however few
+ * samples of equal parts a cell would have. */
+TEST(sections_through_faces)
+{
+    static const double line[][4] = {{0.3, 0.0, 0.3, 1.0},    {0.25, 0.1, 0.25, 0.93},
+                                     {0.11, 0.17, 0.95, 0.8}, {-0.4, 0.9, 0.7, 0.2},
+                                     {0.0, 0.3, 2.1, 0.3},    {0.9, 0.5, 0.1, 0.5}};
+    enum { LINES = sizeof line / sizeof line[0] };
+    struct fv_case c;
+    double values[LINES];
+    fv_case_set(&c, MPI_COMM_WORLD, (const char *const[]){REST, "fv.cells=(8,10)", NULL});
+    blocked_given[0] = (struct blocked_params){
+        .name = "lid", .min = {0, 2, 0}, .max = {1, 3, 0}, .kind = WALL_NO_SLIP};
+    blocked_given_count = 1;
+    wall_add(&c, SIDE_Y_MIN, WALL_SLIP, 0.0);
+    wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
+    for (int k = 0; k < LINES; k++)
+        c.run.scene.probes[c.run.scene.nprobes++] =
+            (struct scene_probe){.kind = PROBE_DISCHARGE,
+                                 .at = {line[k][0], line[k][1], 0.0},
+                                 .to = {line[k][2], line[k][3], 0.0}};
+    struct fv *s = fv_case_start(&c, NULL);
+    s->step.dt = 1.0;
+    for (int j = 0; j <= s->b.n[1]; j++)
+        for (int i = 0; i <= s->b.n[0]; i++) {
+            const int at = s->b.lo[0] + i, up = s->b.lo[1] + j;
+            const int64_t face = block_at(&s->b, i, j, 0);
+            s->U[0][face] = 10.0 * (corner(at, up + 1) - corner(at, up));
+            s->U[1][face] = -8.0 * (corner(at + 1, up) - corner(at, up));
+        }
+    fv_probe(s, values);
+    for (int k = 0; k < LINES; k++) {
+        const double *x = line[k];
+        assert_close(values[k], stream(x[2], x[3]) - stream(x[0], x[1]), 1e-12);
+    }
+    fv_free(&c.s);
+    blocked_given_count = 0;
+}
+
+/* In layers, too, each has its own part of a section. */
+TEST(sections_through_layers)
+{
+    struct fv_case c;
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){REST, "fv.cells=(8,24)", "fv.graded=(0.5,14)", NULL});
+    wall_add(&c, SIDE_Y_MIN, WALL_SLIP, 0.0);
+    wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
+    struct fv *s = fv_case_start(&c, NULL);
+    const struct scene_probe up = {.kind = PROBE_DISCHARGE, .at = {0.3, 0, 0}, .to = {0.3, 1, 0}};
+    struct flow_samples f = flow_samples_of_cells(s, &up);
+    assert_int_equal(f.n, 24);
+    for (int k = 0; k < f.n; k++) {
+        const double *e = s->b.rows->edge + k;
+        assert_close(f.area[k], e[1] - e[0], 1e-14);
+        assert_close(f.x[k][1], 0.5 * (e[0] + e[1]), 1e-14);
+    }
+    flow_samples_free(&f);
+    fv_free(&c.s);
 }
 
 /* Error of the readings of a channel that a lid drives, u = y once steady. */
