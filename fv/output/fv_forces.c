@@ -77,7 +77,7 @@ int fv_forces(struct fv *s, double *values)
     if (!moment)
         return n;
     struct fv_output *o = s->output;
-    GROW_IN(o, o->history, o->nhistory, o->nhistory + 1);
+    ROOM_IN(o, o->history, o->nhistory + 1);
     o->history[o->nhistory][0] = s->t;
     memcpy(o->history[o->nhistory++] + 1, bodies, sizeof bodies);
     return n;

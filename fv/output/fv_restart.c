@@ -86,7 +86,7 @@ static void load_samples(struct fv *s, struct h5 *f)
         fit_load(s->surface, &s->surface->oscillation, f);
     if (!rows)
         return;
-    GROW(o->history, o->nhistory, (int)n);
+    ROOM_IN(o, o->history, n);
     o->nhistory = (int)n;
     memcpy(o->history, rows, (size_t)n * sizeof *o->history);
     mem_free(rows);
