@@ -196,6 +196,22 @@ TEST(sections_through_layers)
     }
     flow_samples_free(&f);
     fv_free(&c.s);
+    /* in 3D each pair of parts along two axes: 8 x 6 */
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){"initial.field=\"rest\"", "domain.dim=3",
+                                      "domain.periodic=(true,true,true)", "fv.cells=(8,8,6)",
+                                      NULL});
+    s = fv_case_start(&c, NULL);
+    const struct scene_probe across = {
+        .kind = PROBE_DISCHARGE, .at = {0.3, 0.93, 0.05}, .to = {0.3, 0.1, 1.0}};
+    double area = 0.0;
+    f = flow_samples_of_cells(s, &across);
+    assert_int_equal(f.n, 8 * 6);
+    for (int k = 0; k < f.n; k++)
+        area += f.area[k];
+    assert_close(area, 0.83 * 0.95, 1e-14);
+    flow_samples_free(&f);
+    fv_free(&c.s);
 }
 
 /* Error of the readings of a channel that a lid drives, u = y once steady. */
