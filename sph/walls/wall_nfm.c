@@ -15,6 +15,7 @@
 #include "../particles/sph_particles.h"
 #include "forces.h"
 #include "wall_air.h"
+#include "wall_friction.h"
 #include "wall_gap.h"
 #include "wall_layers.h"
 #include "wall_list.h"
@@ -34,7 +35,8 @@ struct nfm {
     double *room;   /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
-    double (*q)[3]; /* N/m^dim: fluxes of the touches of the particle at hand */
+    double (*q)[3], (*rub)[3]; /* N/m^dim: fluxes of the touches of the particle at hand; of these
+                                  friction, if there is any */
 };
 
 static void *nfm_create(struct sph *s)
@@ -201,15 +203,16 @@ static void slopes(struct sph *s)
 struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped, mu, streams;
-    bool in_air;               /* a layer one particle thick, or less */
-    double open;               /* in air: see wall_air_open */
-    bool film;                 /* near a free surface */
-    double pairs[3], walls[3]; /* 0: no wall here exerts friction; see friction_weight */
+    bool in_air; /* a layer one particle thick, or less */
+    double open; /* in air: see wall_air_open */
+    bool film;   /* near a free surface */
+    struct wall_friction *friction;
 };
 
 /* What the wall gives to a particle, over its volume. */
 struct given {
     double q[3], w, m;
+    double rub[3]; /* of q: friction */
 };
 
 /* Pressure on the wall at e from the particle, with the background pressure as pairs have it: a
@@ -312,49 +315,6 @@ INLINE void add_bed_friction(const struct wall_touch *t, const struct seen *i, c
         q[a] -= 2.0 * t->is.W * i->rho * t->friction * sqrt(u2) * ut[a];
 }
 
-/* Morris's term is exact for linear profiles if the weight of a wall is what pairs lack of
- * sum w F d, F = -W'/r. Its integral W is that of a continuum: on rows of a lattice the sum
- * is 1.03, 0.97, 0.81 and 0 times it in layers 1 to 4, and what is left works on the first
- * derivative, so that the velocity of Poiseuille flow erred at order one. So the weight is the
- * pairs' own sum. */
-INLINE void close_friction(const struct sph *s, const struct wall_list *l, int k, struct seen *i,
-                           const int dim)
-{
-    const int who = l->who[k], *j = s->list->j + s->list->start[who];
-    const struct wall_touch *const first = l->touch + l->first[k];
-    const struct wall_touch *const end = l->touch + l->first[k + 1];
-    bool no_slip = false;
-    for (const struct wall_touch *t = first; t < end; t++)
-        no_slip = no_slip || t->no_slip;
-    if (!no_slip)
-        return;
-    for (const struct wall_touch *t = first; t < end; t++)
-        for (int a = 0; a < dim; a++)
-            i->walls[a] += t->is.W * t->n[a];
-    for (int b = 0; b < s->list->count[who]; b++) {
-        const double *y = prim_line(&s->p, j[b]);
-        double d[3], r2 = 0.0;
-        for (int a = 0; a < dim; a++) {
-            d[a] = i->x[a] - y[a];
-            r2 += d[a] * d[a];
-        }
-        const double F = -y[at_volume(dim)] * kernel_dw_r(dim, sqrt(r2), s->R);
-        for (int a = 0; a < dim; a++)
-            i->pairs[a] += F * d[a];
-    }
-}
-
-/* Of a piece: its share of the pairs' sum, by its part of the walls' along its normal. */
-INLINE double friction_weight(const struct wall_touch *t, const struct seen *i, const int dim)
-{
-    double pairs = 0.0, walls = 0.0;
-    for (int a = 0; a < dim; a++) {
-        pairs += i->pairs[a] * t->n[a];
-        walls += i->walls[a] * t->n[a];
-    }
-    return walls > 0.5 * t->is.W ? t->is.W * fmax(0.0, fmin(pairs / walls, 2.0)) : t->is.W;
-}
-
 /* A face that lies on another's as the part of that one which it covers: what is not linear in the
  * normal (the wave, tension under roofs, friction) is taken away there, too. Left to its own normal
  * the bottom of a block was a roof to the particles beside the block, and its wave came on top of
@@ -371,11 +331,12 @@ INLINE const struct wall_touch *covering(const struct wall_touch *t, struct wall
 }
 
 /* One piece: pressure, volume, friction, and for ALE what runs with u - u0 [4.26-4.29]. */
-INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const struct seen *i,
-                         double wave, const int dim)
+INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
+                         const struct wall_touch *t, const struct seen *i, double wave,
+                         const int dim)
 {
     const bool ale = s->prm.scheme == SCHEME_RIEMANN_ALE;
-    const double *moved = ale ? i->u0 : i->u, mu = i->mu;
+    const double *moved = ale ? i->u0 : i->u;
     const double W = t->is.W * (i->in_air ? wall_air_share(s, t, i->open) : 1.0);
     double x[3], uw[3], across = 0.0, drift = 0.0;
     for (int a = 0; a < dim; a++)
@@ -401,17 +362,10 @@ INLINE struct given flux(const struct sph *s, const struct wall_touch *t, const 
         to.q[a] = -W * (m * i->u[a] + P * t->n[a]);
     if (t->friction > 0.0)
         add_bed_friction(t, i, uw, to.q, dim);
-    /* Not from a face seen at grazing angle; a row before a wall stands for half a spacing: nearer,
-     * it would rub more than the profile does, and steps be shorter. */
-    if (t->no_slip && mu > 0.0 && (t->foot || t->height > 0.25 * s->dx)) {
-        const double rate = 2.0 * mu * friction_weight(t, i, dim) / fmax(t->height, 0.5 * s->dx);
-        /* Monaghan's pairs feel strain alone, so fluid that turns with a wall must meet none there:
-         * it moves against the wall's motion as continued to its place. Morris's are the Laplacian
-         * of the velocity, with that of the wall where the wall is. */
-        if (s->prm.viscosity == VISCOSITY_MONAGHAN)
-            wall_list_velocity(s, t, i->x, uw);
+    if (t->no_slip && i->mu > 0.0) {
+        wall_friction_of(s, l, k, t, uw, i->mu, i->friction, to.rub);
         for (int a = 0; a < dim; a++)
-            to.q[a] -= rate * (i->u[a] - uw[a]);
+            to.q[a] += to.rub[a];
     }
     return to;
 }
@@ -472,14 +426,16 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     const int n = l->first[k + 1] - l->first[k];
     struct given all = *rim;
     ROOM_IN(m, m->q, n);
+    ROOM_IN(m, m->rub, n);
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + l->first[k] + j;
         struct wall_touch part;
         struct given to = {0};
         if (t->is.W > 0.0)
-            to = flux(s, t->on < 0 ? t : covering(t, &part, dim), i, wave, dim);
+            to = flux(s, l, k, t->on < 0 ? t : covering(t, &part, dim), i, wave, dim);
         for (int a = 0; a < dim; a++) {
             m->q[j][a] = to.q[a];
+            m->rub[j][a] = to.rub[a];
             all.q[a] += to.q[a];
         }
         all.w += to.w;
@@ -509,6 +465,8 @@ INLINE void credit_own(const struct sph *s, const struct nfm *m, int k, const do
         }
         for (int a = 0; a < dim; a++)
             force[a] -= w * m->q[j][a];
+        if (t->no_slip && s->nu > 0.0)
+            wall_friction_couple(s, l, k, t, m->rub[j], w);
     }
     forces_add(s, body, x, force);
 }
@@ -609,6 +567,8 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     if (is_idle(s, m, k))
         return 0.0;
     struct seen i = look(s, who, dim);
+    struct wall_friction friction;
+    i.friction = &friction;
     i.mu = m->mu;
     i.streams = i.film ? 0.0 : m->streams;
     i.open = 1.0;
@@ -628,8 +588,8 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
         own[dim + a] += mass * s->gravity[a];
         pairs[a] = rate[dim + a] - own[dim + a];
     }
-    if (s->nu > 0.0 && s->prm.viscosity == VISCOSITY_MORRIS)
-        close_friction(s, l, k, &i, dim);
+    if (s->nu > 0.0)
+        wall_friction_begin(s, l, k, gamma, &friction);
     const double wave = wave_factor(s, l, k, i.streams, i.film, i.c * gamma_1, dim);
     double closed[3];
     const struct given rim =
