@@ -314,7 +314,7 @@ TEST(films_run_as_theory_says)
 {
     static const char *const of[3] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\"",
                                       "fv.integrator=\"newton\""};
-    for (int k = SANITIZED; k < 3; k++) {
+    for (int k = SANITIZED ? 2 : 0; k < 3; k++) {
         struct fv_case c;
         double force[4];
         fv_case_set(&c, MPI_COMM_SELF,

@@ -43,7 +43,7 @@ TEST(uniform_flow_stays)
         struct fv *s = mesh_case_start(&c, MPI_COMM_WORLD, blocks[k == 2], overrides);
         const int a = k == 2 ? 2 : 0;
         const double x = s->m->block[1].x[0][a];
-        const bool good = mesh_case_run(s, k == 2 ? 2 : 8, 100.0);
+        const bool good = mesh_case_run(s, SANITIZED ? 1 : k == 2 ? 2 : 8, 100.0);
         const double worst = distance_from_uniform(s);
         const bool moved = fabs(s->m->block[1].x[0][a] - x) > 1e-3;
         mesh_case_end(&c, &s);
@@ -98,6 +98,12 @@ TEST(a_known_flow_is_kept)
         BACK "{ name = \"box\"; cells = (16, 16); min = (0.2, 0.2); max = (0.8, 0.8); motion = ( { "
              "kind = \"polynomial\"; axis = \"x\"; coefficients = (0.0, 1.0); } ); }";
     double e[2][3];
+    const char *const rk3[] = {"fv.cfl=0.6", NULL};
+    mesh_case_errors(rest, rk3, 0.1, e[0]);
+    mesh_case_errors(moves, rk3, 0.1, e[1]);
+    assert_true(e[1][0] < 1.2 * e[0][0]);
+    if (SANITIZED)
+        return;
     const char *const bdf2[] = {"fv.integrator=\"bdf2\"", "fv.cfl=0.3", NULL};
     mesh_case_errors(rest, bdf2, 0.1, e[0]);
     mesh_case_errors(moves, bdf2, 0.1, e[1]);
@@ -107,10 +113,6 @@ TEST(a_known_flow_is_kept)
     mesh_case_errors(moves, newton, 0.1, e[1]);
     print_message("newton: %.3g at rest, %.3g past a block that moves\n", e[0][0], e[1][0]);
     assert_true(e[1][0] < 1.1 * e[0][0]);
-    const char *const rk3[] = {"fv.cfl=0.6", NULL};
-    mesh_case_errors(rest, rk3, 0.1, e[0]);
-    mesh_case_errors(moves, rk3, 0.1, e[1]);
-    assert_true(e[1][0] < 1.2 * e[0][0]);
 }
 
 #define WALLED                                                                                     \

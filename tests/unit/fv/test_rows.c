@@ -102,15 +102,17 @@ TEST(what_goes_on_is_exact_too)
     assert_true(most[0] < 1e-12 && most[1] < 1e-12);
 }
 
+#define END (SANITIZED ? 0.05 : 1.0) /* s */
+
 TEST(order_is_kept)
 {
     static const char *const common[] = {"initial.field=\"two_modes\"",
                                          "initial.velocity=(0.5,0.25)",
                                          "domain.periodic=(true,false)", "fv.cfl=0.5", NULL};
-    const double e32 = fv_case_error_at(32, common, "fv.graded=(0.6,16)", 1.0),
-                 e64 = fv_case_error_at(64, common, "fv.graded=(0.6,32)", 1.0);
+    const double e32 = fv_case_error_at(32, common, "fv.graded=(0.6,16)", END),
+                 e64 = fv_case_error_at(64, common, "fv.graded=(0.6,32)", END);
     print_message("32: %.3g, 64: %.3g, order %.2f\n", e32, e64, fv_case_order(e32, e64));
-    assert_true(e64 < 6e-4 && fv_case_order(e32, e64) >= 3.4);
+    assert_true(SANITIZED || (e64 < 6e-4 && fv_case_order(e32, e64) >= 3.4));
 }
 
 /* A hole whose outline lies in growing rows, and Newton's method around it. */
@@ -122,10 +124,10 @@ TEST(a_hole_keeps_the_order)
                                          "fv.hole=((0.3,0.2),(0.7,0.5))",
                                          "fv.cfl=0.5",
                                          NULL};
-    const double e32 = fv_case_error_at(32, common, "fv.graded=(0.6,16)", 1.0),
-                 e64 = fv_case_error_at(64, common, "fv.graded=(0.6,32)", 1.0);
+    const double e32 = fv_case_error_at(32, common, "fv.graded=(0.6,16)", END),
+                 e64 = fv_case_error_at(64, common, "fv.graded=(0.6,32)", END);
     print_message("32: %.3g, 64: %.3g, order %.2f\n", e32, e64, fv_case_order(e32, e64));
-    assert_true(e64 < 6e-4 && fv_case_order(e32, e64) >= 2.9);
+    assert_true(SANITIZED || (e64 < 6e-4 && fv_case_order(e32, e64) >= 2.9));
 }
 
 TEST(slip_walls_keep_the_order)

@@ -42,7 +42,7 @@ static void oscillation(const char *cells, const char *graded, const char *integ
                          (const char *const[]){WAVE, cells, graded, integrator, cfl, nu, NULL},
                          NULL, WALL_NO_SLIP);
     assert_true(exact_oscillation(&s->exact, &period, &rate));
-    assert_true(fv_case_run(&c, 10000, 1.9 * period));
+    assert_true(fv_case_run(&c, SANITIZED ? 5 : 10000, 1.9 * period));
     *T = fit_period(&s->surface->oscillation) / period - 1.0;
     *r = fit_rate(&s->surface->oscillation) / rate - 1.0;
     double h = s->b.h[1];
@@ -58,13 +58,15 @@ TEST(waves_swing_as_theory_says)
 {
     double T, r;
     oscillation("fv.cells=(32,40)", "fv.graded=(0,0)", BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", &T, &r);
-    assert_close(T, 0.0, 0.002);
-    assert_close(r, 0.0, 0.03);
+    if (!SANITIZED) {
+        assert_close(T, 0.0, 0.002);
+        assert_close(r, 0.0, 0.03);
+    }
     oscillation("fv.cells=(16,24)", "fv.graded=(1.1,8)", NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T,
                 &r);
-    assert_close(T, 0.0, 0.005);
     if (SANITIZED)
         return;
+    assert_close(T, 0.0, 0.005);
     oscillation("fv.cells=(32,40)", "fv.graded=(0,0)", NEWTON, "fv.cfl=1.16", "fluid.nu=2e-3", &T,
                 &r);
     assert_close(T, 0.0, 0.002);
@@ -86,7 +88,7 @@ static double period_with_sound(const char *cells, const char *graded, const cha
         &c, MPI_COMM_WORLD,
         (const char *const[]){WAVE, cells, graded, NEWTON, "fv.cfl=0.3", "fluid.nu=2e-3", c0, NULL},
         NULL, WALL_SLIP);
-    assert_true(fv_case_run(&c, 10000, 10.0));
+    assert_true(fv_case_run(&c, SANITIZED ? 5 : 10000, 10.0));
     const double period = fit_period(&s->surface->oscillation);
     print_message("wave with sound, %s %s: %g s\n", cells, c0, period);
     fv_free(&c.s);
@@ -111,7 +113,8 @@ TEST(sound_slows_waves_down)
     for (int m = 0; m < 2 - SANITIZED; m++) {
         const double without = period_with_sound(of[m][0], of[m][1], "fv.c0=0");
         const double with = period_with_sound(of[m][0], of[m][1], "fv.c0=3");
-        assert_close(with / without - 1.0, slower, 0.002);
+        if (!SANITIZED)
+            assert_close(with / without - 1.0, slower, 0.002);
     }
 }
 

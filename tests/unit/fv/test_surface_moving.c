@@ -73,7 +73,7 @@ TEST(a_body_at_rest_has_its_buoyancy)
                                                    REST, k == 2 ? "domain.dim=3" : NULL, NULL},
                              level);
         const double volume = surface_volume(s);
-        assert_true(mesh_case_run(s, SANITIZED ? 2 : k == 2 ? 4 : 20, 100.0));
+        assert_true(mesh_case_run(s, SANITIZED ? 1 : k == 2 ? 4 : 20, 100.0));
         assert_close(s->max.u[0], 0.0, 1e-10);
         assert_close(surface_volume(s) / volume, 1.0, 1e-12);
         const double buoyancy = 9.81 * segment(0.5, level) * (k == 2 ? 0.4 : 1.0);
@@ -103,7 +103,7 @@ TEST(still_water_stays_where_a_block_moves)
         struct fv *s = start(&c, MPI_COMM_WORLD, SWINGS,
                              (const char *const[]){HEAVY, THIN, steps[q], NULL}, 0.363);
         double worst = 0.0;
-        for (int k = 0; k < (q == 0 ? 8 : 4); k++) {
+        for (int k = 0; k < (SANITIZED ? 1 : q == 0 ? 8 : 4); k++) {
             assert_true(mesh_case_run(s, 3, 100.0));
             worst = fmax(worst, s->max.u[0]);
             assert_close(room(s), 0.7, 1e-12);
@@ -125,7 +125,7 @@ TEST(a_body_that_speeds_up_has_its_added_mass)
         "}, { name = \"ring\"; mapping = \"annulus\"; radius = (0.5, 1.3); cells = (14, 64); "
         "i_min = \"slip\"; j_min = \"joined\"; j_max = \"joined\"; motion = ( { kind = "
         "\"polynomial\"; axis = \"y\"; coefficients = (0.0, 0.0, 0.05); } ); }";
-    for (int q = 0; q < 3; q++) {
+    for (int q = 0; q < (SANITIZED ? 1 : 3); q++) {
         struct mesh_case c;
         struct fv *s = start(
             &c, MPI_COMM_WORLD, blocks,
@@ -180,6 +180,11 @@ TEST(a_cup_that_tilts_carries_its_water)
     const double period = 2.0 * M_PI / sqrt(9.81 * M_PI * tanh(0.3 * M_PI)); /* it still sways */
     const double weight = s->run->scene.fluid.rho * 9.81 * 0.3;
     double force[FLOW_BODIES_MAX][4], all[4], mean[2] = {0.0, 0.0};
+    if (SANITIZED) {
+        assert_true(mesh_case_run(s, 10, 4.0));
+        mesh_case_end(&c, &s);
+        return;
+    }
     assert_true(mesh_case_run(s, 10000, 4.0 - period));
     for (int k = 1; k <= 16; k++) {
         assert_true(mesh_case_run(s, 10000, 4.0 - period + period * k / 16.0));

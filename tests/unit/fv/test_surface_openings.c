@@ -120,6 +120,8 @@ TEST(levels_after_ten_transits_are_those_of_theory)
             /* the first has been on all, the others take turns */
             if (q > 0 && k != 2 * (q % 2) && !(q == 1 && k == 4))
                 continue;
+            if (SANITIZED && q == 0 && k % 2 == 0)
+                continue;
             struct fv *s =
                 start(&c, grids[k].blocks, grids[k].with, 0.0, &pairs[q].in, &pairs[q].out);
             const double theory =
@@ -262,7 +264,7 @@ TEST(restart_is_exact)
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {0.5, 0.0, 0.0}},
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = 0.25, .has_discharge = true},
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {3.0, 0.0, 0.0}}};
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 12; k += SANITIZED ? 5 : 1) {
         const struct scene_wall in = inlets[k / 4];
         const struct scene_wall out = {.side = SIDE_X_MAX, .kind = WALL_OUTFLOW, .carried = k % 2};
         struct mesh_case one, again;
@@ -281,7 +283,7 @@ TEST(fast_inflow_feeds_nothing_but_its_own_water)
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {u, 0.0, 0.0}},
         {.side = SIDE_X_MIN, .kind = WALL_INFLOW, .discharge = q, .has_discharge = true}};
     const struct scene_wall closed = {.side = SIDE_X_MAX, .kind = WALL_SLIP};
-    for (int k = 0; k < 2 * GRIDS; k++) {
+    for (int k = 0; k < 2 * GRIDS; k += SANITIZED ? 5 : 1) {
         struct mesh_case c;
         if (k % 2 == 0 && *grids[k / 2].blocks) /* refused: nothing leaves */
             continue;

@@ -7,7 +7,7 @@
 #include "../../../fv/boundary/still.h"
 #include "fv_case.h"
 
-enum { STEPS = 4, SEEN_MAX = 4096, TEXT_MAX = 4096, CANDIDATES = 12 };
+enum { STEPS = 2, SEEN_MAX = 4096, TEXT_MAX = 4096, CANDIDATES = 12 };
 
 /* --- scenes: one a mode --- */
 

@@ -196,7 +196,7 @@ TEST(rates_are_the_double_loop)
         toy_prepare(&t);
         t.s.passes.gradients(&t.s);
         shake_slopes(&t);
-        for (int v = 0; v < 2 * 3 * 3 * 2 * 2; v++) {
+        for (int v = 0; v < 2 * 3 * 3 * 2 * 2; v += SANITIZED ? 5 : 1) {
             choose(&t.s, v % 2, v / 2 % 3, v / 6 % 3, v / 18 % 2 ? 1.0 : 7.0, v / 36);
             t.s.passes.rates(&t.s);
             assert_close(worst_rate(&t.s), 0.0, 1e-12);
