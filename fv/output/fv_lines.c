@@ -11,14 +11,36 @@
 
 enum { POINTS = 4000 }; /* at which a line is looked at */
 
-/* Value at the middle of the domain along the stride, from the cell c right of it (or around it,
- * for an odd count): face average, or centre of a cell average. Even count: the middle is a
- * face. */
-static double middle(const double *q, int64_t d, bool odd)
+/* Weights of the averages of the cells -2 to 1 beside the one right of the middle of an axis (or
+ * around it, for an odd count): face average, or centre of a cell average. Even count: the middle
+ * is a face. */
+static const double *middle_weights(int cells)
 {
-    if (odd)
-        return (26.0 * q[0] - q[d] - q[-d]) / 24.0;
-    return (7.0 * (q[0] + q[-d]) - (q[d] + q[-2 * d])) / 12.0;
+    static const double of[2][4] = {{-1.0 / 12.0, 7.0 / 12.0, 7.0 / 12.0, -1.0 / 12.0},
+                                    {0.0, -1.0 / 24.0, 26.0 / 24.0, -1.0 / 24.0}};
+    return of[cells % 2];
+}
+
+/* Value in the plane in the middle of the third axis, of the cell beside it; in 2D its own. */
+static double in_plane(const struct block *b, const double *q)
+{
+    const double *w = middle_weights(b->cells[2]);
+    double sum = 0.0;
+    if (b->dim == 2)
+        return *q;
+    for (int m = 0; m < 4; m++)
+        sum += w[m] * q[(m - 2) * b->stride[2]];
+    return sum;
+}
+
+/* The same in the middle of an axis of even cells, too. */
+static double middle(const struct block *b, const double *q, int axis)
+{
+    const double *w = middle_weights(b->cells[axis]);
+    double sum = 0.0;
+    for (int m = 0; m < 4; m++)
+        sum += w[m] * in_plane(b, q + (m - 2) * b->stride[axis]);
+    return sum;
 }
 
 /* Value at y between the edges of n layers with averages q: the derivative of the polynomial
@@ -58,7 +80,7 @@ static double middle_of_layers(const struct block *b, const double *q, int layer
 {
     double near[5];
     for (int m = 0; m < 5; m++)
-        near[m] = q[(m - 2) * b->stride[1]];
+        near[m] = in_plane(b, q + (m - 2) * b->stride[1]);
     return in_layers(b->rows->edge + layer - 2, near, 5, b->origin[1] + 0.5 * b->length[1]);
 }
 
@@ -79,9 +101,8 @@ static double *profile_across(const struct fv *s, int q, int across)
         for (int i = 0; i < b->n[along]; i++) {
             at[along] = i;
             const double *u = s->u[q] + block_at(b, at[0], at[1], at[2]);
-            line[1 + b->lo[along] + i] = layers
-                                             ? middle_of_layers(b, u, centre)
-                                             : middle(u, b->stride[across], b->cells[across] % 2);
+            line[1 + b->lo[along] + i] =
+                layers ? middle_of_layers(b, u, centre) : middle(b, u, across);
         }
     MPI_Allreduce(MPI_IN_PLACE, line, n + 2, MPI_DOUBLE, MPI_SUM, b->cart);
     return line;
@@ -127,6 +148,7 @@ static double extremum_in_layers(const struct block *b, const double *line, doub
 /* found: least u on the vertical line, most and least v on the horizontal one. */
 static void on_even_cells(const struct fv *s, double found[3])
 {
+    block_halo(&s->b, s->dim, s->u);
     double *const lines[2] = {profile_across(s, 0, 0), profile_across(s, 1, 1)};
     found[0] = s->b.rows ? extremum_in_layers(&s->b, lines[0], -1.0)
                          : extremum(lines[0], s->b.cells[1], -1.0);

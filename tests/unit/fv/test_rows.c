@@ -212,29 +212,33 @@ TEST(cavity_is_the_same)
     assert_true(fabs(graded / fine - 1.0) < 5e-4);
 }
 
-/* u = -exp(-(y - 0.3)^2/b^2), v = sin(2 pi x) cos(y - 0.5), as averages: error of the extrema on
- * the centre lines, which are 1. */
-static double extrema_error(int cells, int even)
+/* u = -exp(-(y - 0.3)^2/b^2), v = sin(2 pi x) cos(y - 0.5), both times cos(z - 0.5) if there are
+ * cells along z, as averages: error of the extrema on the centre lines, which are 1. even: layers
+ * of that height; 0: none. */
+static double extrema_error(int cells, int even, int thick)
 {
     const double b = 0.15, two_pi = 2.0 * M_PI;
     struct fv_case c;
     double error = NAN, x[3], h[3];
     char size[48], graded[48];
-    snprintf(size, sizeof size, "fv.cells=(%d,%d)", cells, cells);
-    snprintf(graded, sizeof graded, "fv.graded=(0.6,%d)", even);
+    snprintf(size, sizeof size, "fv.cells=(%d,%d,%d)", cells, cells, thick ? thick : 1);
+    snprintf(graded, sizeof graded, even ? "fv.graded=(0.6,%d)" : "fv.graded=(0,0)", even);
     fv_case_set(&c, MPI_COMM_SELF,
                 (const char *const[]){CLOSED, "initial.field=\"rest\"", size, graded,
+                                      thick ? "domain.dim=3" : "domain.dim=2",
                                       "fv.extrema=(-1,1,-1)", NULL});
-    for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX; k++)
+    for (int k = SIDE_X_MIN; k <= (thick ? SIDE_Z_MAX : SIDE_Y_MAX); k++)
         wall_add(&c, (enum scene_side)k, WALL_NO_SLIP, 0.0);
     struct fv *s = fv_case_start(&c, NULL);
-    assert_non_null(s->b.rows);
+    assert_true((s->b.rows != NULL) == (even > 0));
     BLOCK_CELLS (&s->b, i, j, k, at) {
         block_cell(&s->b, i, j, k, x, h);
         const double low = x[1] - 0.5 * h[1], up = x[1] + 0.5 * h[1], left = x[0] - 0.5 * h[0];
         s->u[0][at] = -0.5 * b * sqrt(M_PI) * (erf((up - 0.3) / b) - erf((low - 0.3) / b)) / h[1];
         s->u[1][at] = (cos(two_pi * left) - cos(two_pi * (left + h[0]))) / (two_pi * h[0]) *
                       (sin(up - 0.5) - sin(low - 0.5)) / h[1];
+        for (int a = 0; a < 2 && thick; a++)
+            s->u[a][at] *= (sin(x[2] + 0.5 * h[2] - 0.5) - sin(x[2] - 0.5 * h[2] - 0.5)) / h[2];
     }
     c.run.summary = summary_create();
     fv_summarise_extrema(s);
@@ -244,10 +248,15 @@ static double extrema_error(int cells, int even)
     return error;
 }
 
-/* As the scheme is: fourth order. */
+/* As the scheme is: fourth order; in 3D between two cells along z, or in the middle of one, too. */
 TEST(extrema_are_of_the_order_of_the_scheme)
 {
-    const double coarse = extrema_error(32, 16), fine = extrema_error(64, 32);
+    const double coarse = extrema_error(32, 16, 0), fine = extrema_error(64, 32, 0);
     print_message("extrema: %.3g, %.3g\n", coarse, fine);
     assert_true(fv_case_order(coarse, fine) > 3.5 && fine < 1e-4);
+    for (int k = 0; k < 2; k++) {
+        const double deep = extrema_error(32, k ? 16 : 0, k ? 9 : 8);
+        print_message("in 3D: %.3g\n", deep);
+        assert_close(deep, coarse, 1e-4);
+    }
 }
