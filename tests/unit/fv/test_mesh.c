@@ -131,9 +131,11 @@ TEST(ring_flow_has_order_three_and_a_half)
         sized(text, sizeof text, RING, 8 << k, 32 << k, 1);
         mesh_case_errors(text,
                          (const char *const[]){"initial.field=\"couette\"", "fluid.nu=0.08", NULL},
-                         6.0, e[k]);
+                         SANITIZED ? 0.3 : 6.0, e[k]);
     }
     print_message("ring: u %.2e %.2e p %.2e %.2e\n", e[0][0], e[1][0], e[0][1], e[1][1]);
+    if (SANITIZED)
+        return;
     assert_true(e[1][0] < 5e-5 && log2(e[0][0] / e[1][0]) > 3.5);
     assert_true(log2(e[0][1] / e[1][1]) > 2.5);
 }
@@ -226,10 +228,10 @@ TEST(waves_and_joints_keep_order_three_and_a_half)
     double e[2][3], f[3];
     for (int k = 0; k < 2; k++) {
         sized(text, sizeof text, WAVE, 32 << k, 32 << k, 1);
-        mesh_case_errors(text, NULL, 0.25, e[k]);
+        mesh_case_errors(text, NULL, SANITIZED ? 0.05 : 0.25, e[k]);
     }
     print_message("wave: u %.2e %.2e p %.2e %.2e\n", e[0][0], e[1][0], e[0][1], e[1][1]);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && !SANITIZED; k++)
         assert_true(log2(e[0][k] / e[1][k]) > (k == 1 ? 2.5 : 3.5));
     sized(text, sizeof text, "name = \"a\"; " PERIODIC, 32, 32, 1);
     mesh_case_errors(text, NULL, 0.25, e[0]);

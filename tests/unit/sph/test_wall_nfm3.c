@@ -95,7 +95,7 @@ static double moment_beyond(double r, double R)
  * behind them, n W g.z, less g n.z times the field of the kernel's mass, by midpoints of cubes. */
 TEST(weight_behind_a_corner)
 {
-    enum { N = 40 };
+    enum { N = SANITIZED ? 24 : 40 };
     struct sph_case c;
     tank(&c, 12, true);
     struct sph *s = sph_case_start(&c, NULL);
@@ -150,13 +150,13 @@ TEST(walls_go_on_beyond_periodic_sides)
 TEST(laplacian_at_a_wall)
 {
     const double R = 4.0 / 12.0;
-    print_message("Lap z %.3f %.3f /R, Lap z^2 %.3f %.3f\n", sph_case_laplacian(3, 12, 0, 1) * R,
-                  sph_case_laplacian(3, 12, 1, 1) * R, sph_case_laplacian(3, 12, 0, 2),
-                  sph_case_laplacian(3, 12, 1, 2));
-    assert_close(sph_case_laplacian(3, 12, 0, 1) * R, 0.0, 0.15);
-    assert_close(sph_case_laplacian(3, 12, 1, 1) * R, 0.0, 0.15);
-    assert_close(sph_case_laplacian(3, 12, 0, 2), 2.0, 0.1);
-    assert_close(sph_case_laplacian(3, 12, 1, 2), 2.0, 0.1);
+    for (int k = 0; k < 2; k++) {
+        const double line = sph_case_laplacian(3, 12, k, 1) * R,
+                     square = sph_case_laplacian(3, 12, k, 2);
+        print_message("Lap z %.3f /R, Lap z^2 %.3f\n", line, square);
+        assert_close(line, 0.0, 0.15);
+        assert_close(square, 2.0, 0.1);
+    }
 }
 
 /* A uniform flow along slip walls stays: no force, no change of volume. */
