@@ -73,7 +73,7 @@ def run(case, folder, settings, more=()):
             if f.read().strip() == state:
                 return reading.read(folder)
     if there:
-        print('%s: other settings or another case than the run that is there: run again' % folder)
+        print('%s: other settings, another case or other programs than of the run that is there: run again' % folder)
     said = subprocess.run([launcher, case, '-o', folder, '--force'] + words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if said.returncode > 1:
         lines = [line for line in said.stdout.strip().split('\n') if not line.startswith('mpirun ')] or ['no output']

@@ -87,6 +87,8 @@ told('a given Courant number is each member\'s own', 'cfl = 0.4[89]', 'ensemble/
 does('ensemble channel_fv -n 1', 'one run has no scatter', fails=True)
 does('ensemble channel_fv -p fv.cfl', 'expected key=value', fails=True)
 told('ensemble', '^cpu_s,', 'ensemble/ensemble.csv')
+# an error that falls as a key that is no size of cells rises goes with a negative power of it
+does('sweep channel_fv time.end=0.1,0.2 -p fv.cells=(8,8) -o later', 'order -')
 # where nothing is known to be right, the gauges of the last run are what the others are compared with; what is there is
 # not run again, unless other settings are asked for
 does('new my/gauges -s fv --gauges')
@@ -100,6 +102,14 @@ if says('run again', 'said.txt'):
 does(sweep + '0.05')
 if open('said.txt').read().count('run again') != 3:
     bad('a sweep to another end', 'said.txt')
+# other programs than those that made what is there: the same but for a byte at their end
+os.mkdir('other')
+with open(lib.build + '/fv', 'rb') as f, open('other/fv', 'wb') as to:
+    to.write(f.read() + b'\n')
+os.chmod('other/fv', 0o755)
+os.environ['ESTRAN_BUILD'] = os.path.abspath('other')
+does(sweep + '0.05', 'other programs than of the run that is there')
+os.environ['ESTRAN_BUILD'] = lib.build
 # what a case includes, and the files that it names, belong to it
 lib.write('my/whole.cfg', 'format = 1;\n@include "rest.inc"\n')
 for k, nu in enumerate((0.1, 0.1, 0.2)):
