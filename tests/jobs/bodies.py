@@ -295,7 +295,7 @@ run_case('through', sliding(body=FREE % (0.5, 0.1) + points(1.5, 1.6, 1.7, 1.8))
 # in it stands by its density within dx, its weight on the tank's floor (1 %). Its points say nothing of its mass.
 VESSEL = 'name = "tank"; points = ((-0.5, 0), (0.5, 0), (0.5, 0.6), (-0.5, 0.6)); centre = (0, 0); %s'
 MOVES = 'motion = ( { kind = "harmonic"; axis = "%s"; amplitude = %g; period = %g; ramp = %g; } );'
-vessel = changed(TANK, time='end = 1.2;', domain='min = (-0.7, -0.3); max = (0.7, 0.8);', sph='dx = 0.02;', walls='', output='series = 2; snapshots = false;',
+vessel = changed(TANK, time='end = 1.2;', domain='min = (-0.7, -0.3); max = (0.7, 0.8);', sph='dx = 0.025;', walls='', output='series = 2; snapshots = false;',
                  shapes='{ form = "box"; box = ((-0.5, 0), (0.5, 0.6)); }', bodies='{ %s }' % VESSEL % MOVES % ('y', 0.05, 1.0, 0.5),
                  probes='{ name = "low"; at = (0, 0.001); body = "tank"; }, { name = "top"; at = (0, 0.599); body = "tank"; }')
 run_case('shaken', vessel, words='body 1 .tank. is a tank')

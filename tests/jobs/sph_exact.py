@@ -83,7 +83,7 @@ run_case('faces', varied(table, 'end = 0.9', 'end = 0.1', '(-0.5, 0), (1, 0));',
 # A channel that a line narrows to a half from the inlet to the outlet: p falls by 3/2 rho U^2 = 1500 Pa (Bernoulli; walls
 # that slip lose nothing), within a twentieth of the head of the throat, 2000 Pa. The line goes on beyond both as a side does:
 # nobody comes round its ends.
-run_case('narrows', scene(3, 0.03125, '''domain: { max = (2.5, 1); }; initial: { field = "uniform"; velocity = (1, 0); };
+run_case('narrows', scene(3, 0.05, '''domain: { max = (2.5, 1); }; initial: { field = "uniform"; velocity = (1, 0); };
 walls: ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; },
            { points = ((2.5, 0.5), (1.6, 0.5), (0.8, 1), (0, 1)); } );
 probes: ( { name = "wide"; at = (0.4, 0.5); }, { name = "narrow"; at = (1.9, 0.25); } );
