@@ -52,10 +52,30 @@ void fv_errors(struct fv *s, struct norm n[NORMS])
     norm_reduce(n, NORMS, s->comm);
 }
 
+/* Marks of the cells that must not count, since a later block computes the flow there, too; NULL:
+ * blocks do not overlap. Kept while blocks, and what a partner computes, stay where they are. */
+static const bool *counted_twice(const struct fv *s)
+{
+    struct fv_output *o = s->output;
+    int i[3];
+    if (!grid_overlaps(&s->grid))
+        return NULL;
+    if (o->twice && mesh_stays(s))
+        return o->twice;
+    struct overset *of = s->m->search ? s->m->search : overset_search(s->run, s->m);
+    ROOM_IN(o, o->twice, s->size);
+    COMPUTED_CELLS (s, p, i, c, here)
+        o->twice[c] = mesh_counts_twice(s, of, p->block, here.x);
+    if (of != s->m->search)
+        FREE(of);
+    return o->twice;
+}
+
 /* sum[0]: int u^2/2, sum[1]: of the exact velocities, m^(dim+2)/s^2; with a surface of the water
  * alone. Collective. */
 void fv_energies(struct fv *s, double sum[2])
 {
+    const bool *twice = s->surface ? NULL : counted_twice(s);
     double u[3] = {0.0, 0.0, 0.0}, p, w;
     int i[3];
     sum[0] = s->surface ? surface_energy(s) : 0.0;
@@ -63,6 +83,8 @@ void fv_energies(struct fv *s, double sum[2])
     if (s->surface)
         return;
     COMPUTED_CELLS (s, part, i, c, of) {
+        if (twice && twice[c])
+            continue;
         if (s->prm.errors)
             cell_exact(s, part, i, s->t, u, &p, &w);
         for (int a = 0; a < s->dim; a++) {
@@ -81,14 +103,14 @@ void fv_tell(void *state, struct summary *report)
     static const char *const names[] = {"sum.kinetic", "sum.enstrophy", "sum.signal",
                                         "sum.potential", "sum.water"};
     struct fv *s = state;
-    struct overset *o = grid_overlaps(&s->grid) ? overset_search(s->run, s->m) : NULL;
+    const bool *twice = counted_twice(s);
     const double rho = s->run->scene.fluid.rho;
     double sum[5] = {0.0, 0.0, 0.0, 0.0, 0.0}, g[3];
     int i[3];
     (void)scene_still_gravity(&s->run->scene, g);
     COMPUTED_CELLS (s, p, i, c, of) {
         const double *x = of.x;
-        if (o && mesh_counts_twice(s, o, p->block, x))
+        if (twice && twice[c])
             continue;
         const double u[3] = {s->u[0][c], s->u[1][c], s->dim == 3 ? s->u[2][c] : 0.0};
         const double wet = s->surface ? surface_water(s, c) : 1.0;
@@ -101,7 +123,6 @@ void fv_tell(void *state, struct summary *report)
         sum[3] -= rho * part * (g[0] * x[0] + g[1] * x[1] + g[2] * x[2]);
         sum[4] += part;
     }
-    FREE(o);
     MPI_Allreduce(MPI_IN_PLACE, sum, 5, MPI_DOUBLE, MPI_SUM, s->comm);
     for (int k = 0; k < (s->surface ? 5 : 4); k++)
         summary_real(report, names[k], sum[k]);

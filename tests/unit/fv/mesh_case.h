@@ -172,4 +172,13 @@ static inline int64_t mesh_case_restart(struct mesh_case *one, struct fv *s, str
     return good ? differ : -1;
 }
 
+/* Kinetic energy in a row of the series over that of the uniform flow of the start in 1 m^dim. */
+static inline double mesh_case_energy_share(struct fv *s)
+{
+    const double *u = s->run->scene.initial.velocity;
+    double row[64];
+    fv_row(s, row);
+    return row[0] / (0.5 * s->run->scene.fluid.rho * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+}
+
 #endif
