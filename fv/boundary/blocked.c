@@ -28,21 +28,6 @@ static unsigned char box_of(const struct block *b, const int (*cells)[2][3], int
     return 0;
 }
 
-/* From the case's boxes, so that cells of other ranks count as well. */
-int blocked_stack(const struct fv *s, const int *at, int a, int way)
-{
-    const struct block *b = &s->b;
-    int cells[BLOCKED_MAX][2][3], i[3], n = 0;
-    for (int k = 0; k < s->prm.nboxes; k++)
-        blocked_cells(&s->run->scene.domain, &s->prm, k, cells[k][0], cells[k][1]);
-    for (int t = 0; t < 3; t++)
-        i[t] = b->lo[t] + at[t];
-    for (i[a] += way; i[a] >= 0 && i[a] < b->cells[a]; i[a] += way, n++)
-        if (!box_of(b, (const int(*)[2][3])cells, s->prm.nboxes, i))
-            break;
-    return n;
-}
-
 /* Number of the box of every cell and ghost of this rank. */
 static void mark(const struct fv *s, struct blocked *w)
 {

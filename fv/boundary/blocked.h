@@ -72,10 +72,6 @@ void blocked_line(const struct near_box *x, const double *q, int64_t d, int reac
  * it. */
 double blocked_ghost(const double *q, int64_t in, int depth, enum blocked_ghost rule);
 
-/* How many cells in line are cut out, from the one next to a local cell on, along a in direction
- * `way'. */
-int blocked_stack(const struct fv *s, const int *at, int a, int way);
-
 /* Whether a box cuts out the cell at place c; a ghost behind a closed side is as the cell before
  * it. */
 static inline bool is_blocked(const struct fv *s, int64_t c)

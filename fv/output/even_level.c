@@ -1,25 +1,13 @@
 /* even_level.c - level of the water over a place, on uniform cells and layers: of the columns of
  * cells around it, linear between their centres. Beside a box that is cut out the water ends at the
- * box: columns with other boxes than the place's own say nothing of it.
+ * box: columns with other boxes than the place's own say nothing of it. A column stands on the box
+ * next below the place (the place in a box: on that), else on the domain's end. A box above the
+ * place with water on it counts as water where no air is left below it; else the column ends there.
  * SPDX-License-Identifier: BSD-3-Clause */
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 #include "output.h"
-
-/* Water of a cell in a column, over the cell, with what is cut out below it: a box is ground for
- * the water on it, and on the floor of the domain whether there is water or not. */
-static double height_in_column(const struct fv *s, const int *at, int64_t c, int up, int way)
-{
-    if (!s->blocked)
-        return surface_water(s, c);
-    const int stack = blocked_stack(s, at, up, way), i = s->b.lo[up] + at[up];
-    const bool grounded = stack == (way < 0 ? i : s->b.cells[up] - 1 - i);
-    if (is_blocked(s, c))
-        return grounded;
-    const double share = surface_water(s, c);
-    return share + (share > 0.0 && !grounded ? stack : 0);
-}
 
 /* The two cells of the whole grid whose centres lie around x along an axis, and their weights; at a
  * side that is no period one has none. */
@@ -107,20 +95,93 @@ static struct columns columns_over(const struct fv *s, const double *x, int up)
     return c;
 }
 
-/* Height of the water in a column, this rank's share. */
-static double column_height(const struct fv *s, const int *cell, int up, int way)
+/* A column from the end of the domain to which gravity draws: its ground, in cells, then the parts
+ * of it above that are free of boxes, from one height to another, with their water, m. */
+struct stretch {
+    int n, from[BLOCKED_MAX + 1], to[BLOCKED_MAX + 1];
+    double water[BLOCKED_MAX + 1];
+};
+
+/* Heights, in cells, of the boxes that a column meets; n. */
+static int solids_in(const struct fv *s, const int *cell, int up, bool down, int (*solid)[2])
+{
+    const unsigned met = boxes_in(s, cell, up);
+    const int N = s->b.cells[up];
+    int n = 0;
+    for (int k = 0; k < s->prm.nboxes; k++) {
+        int lo[3], hi[3];
+        if (!(met >> k & 1))
+            continue;
+        blocked_cells(&s->run->scene.domain, &s->prm, k, lo, hi);
+        solid[n][0] = down ? N - hi[up] : lo[up];
+        solid[n++][1] = down ? N - lo[up] : hi[up];
+    }
+    return n;
+}
+
+/* Where a solid that a height is in ends; they may touch. */
+static int out_of(int height, int n, int (*solid)[2])
+{
+    for (int tries = 0; tries < n; tries++)
+        for (int k = 0; k < n; k++)
+            if (solid[k][0] <= height && height < solid[k][1])
+                height = solid[k][1];
+    return height;
+}
+
+/* Over the place of coordinate x along the axis, on a face the upper cell. */
+static struct stretch stretch_over(const struct fv *s, const int *cell, int up, bool down, double x)
+{
+    const struct block *b = &s->b;
+    const int N = b->cells[up];
+    struct stretch c = {.n = 0};
+    int solid[BLOCKED_MAX][2], from = 0;
+    const int n = s->blocked ? solids_in(s, cell, up, down, solid) : 0;
+    const double over = (down ? b->origin[up] + b->length[up] - x : x - b->origin[up]) / b->h[up];
+    const int place = out_of((int)fmax(0.0, fmin(over + 1e-6, N - 1.0)), n, solid);
+    for (int k = 0; k < n; k++)
+        from = solid[k][1] <= place && solid[k][1] > from ? solid[k][1] : from;
+    do {
+        int next = N;
+        for (int k = 0; k < n; k++)
+            next = solid[k][0] >= from && solid[k][0] < next ? solid[k][0] : next;
+        c.from[c.n] = from;
+        c.to[c.n] = next;
+        c.water[c.n++] = 0.0;
+        from = out_of(next, n, solid);
+    } while (from < N);
+    return c;
+}
+
+/* Adds the water of this rank's cells. */
+static void add_water(const struct fv *s, const int *cell, int up, bool down, struct stretch *c)
 {
     const struct block *b = &s->b;
     int at[3];
-    double sum = 0.0;
     for (int a = 0; a < 3; a++) {
         at[a] = a == up || a >= s->dim ? 0 : cell[a] - b->lo[a];
         if (at[a] < 0 || at[a] >= b->n[a])
-            return 0.0;
+            return;
     }
-    for (at[up] = 0; at[up] < b->n[up]; at[up]++)
-        sum += block_size(b, up, at[up]) *
-               height_in_column(s, at, block_at(b, at[0], at[1], at[2]), up, way);
+    for (at[up] = 0; at[up] < b->n[up]; at[up]++) {
+        const int i = b->lo[up] + at[up], height = down ? b->cells[up] - 1 - i : i;
+        for (int k = 0; k < c->n; k++)
+            if (c->from[k] <= height && height < c->to[k])
+                c->water[k] +=
+                    block_size(b, up, at[up]) * surface_water(s, block_at(b, at[0], at[1], at[2]));
+    }
+}
+
+/* Height of the water over the domain's end, m: of cells of height h where there are boxes. */
+static double height_of(const struct stretch *c, double h)
+{
+    double sum = h * c->from[0] + c->water[0];
+    for (int k = 1; k < c->n; k++) {
+        const bool air = c->water[k - 1] < h * (c->to[k - 1] - c->from[k - 1] - 0.5);
+        if (air || c->water[k] <= 0.0)
+            break;
+        sum += h * (c->from[k] - c->to[k - 1]) + c->water[k];
+    }
     return sum;
 }
 
@@ -130,12 +191,15 @@ double surface_level(const struct fv *s, const double *x)
     const int up = still_upright(&s->run->scene);
     const bool down = s->run->scene.fluid.gravity[up] > 0.0; /* the water hangs at the upper end */
     const struct columns c = columns_over(s, x, up);
-    double sum = 0.0;
+    double sum = down ? -(b->origin[up] + b->length[up]) : b->origin[up];
     for (int i = 0; i < c.n; i++)
-        if (c.weight[i] > 0.0)
-            sum += c.weight[i] * column_height(s, c.cell[i], up, down ? 1 : -1);
+        if (c.weight[i] > 0.0) {
+            struct stretch of = stretch_over(s, c.cell[i], up, down, x[up]);
+            add_water(s, c.cell[i], up, down, &of);
+            MPI_Allreduce(MPI_IN_PLACE, of.water, of.n, MPI_DOUBLE, MPI_SUM, s->comm);
+            sum += c.weight[i] * height_of(&of, b->h[up]);
+        }
     int rank;
     MPI_Comm_rank(b->cart, &rank);
-    const double ground = down ? -(b->origin[up] + b->length[up]) : b->origin[up];
-    return sum + (rank == 0 ? ground : 0.0); /* against gravity, as keys of levels are */
+    return rank == 0 ? sum : 0.0; /* against gravity, as keys of levels are */
 }

@@ -75,18 +75,28 @@ static double ground_at(const struct fv *s, const double *at, int up, double top
     return edge_between(s, at, up, end + (n - 1) * part, end + n * part);
 }
 
-/* Length without water below sample n of a column of phi, in distances between samples, linear
- * between them: under drops and jets, and of air that is shut in. Where no cells are, phi is 0, as
- * in a body that water stands on. */
-static double dry_below(const double *phi, int n)
+/* Length without water from sample n of a column of phi down to sample `floor', in distances
+ * between samples, linear between them: under drops and jets, and of air that is shut in. Where no
+ * cells are, phi is 0, as in a body that water stands on. */
+static double dry_below(const double *phi, int n, int floor)
 {
     double sum = 0.0;
-    for (int k = n; k < ALONG; k++) {
+    for (int k = n; k < floor; k++) {
         const double a = fmax(phi[k], 0.0), b = fmax(phi[k + 1], 0.0);
         const double change = fabs(phi[k + 1] - phi[k]);
         sum += phi[k] * phi[k + 1] < 0.0 ? (a + b) / change : phi[k] > 0.0 || phi[k + 1] > 0.0;
     }
     return sum;
+}
+
+/* The first sample at or below the place, which is `share' of the way down, where no cells are: it
+ * stands on what is there. */
+static int floor_below(const double *phi, double share)
+{
+    int n = (int)ceil(fmin(fmax(share, 0.0), 1.0) * ALONG);
+    while (n < ALONG && phi[n] != 0.0)
+        n++;
+    return n;
 }
 
 /* Height against gravity of the highest water over x, linear between samples, as keys of levels
@@ -107,13 +117,14 @@ static double level_at(struct fv *s, int gauge, const double *x)
             return NAN;
     }
     levels_along(s, gauge, x, up, down, phi);
+    const int bottom = floor_below(phi, (top - sign * x[up]) / (top - end));
     for (int n = 0; n <= ALONG; n++) {
         if (!(phi[n] < 0.0))
             continue;
         /* 0 before it is the surface itself, or no cell: then phi need not be near 0 here */
         const bool falls = n > 0 && (phi[n - 1] > 0.0 || (phi[n - 1] == 0.0 && -phi[n] < most));
         const double step = (top - end) / ALONG, place = top - n * step;
-        const double dry = step * dry_below(phi, n);
+        const double dry = step * dry_below(phi, n, bottom);
         if (n > 0 && !falls) /* below a roof */
             return sign * edge_between(s, x, up, sign * (place + step), sign * place) - dry;
         const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;

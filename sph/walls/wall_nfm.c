@@ -206,6 +206,7 @@ struct seen {
     bool in_air; /* a layer one particle thick, or less */
     double open; /* in air: see wall_air_open */
     bool film;   /* near a free surface */
+    double edge; /* there: see wall_air_edge */
     struct wall_friction *friction;
 };
 
@@ -356,7 +357,7 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
         P = fmax(P, 0.0);
         across = i->p > 0.0 ? across : fmin(across, 0.0);
     } else if (i->film && !film)
-        P = wall_air_tension(s, t->n, P, dim);
+        P = wall_air_tension(s, t->n, P, i->edge, dim);
     struct given to = {.w = W * across, .m = -W * m};
     for (int a = 0; a < dim; a++)
         to.q[a] = -W * (m * i->u[a] + P * t->n[a]);
@@ -572,6 +573,7 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     i.mu = m->mu;
     i.streams = i.film ? 0.0 : m->streams;
     i.open = 1.0;
+    i.edge = i.film ? wall_air_edge(s, l, k, dim) : 0.0;
     double gamma = fmax(l->gamma[k], least_gamma);
     if (i.in_air) {
         double all;

@@ -244,27 +244,30 @@ for gauge in 'abcd':
     near('ledge: level at ' + gauge, column('ledge', gauge + ' [')[0], 0.5, 0.1 * 0.02, 'ledge.txt')
 
 # Water on a deck does not count for the level below it where air is left between; it does where the deck is drowned (at
-# first it always did: 0.26 m for 0.16 m).
+# first it always did: 0.26 m for 0.16 m). In fv, too, where what stands on the deck stood on the floor (0.36 and 0.36 m).
+SOLVERS = ('sph', 'sph: { dx = %g; };'), ('fv', 'fv: { cells = (%d, %d); };')
 for case, water, deck, wanted in ('decks', '{ box = ((0, 0), (1, 0.16)); }, { box = ((0, 0.4), (1, 0.5)); }', (0, 0.3, 1, 0.4), 0.16), \
         ('drowned', '{ box = ((0, 0), (1, 0.5)); }', (0.3, 0.2, 0.7, 0.3), 0.5):
-    run_case(case, scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1, 0.8); };
-    walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); bodies: ( { box = ((%g, %g), (%g, %g)); } );
-    shapes: ( %s ); probes: ( %s ); sph: { dx = 0.02; };
-    ''' % (*deck, water, probes('level', 'below 0.5, 0.1', 'above 0.5, 0.45'))))
-    for gauge, level in ('below', wanted), ('above', 0.5):
-        near('%s: level %s the deck' % (case, gauge), column(case, gauge + ' [')[0], level, 0.1 * 0.02, case + '.txt')
+    for program, group in SOLVERS:
+        run_case(case, scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1, 0.8); };
+        walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); bodies: ( { box = ((%g, %g), (%g, %g)); } );
+        shapes: ( %s ); probes: ( %s ); %s
+        ''' % (*deck, water, probes('level', 'below 0.5, 0.1', 'above 0.5, 0.45'), group % (0.02 if program == 'sph' else (50, 40)))), program=program)
+        for gauge, level in ('below', wanted), ('above', 0.5):
+            near('%s, %s: level %s the deck' % (case, program, gauge), column(case, gauge + ' [')[0], level, 0.1 * 0.02, case + '.txt')
 
 # Beside a hull that pierces the surface what of it lies above the water is none (all of it counted, up to its deck: 0.85 m for
 # 0.7), below it the level is its underside; a place in a body that stands flush on the floor is taken for the one above it
 # (the floor below it counted, 0.15 m for 0.3). The same where heights are below zero (-1.28 m for the underside at -1.5).
-for case, z in ('hull', 0), ('sunk', -2):
+for (case, z), (program, group) in ((case, solver) for case in (('hull', 0), ('sunk', -2)) for solver in SOLVERS):
     run_case(case, scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; min = (0, %g); max = (1.2, %g); };
 walls: ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; } ); shapes: ( { form = "below"; level = %g; } );
-bodies: ( { name = "hull"; box = ((0.4, %g), (0.8, %g)); }, { name = "block"; box = ((0.9, %g), (1.1, %g)); } ); probes: ( %s ); sph: { dx = 0.025; };
+bodies: ( { name = "hull"; box = ((0.4, %g), (0.8, %g)); }, { name = "block"; box = ((0.9, %g), (1.1, %g)); } ); probes: ( %s ); %s
 ''' % (z, z + 1.1, z + 0.7, z + 0.5, z + 1, z, z + 0.4, probes('level', *('%s, %g' % (place, z + up) for place, up in (
-        ('a 0.375', 0), ('b 0.39', 0), ('c 0.3999', 0), ('under 0.405', 0), ('in 1', 0.1), ('on 1', 0)))))))
+        ('a 0.375', 0), ('b 0.39', 0), ('c 0.3999', 0), ('under 0.405', 0), ('in 1', 0.1), ('on 1', 0)))), group % (0.025 if program == 'sph' else (48, 44)))),
+             program=program)
     for gauge, level, far in ('a', 0.7, 0.5), ('b', 0.7, 0.5), ('c', 0.7, 0.5), ('under', 0.5, 0.1), ('in', 0.7, 0.1), ('on', 0.7, 0.1):
-        near('%s: level at %s' % (case, gauge), column(case, gauge + ' [')[0], z + level, far * 0.025, case + '.txt')
+        near('%s, %s: level at %s' % (case, program, gauge), column(case, gauge + ' [')[0], z + level, far * 0.025, case + '.txt')
 
 # The level under a body is its underside, also while an edge of refinement goes down through the rows of the column: each
 # of the two levels counts by its share there (by whole rows it was out by 0.4 dx, and a body was taken for drowned).
