@@ -266,11 +266,31 @@ static bool check_water(const struct scene *s, const struct params *p, struct fa
     return false;
 }
 
-/* Waves that all sides of kind wave let out: nothing of them would be in the tank. */
+/* Whether some paddle has the water before it along the waves; *last: one that has not, or -1. */
+static bool some_paddle_makes(const struct scene *s, int *last)
+{
+    bool any = false;
+    *last = -1;
+    for (int k = 0; k < s->nbodies; k++)
+        for (int i = 0; i < s->bodies[k].motion.n; i++) {
+            const struct scene_motion *m = s->bodies[k].motion.of + i;
+            struct wave_paddle p;
+            if (m->kind != MOTION_WAVES)
+                continue;
+            wave_paddle_of(s, s->bodies + k, m, &p);
+            any = any || p.side > 0.0;
+            *last = p.side < 0.0 ? k : *last;
+        }
+    return any;
+}
+
+/* Waves that all sides of kind wave, and all paddles, let out: nothing of them would be in the
+ * tank. */
 static void check_ways(const struct scene *s, const struct params *p, struct faults *f)
 {
     double d[3];
     const struct scene_wall *last = NULL;
+    int paddle;
     scene_waves_direction(s, d, NULL);
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
@@ -280,12 +300,17 @@ static void check_ways(const struct scene *s, const struct params *p, struct fau
             return;
         last = w->zone == ZONE_WAVE ? w : last;
     }
-    if (last && !scene_has_wave_maker(s))
+    if (some_paddle_makes(s, &paddle))
+        return;
+    const char *const out = paddle >= 0 ? s->bodies[paddle].name
+                            : last      ? scene_side_names[last->side - SIDE_X_MIN]
+                                        : NULL;
+    if (out)
         params_fault(
             p, f, "waves.direction",
             "%g degrees: the waves run out through %s, or along it, and none come in: turn "
-            "them, or give the side that they come from the kind wave",
-            s->waves.direction, scene_side_names[last->side - SIDE_X_MIN]);
+            "them, or give what they come from, a side or a paddle, the kind wave",
+            s->waves.direction, out);
 }
 
 /* Along a periodic axis the waves must meet themselves: a whole number of them, of length L/d. Only

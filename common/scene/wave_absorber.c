@@ -67,6 +67,7 @@ struct wave_absorber *wave_absorber_create(const struct scene *s, const struct s
     *a = (struct wave_absorber){.axis = m->axis,
                                 .per = p.per,
                                 .hinge = p.hinge,
+                                .side = p.side,
                                 .distance = distance,
                                 .still = scene_waves_level(s),
                                 .depth = of.depth,
@@ -79,9 +80,11 @@ struct wave_absorber *wave_absorber_create(const struct scene *s, const struct s
     a->beside = evanescent_level(a->omega, of.g, of.depth, p.hinge, distance);
     for (int i = 0; i < 3; i++)
         a->at[i] = p.middle[i];
-    vec3_add(a->at, p.face + distance - vec3_dot(a->at, a->along), a->along);
+    vec3_add(a->at, p.face + p.side * distance - vec3_dot(a->at, a->along), a->along);
     a->at[up] = s->fluid.gravity[up] < 0.0 ? a->still : -a->still;
     tune(a);
+    a->gain *= a->side;
+    a->beside *= a->side;
     return a;
 }
 
@@ -113,7 +116,7 @@ double wave_absorber_returns(const struct wave_absorber *a, double omega)
                  made = wave_maker_ratio(k, a->depth, a->hinge),
                  beside = evanescent_level(omega, a->g, a->depth, a->hinge, d);
     const double complex iw = I * omega,
-                         F = a->gain / (1.0 + iw * a->lag) * iw / (iw + a->mean_rate),
+                         F = a->side * a->gain / (1.0 + iw * a->lag) * iw / (iw + a->mean_rate),
                          X = -2.0 * F * cos(k * d) /
                              (iw + a->rate + F * (I * made * cexp(-I * k * d) + beside));
     return cabs(1.0 + I * made * X);

@@ -25,12 +25,13 @@ struct wave_absorber {
     double at[3];     /* m: the gauge while the paddle is at its start, at the still level */
     double hinge;     /* m: of a flap's axis over the floor; a piston < 0 */
     double distance;  /* m: of the gauge from the face */
+    double side;      /* -: 1, or -1 where the waves run towards the paddle (wave_maker.h) */
     double still;     /* m: height of the still level on the axis of gravity, upwards */
     double omega, k;  /* rad/s, 1/m: of the design wave */
     double depth, g;  /* m, m/s^2 */
     double made;      /* -: c, amplitude of the waves over that of the displacement */
     double beside;    /* -: b, level at the gauge due to evanescent modes over displacement */
-    double gain, lag; /* 1/s, s: g, T */
+    double gain, lag; /* 1/s, s: g, T; b and g have the sign of side, X counts along the waves */
     double rate, mean_rate; /* 1/s: r, and the rate at which the mean follows the level */
     struct waves *waves;    /* the waves that are made; owned */
 };

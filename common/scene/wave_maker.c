@@ -47,16 +47,23 @@ static double axis_height(const struct scene *s, const struct scene_body *b,
     return is_flap(m) ? scene_height(s, b->centre) - (scene_waves_level(s) - depth) : -1.0;
 }
 
-/* m: along the waves, of the face that the water is at. */
-static double face_of(const struct scene *s, const struct scene_body *b)
+/* m: along the waves, from where to where a body reaches. */
+static void reach_of(const struct scene *s, const struct scene_body *b, double reach[2])
 {
-    double d[3], x = -INFINITY;
+    double d[3], first = INFINITY, last = -INFINITY;
     scene_waves_direction(s, d, NULL);
-    for (int i = 0; i < b->points.n; i++)
-        x = fmax(x, d[0] * b->points.x[i][0] + d[1] * b->points.x[i][1]);
-    for (int i = 0; b->mesh && i < b->mesh->mesh.nvertices; i++)
-        x = fmax(x, vec3_dot(b->mesh->mesh.x[i], d));
-    return isfinite(x) ? x : vec3_dot(b->centre, d);
+    for (int i = 0; i < b->points.n; i++) {
+        const double x = d[0] * b->points.x[i][0] + d[1] * b->points.x[i][1];
+        first = fmin(first, x);
+        last = fmax(last, x);
+    }
+    for (int i = 0; b->mesh && i < b->mesh->mesh.nvertices; i++) {
+        first = fmin(first, vec3_dot(b->mesh->mesh.x[i], d));
+        last = fmax(last, vec3_dot(b->mesh->mesh.x[i], d));
+    }
+    const bool known = first <= last;
+    reach[0] = known ? first : vec3_dot(b->centre, d);
+    reach[1] = known ? last : vec3_dot(b->centre, d);
 }
 
 /* A point in the middle of what is in the way of the waves. */
@@ -66,6 +73,48 @@ static void middle_of(const struct scene_body *b, double middle[3])
     scene_body_box(b, lo, hi);
     for (int a = 0; a < 3; a++)
         middle[a] = 0.5 * (lo[a] + hi[a]);
+}
+
+/* Whether water stands, at the start, up to a fifth of the depth from x along d. */
+static bool is_wet_along(const struct scene *s, const double *x, const double *d)
+{
+    static const double far[] = {0.01, 0.05, 0.2}; /* of the depth: shapes may begin beside it */
+    const struct exact e = exact_create(s);
+    bool wet = false;
+    for (int k = 0; k < 3; k++) {
+        double at[3] = {x[0], x[1], x[2]};
+        bool inside = true;
+        vec3_add(at, far[k] * scene_waves_depth(s), d);
+        for (int a = 0; a < s->domain.dim; a++)
+            inside = inside && at[a] > s->domain.min[a] && at[a] < s->domain.max[a];
+        wet = wet || (inside && scene_is_fluid(s, &e, at, NULL));
+    }
+    return wet;
+}
+
+/* 1: the water lies before the body along the waves, -1: behind it; of both the longer way to the
+ * domain's end. */
+static double water_side(const struct scene *s, const struct scene_body *b)
+{
+    const int up = scene_still_axis(s);
+    double d[3], back[3], reach[2], last[3], first[3], room[2] = {0.0, 0.0};
+    scene_waves_direction(s, d, NULL);
+    reach_of(s, b, reach);
+    middle_of(b, last);
+    last[up] = (s->fluid.gravity[up] < 0.0 ? 1.0 : -1.0) *
+               (scene_waves_level(s) - 0.1 * scene_waves_depth(s));
+    memcpy(first, last, sizeof first);
+    for (int a = 0; a < 3; a++) {
+        back[a] = -d[a];
+        room[0] += fmin(d[a] * s->domain.min[a], d[a] * s->domain.max[a]);
+        room[1] += fmax(d[a] * s->domain.min[a], d[a] * s->domain.max[a]);
+    }
+    vec3_add(first, reach[0] - vec3_dot(first, d), d);
+    vec3_add(last, reach[1] - vec3_dot(last, d), d);
+    const bool before = is_wet_along(s, last, d), behind = is_wet_along(s, first, back);
+    if (before != behind)
+        return before ? 1.0 : -1.0;
+    return room[1] - reach[1] >= reach[0] - room[0] ? 1.0 : -1.0;
 }
 
 /* What moves, over the displacement along the waves at the still level: +-1, or 1 over the height
@@ -90,8 +139,11 @@ static double lever(const struct scene *s, const struct scene_body *b, const str
 void wave_paddle_of(const struct scene *s, const struct scene_body *b, const struct scene_motion *m,
                     struct wave_paddle *p)
 {
+    double reach[2];
     *p = (struct wave_paddle){
-        .per = lever(s, b, m), .hinge = axis_height(s, b, m), .face = face_of(s, b)};
+        .per = lever(s, b, m), .hinge = axis_height(s, b, m), .side = water_side(s, b)};
+    reach_of(s, b, reach);
+    p->face = reach[p->side > 0.0];
     middle_of(b, p->middle);
 }
 
@@ -121,7 +173,9 @@ double wave_maker_grown(const struct waves *w, double t)
     return !(T > 0.0) || t >= T ? 1.0 : t <= 0.0 ? 0.0 : 0.5 * (1.0 - cos(M_PI * t / T));
 }
 
-/* Displacement along the waves at the still level and time t; f: the paddle's face. */
+/* Displacement along the waves at the still level and time t; face: m along them. It makes the
+ * waves if the water lies before it, and takes up those that come if it lies behind: mirrored and
+ * with time reversed the one is the other, at both orders. */
 static double displacement(const struct waves *w, double face, double l, double t)
 {
     const double h = w->of.depth;
@@ -148,14 +202,15 @@ static void resolve_one(struct scene *s, struct scene_body *b, struct scene_moti
               column = columns == COLUMNS_2D ? (is_flap(m) ? 3 : 1 + m->axis) : 1 + m->axis;
     const double shortest = w->ncomponents > 0 ? 2.0 * M_PI / w->components[w->ncomponents - 1].w
                                                : 0.5 * w->period,
-                 dt = shortest / 40.0, face = face_of(s, b), l = axis_height(s, b, m),
-                 per = lever(s, b, m);
+                 dt = shortest / 40.0;
+    struct wave_paddle p;
+    wave_paddle_of(s, b, m, &p);
     const int n = (int)ceil(s->time.end / dt) + 3;
     double *rows = NEW(double, (size_t)n *columns);
     for (int k = 0; k < n; k++) {
         rows[(size_t)k * columns] = k * dt;
-        rows[(size_t)k * columns + column] =
-            per * (displacement(w, face, l, k * dt) - displacement(w, face, l, 0.0));
+        rows[(size_t)k * columns + column] = p.per * (displacement(w, p.face, p.hinge, k * dt) -
+                                                      displacement(w, p.face, p.hinge, 0.0));
     }
     snprintf(m->file, sizeof m->file, "(waves of %.80s)", b->name);
     motion_files_add(files, m->file, n, columns, rows);

@@ -6,7 +6,9 @@
  *   flap    H/S = 4 sinh kh (sinh kh + (cosh kl - cosh kh)/(k (h - l)))/(sinh 2kh + 2kh),
  * k the wave number, h the depth, l the height of the flap's axis over the floor. A piston that
  * makes regular waves moves with Madsen's second order (J. Geophys. Res. 76, 1971), which
- * suppresses free waves of twice the frequency. Seas are the sum of their components.
+ * suppresses free waves of twice the frequency. Seas are the sum of their components. A paddle
+ * with the water on its other side, towards which the waves run, moves with them as they arrive and
+ * so lets them pass: a tank may have one at either end.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef COMMON_WAVE_MAKER_H
 #define COMMON_WAVE_MAKER_H
@@ -31,6 +33,8 @@ struct wave_paddle {
     double hinge; /* m: of a flap's axis over the floor; a piston < 0 */
     /* m: coordinate along the waves of the face that the water touches, at the start. */
     double face;
+    double side; /* 1: the water lies before the face along the waves; -1: behind it, so that the
+                    waves run towards the paddle, which moves with them and takes them up */
     double middle[3]; /* m: a point on the vertical plane through the middle of the face along the
                          waves */
 };

@@ -68,9 +68,8 @@ void paddles_check(const struct run *r, const struct sph_params *prm, struct fau
                          digits_below(1.0 / (gauge_dx * a->k), 3));
         else if (!is_wet(&r->scene, a))
             params_fault(r->params, f, key,
-                         "a paddle that absorbs reads the level %g m before its face in the "
-                         "direction of the waves (waves.direction), and no water stands there, at "
-                         "(%g, %g, %g) m: turn the direction round, or move the paddle",
+                         "a paddle that absorbs reads the level %g m before its face, and no water "
+                         "stands there, at (%g, %g, %g) m: move the paddle",
                          a->distance, a->at[0], a->at[1], a->at[2]);
         FREE(a);
     }

@@ -54,12 +54,14 @@ refused() { refused_by sph active.cfg "$1" "$2"; }
 refused 's/kind = "waves"; axis = "x";/kind = "harmonic"; axis = "x"; amplitude = 0.01; period = 1;/; /^waves/d; /^gauges/d' 'bodies.\[0\].motion.\[0\].absorb: is not used: only what makes waves'
 refused 's/^sph:.*/sph: { dx = 0.2; };/' 'the gauge of a paddle that absorbs stands 0.4 m'
 refused 's/^output:/apr: { levels = 1; local_steps = true; regions = ( { min = (2, 0); max = (3, 0.64); } ); };\n&/' 'apr.local_steps: a paddle that absorbs needs one step'
-# The gauge stands before the face to which waves.direction points: with the water on the other side of the paddle that is
-# refused, and told how to mend; turned round, the mirrored tank is the same one.
+# A tank with one paddle, at the end to which the waves run, has none: refused, with what to turn; turned round, the mirrored
+# tank is the same one. With a paddle at either end each has its gauge in the water.
 sed 's/min = (-0.6, 0); max = (4.2, 0.64)/min = (-4.2, 0); max = (0.6, 0.64)/; s/"x_max"/"x_min"/; s/box = ((0, 0), (4.2, 0.4))/box = ((-4.2, 0), (0, 0.4))/
     s/points = .*0, 0))/points = ((0.4, 0), (0, 0), (0, 0.6), (0.4, 0.6))/; s/at = (/at = (-/g; s/from = 8.3/from = 0/' active.cfg >mirrored.cfg
-"$b/sph" mirrored.cfg --check >faulty.log 2>&1 && bad 'a paddle whose gauge stands behind it is accepted'
-grep -q 'bodies.\[0\].motion: .*no water stands there, at (0.5, 0.4, 0) m: turn the direction' faulty.log || bad 'a gauge without water is not told' faulty.log
+"$b/sph" mirrored.cfg --check >faulty.log 2>&1 && bad 'waves that run towards the only paddle are accepted'
+grep -q 'waves.direction: 0 degrees: the waves run out through paddle' faulty.log || bad 'waves that run towards the only paddle are not told' faulty.log
+sed 's/max = (4.2, 0.64)/max = (4.8, 0.64)/; s/, { side = "x_max"; }//; s/^bodies: *( *\(.*\) );$/bodies: ( \1, { name = "far"; points = ((4.2, 0), (4.2, 0.6), (4.6, 0.6), (4.6, 0)); motion = ( { kind = "waves"; axis = "x"; absorb = true; } ); } );/' active.cfg >both.cfg
+"$b/sph" both.cfg --check >both.log 2>&1 && grep -q 'far absorbs by a gauge 0.1 m' both.log || bad 'paddles at both ends' both.log
 sed -i 's/period = 1.4/period = 1.4; direction = 180/' mirrored.cfg
 timeout -k 5 120 "$b/sph" mirrored.cfg -o mirrored $short --force >mirrored.log 2>&1 || bad "mirrored: exit code $?" mirrored.log
 near "$(awk -v a="$(last whole/series.csv 'paddle x')" -v m="$(last mirrored/series.csv 'paddle x')" 'BEGIN { print a + m }')" 0 1e-6 ||

@@ -1,6 +1,7 @@
 /* test_wave_absorber.c - a paddle that absorbs returns nothing of the waves that it is made for,
  * whatever the depth and whether it is a piston or a flap; at other frequencies less than one that
- * stands; steered step by step it goes where the theory has it.
+ * stands; steered step by step it goes where the theory has it. At the far end of a tank, where the
+ * waves run towards it, it is the mirror image of that.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
@@ -10,15 +11,17 @@
 #include "../../../common/scene/wave_absorber.h"
 #include "../../../common/waves/imposed_waves.h"
 
-/* Water h deep, waves so flat that linear theory is theirs; hinge: m over the floor, a piston < 0.
- */
-static struct wave_absorber *absorber(double h, double period, double hinge, double distance)
+/* Water h deep, waves so flat that linear theory is theirs; hinge: m over the floor, a piston < 0;
+ * far: at the end of the water to which the waves run. */
+static struct wave_absorber *absorber_at(bool far, double h, double period, double hinge,
+                                         double distance)
 {
     struct scene *s = NEW(struct scene, 1);
     struct scene_body *b = s->bodies;
     struct scene_motion *m = b->motion.of;
     s->domain.dim = 2;
-    s->domain.max[0] = 10.0;
+    s->domain.min[0] = -1.0;
+    s->domain.max[0] = 11.0;
     s->domain.max[1] = 2.0 * h;
     s->fluid.rho = 1000.0;
     s->fluid.gravity[1] = -9.81;
@@ -32,7 +35,7 @@ static struct wave_absorber *absorber(double h, double period, double hinge, dou
     s->nbodies = 1;
     b->points.n = 4;
     for (int i = 0; i < 4; i++) {
-        b->points.x[i][0] = i < 2 ? -0.2 : 0.0;
+        b->points.x[i][0] = far ? (i < 2 ? 10.0 : 10.2) : (i < 2 ? -0.2 : 0.0);
         b->points.x[i][1] = i == 1 || i == 2 ? 1.5 * h : fmax(hinge, 0.0);
     }
     b->centre[1] = fmax(hinge, 0.0);
@@ -45,6 +48,11 @@ static struct wave_absorber *absorber(double h, double period, double hinge, dou
     return a;
 }
 
+static struct wave_absorber *absorber(double h, double period, double hinge, double distance)
+{
+    return absorber_at(false, h, period, hinge, distance);
+}
+
 TEST(nothing_of_its_own_waves_comes_back)
 {
     for (int flap = 0; flap < 2; flap++)
@@ -55,6 +63,23 @@ TEST(nothing_of_its_own_waves_comes_back)
             assert_true(wave_absorber_returns(a, 1.4 * a->omega) < 0.25);
             FREE(a);
         }
+}
+
+/* A displacement along the waves is one away from the water there. */
+TEST(at_the_far_end_all_is_mirrored)
+{
+    for (int flap = 0; flap < 2; flap++) {
+        struct wave_absorber *a = absorber_at(false, 0.5, 1.5, flap ? 0.1 : -1.0, 0.03),
+                             *b = absorber_at(true, 0.5, 1.5, flap ? 0.1 : -1.0, 0.03);
+        assert_close(a->at[0], 0.03, 1e-12);
+        assert_close(b->at[0], 10.0 - 0.03, 1e-12);
+        assert_close(b->gain, -a->gain, 1e-12);
+        assert_close(b->beside, -a->beside, 1e-12);
+        assert_close(b->lag, a->lag, 1e-12);
+        assert_close(1.0 + wave_absorber_returns(b, 0.7 * b->omega),
+                     1.0 + wave_absorber_returns(a, 0.7 * a->omega), 1e-12);
+        FREE(a, b);
+    }
 }
 
 /* In long waves the water goes with the wall: no mode stands beside it, and the amplitude over the
