@@ -186,7 +186,7 @@ static const char *const others[] = {"sph", "sph_*", "apr", "coupler", NULL};
 
 static struct program fv_program = {.name = "fv",
                                     .help = "implicit finite volumes, fourth order, 2D and 3D",
-                                    .meaning = 7,
+                                    .meaning = 8,
                                     .groups = fv_groups,
                                     .ngroups = FV_GROUPS,
                                     .other_groups = others,

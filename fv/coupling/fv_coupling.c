@@ -728,6 +728,7 @@ void coupling_save(const struct fv *s, struct h5 *f)
     const struct forcing *c = s->forcing;
     course_save(s, s->link->course, f);
     h5_attribute_real(f, "datum", s->partners.pressure);
+    (void)h5_keep(f, "unmapped_worst", &s->link->unmapped.worst);
     if (s->partners.past[0][0])
         save_ways(s->link, f);
     if (s->surface) {
@@ -742,7 +743,8 @@ bool coupling_load(struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;
     bool good = course_load(s, s->link->course, f) &&
-                h5_read_attribute_real(f, "datum", &s->partners.pressure);
+                h5_read_attribute_real(f, "datum", &s->partners.pressure) &&
+                h5_keep(f, "unmapped_worst", &s->link->unmapped.worst);
     if (!c || !good)
         return good;
     good = forced_load(s, f);

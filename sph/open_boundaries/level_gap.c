@@ -120,25 +120,31 @@ static bool is_beside_wall(const struct sph *s, const struct gap_columns *c, int
     return (!s->open[2 * a] && x < s->R) || (!s->open[2 * a + 1] && x > L - s->R);
 }
 
-/* To all probes within R, which are at most R/dx columns away. */
+/* To all probes within R, which are at most R/dx columns away; across a period to their images. */
 static void add_particle(const struct sph *s, struct gap_columns *c, const double *y, double w)
 {
-    const int more = (int)ceil(s->R / s->dx);
+    const int more = (int)ceil(s->R / s->dx), b = c->across, rows = c->n[1];
+    const bool round = b >= 0 && s->periodic[b];
     const double in = zones_inside(s->lo, s->hi, c->side, y) - c->from;
     const int i0 = (int)floor(in / s->dx);
     int first = 0, last = 0;
-    if (c->across >= 0) {
-        const int j0 = (int)floor((y[c->across] - s->lo[c->across]) / s->dx);
-        first = j0 - more > 0 ? j0 - more : 0;
-        last = j0 + more < c->n[1] - 1 ? j0 + more : c->n[1] - 1;
+    if (b >= 0) {
+        const int j0 = (int)floor((y[b] - s->lo[b]) / s->dx);
+        first = round || j0 > more ? j0 - more : 0;
+        last = round || j0 + more < rows - 1 ? j0 + more : rows - 1;
     }
-    for (int j = first; j <= last; j++)
+    for (int j = first; j <= last; j++) {
+        const int turns = (int)floor((double)j / rows);
+        double at[3] = {y[0], y[1], s->dim > 2 ? y[2] : 0.0};
+        if (turns != 0)
+            at[b] -= turns * (s->hi[b] - s->lo[b]);
         for (int i = i0 > more ? i0 - more : 0; i <= i0 + more && i < c->n[0]; i++) {
-            const int k = i + c->n[0] * j;
-            const double r2 = vec_distance2(s->dim, y, c->x[k]);
+            const int k = i + c->n[0] * (j - turns * rows);
+            const double r2 = vec_distance2(s->dim, at, c->x[k]);
             if (c->depth[k] > 0.0 && r2 < s->R * s->R)
                 c->share[k] += w * kernel_w(s->dim, sqrt(r2), s->R);
         }
+    }
 }
 
 /* In order: the surface outside in each column, the kernel's share filled there summed over the
@@ -280,5 +286,6 @@ bool level_gap_restart(struct sph *s, struct h5 *f)
     g->started = g->started || !h5_writes(f);
     return h5_keep_same(f, "level_at_rest", "m", 6, g->at_rest) &&
            h5_keep_same(f, "level_outflow", "m/s", 6, s->zones->outflow) &&
-           h5_keep_same(f, "level_lasting", "m/s", 6, g->lasting);
+           h5_keep_same(f, "level_lasting", "m/s", 6, g->lasting) &&
+           h5_keep(f, "level_mean", &g->mean) && h5_keep(f, "level_worst", &g->watched.worst);
 }
