@@ -225,7 +225,14 @@ void body_drive_motion(const struct body_drive *v, double t, struct body_motion 
     m->dspin = m->domega[2];
 }
 
-/* At even times, and between the rows of files. */
+/* Somewhere in its own n-th part of the time, by parts of the golden section, which fill it. */
+double body_drive_instant(int i, int n, double end)
+{
+    const double part = 0.6180339887498949 * i, at = i + (part - floor(part)) - 0.5;
+    return i <= 0 ? 0.0 : i >= n ? end : end * lesser(at / n, 1.0);
+}
+
+/* At times all over the run, and between the rows of files. */
 static void take_speed(const struct body_drive *v, double reach, double t, struct body_speeds *most)
 {
     struct body_motion m;
@@ -240,7 +247,7 @@ struct body_speeds body_drive_speeds(const struct body_drive *v, double reach, d
     enum { TIMES = 2000 };
     struct body_speeds most = {0.0, {0.0}};
     for (int i = 0; i <= TIMES; i++)
-        take_speed(v, reach, end * i / TIMES, &most);
+        take_speed(v, reach, body_drive_instant(i, TIMES, end), &most);
     for (int k = 0; k < v->nterms; k++)
         for (int i = 1; i < v->term[k].n; i++) {
             const double *p = v->term[k].rows + (ptrdiff_t)v->columns * (i - 1);

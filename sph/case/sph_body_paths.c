@@ -432,7 +432,7 @@ static void check_meshes(const struct run *r, const struct sph_params *used, str
         const int before = f->n, most = bodies[k].free ? 0 : times < 200 ? times : 200;
         const bool here = m && !solids_elsewhere(r, MESH_OF_BODY, k);
         for (int i = 0; here && i <= most && f->n == before; i++) {
-            const double t = most ? c->time.end * i / most : 0.0;
+            const double t = body_drive_instant(i, most, most ? c->time.end : 0.0);
             const struct room room = room_at(r, used, t);
             char when[64];
             snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
@@ -579,7 +579,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     const double wanted = fmin(2.0 * speed * c->time.end / used->dx, MOST_TIMES);
     const int times = speed > 0.0 ? (int)fmax(wanted, LEAST_TIMES) : 0;
     for (int i = 0; i <= times && plane; i++) {
-        const double t = times ? c->time.end * i / times : 0.0;
+        const double t = body_drive_instant(i, times, times ? c->time.end : 0.0);
         place_bodies(c, bodies, t, now);
         if (check_places(r, used, all, n, t, f))
             break;

@@ -1,6 +1,7 @@
 /* sph_params.c - parameter table of group sph. SPDX-License-Identifier: BSD-3-Clause */
 #include "sph_params.h"
 
+#include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../refinement/sph_refinement.h"
@@ -533,7 +534,7 @@ static void check_way(const struct run *r, const struct sph_params *prm, struct 
     const double R = prm->R_dx * prm->dx;
     double way[3];
     for (int k = 0; k <= TIMES; k++) {
-        const double t = r->scene.time.end * k / TIMES;
+        const double t = body_drive_instant(k, TIMES, r->scene.time.end);
         if (!box_motion_foretold(r, prm, t, way))
             return; /* the run watches it */
         for (int a = 0; a < d->dim; a++) {

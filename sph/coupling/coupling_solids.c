@@ -39,8 +39,8 @@ static bool is_beyond(int dim, double box[2][3], const bool *open, const double 
 }
 
 /* First time at which a corner of a body leaves the box by an open side, INFINITY: never; a free
- * one, and any that a box may leave whose way nobody knows, is watched as it goes. 500 times in the
- * run are looked at, with all corners or vertices. */
+ * one, and any that a box may leave whose way nobody knows, is watched as it goes. Times all over
+ * the run are looked at, with all corners or vertices. */
 static double leaves(const struct run *r, const struct sph_params *prm, int k, double box[2][3],
                      const bool *open)
 {
@@ -53,7 +53,7 @@ static double leaves(const struct run *r, const struct sph_params *prm, int k, d
     const int corners = body_corners(&b);
     const int times = !b.free && (b.moves || box_motion_wanted(prm)) ? TIMES : 0;
     for (int t = 0; t <= times && when == INFINITY; t++) {
-        const double now = c->time.end * t / TIMES;
+        const double now = body_drive_instant(t, TIMES, c->time.end);
         double way[3], at[3] = {0.0, 0.0, 0.0};
         body_move(&b, now);
         (void)box_motion_foretold(r, prm, now, way);
@@ -93,14 +93,14 @@ struct given_flow {
     const bool *open;
 };
 
-/* Whether a point of a wall, which is at rest, lies inside the domain where FV computes the flow.
- */
+/* Whether a point of a wall, which is at rest, lies where FV computes the flow: inside the domain,
+ * or of what is drawn in another period anywhere but in the box. */
 static bool is_partners(const struct given_flow *g, const double *x)
 {
     const struct scene_domain *d = g->domain;
     bool inside = true;
     for (int a = 0; a < d->dim; a++)
-        inside = inside && x[a] > d->min[a] && x[a] < d->max[a];
+        inside = inside && (d->periodic[a] || (x[a] > d->min[a] && x[a] < d->max[a]));
     return inside && is_beyond(d->dim, g->box, g->open, g->way, x);
 }
 
@@ -172,7 +172,7 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
             continue;
         for (int i = 0; i <= times && f->n == before; i++) {
             struct given_flow g = {.domain = &r->scene.domain, .box = box, .open = open};
-            const double t = times ? r->scene.time.end * i / times : 0.0;
+            const double t = body_drive_instant(i, times, times ? r->scene.time.end : 0.0);
             const bool known = box_motion_foretold(r, prm, t, g.way) || i == 0;
             for (int a = 0; a < dim && !known; a++)
                 g.way[a] = box_motion_along(r, prm, a) ? INFINITY : 0.0;

@@ -96,28 +96,28 @@ bool box_motion_foretold(const struct run *r, const struct sph_params *prm, doub
     return known;
 }
 
-/* Of a driven body by differences of its displacement over TIMES parts of the run. */
+/* Of a driven body that of its centre along the axes on which the box moves. */
 double box_motion_speed(const struct run *r, const struct sph_params *prm)
 {
-    enum { TIMES = 200 };
-    const double step = r->scene.time.end / TIMES;
-    double before[3], now[3], most = 0.0;
+    double way[3];
     if (!box_motion_wanted(prm))
         return 0.0;
     if (chases(prm))
         return box_tracking_speed(r);
-    if (!prm->box_follows[0]) { /* the same bits whenever the run ends */
-        box_motion_foretold(r, prm, 1.0, now);
-        return vec3_length(now);
+    const int k = prm->box_follows[0] ? body_of(r, prm) : -1;
+    if (k < 0) { /* the same bits whenever the run ends */
+        box_motion_foretold(r, prm, 1.0, way);
+        return vec3_length(way);
     }
-    if (!box_motion_foretold(r, prm, 0.0, before))
-        return prm->speed.speed;
-    for (int k = 1; k <= TIMES; k++) {
-        box_motion_foretold(r, prm, k * step, now);
-        most = fmax(most, vec3_distance(before, now) / step);
-        memcpy(before, now, sizeof now);
-    }
-    return most;
+    struct body b;
+    body_create(&b, r->scene.bodies + k, scene_body_mesh(&r->scene, k), r->scene.domain.dim,
+                r->motions);
+    const struct body_speeds of = body_drive_speeds(&b.drive, 0.0, r->scene.time.end);
+    const bool known = !b.free;
+    memcpy(way, of.along, sizeof way);
+    body_destroy(&b);
+    mask(r, prm, way);
+    return known ? fmin(vec3_length(way), of.any) : prm->speed.speed;
 }
 
 /* Region, zones, faces and partition of all levels stand where z->way says. */

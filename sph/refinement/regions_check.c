@@ -354,7 +354,7 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
     const int times = !moves || !told ? 0 : g->dim == 3 ? 4 : 32;
     const int before = f->n;
     for (int k = 0; k <= times && f->n == before; k++) {
-        const double t = times > 0 ? r->scene.time.end * k / times : 0.0;
+        const double t = body_drive_instant(k, times, times > 0 ? r->scene.time.end : 0.0);
         if (k > 0)
             stand_at(r, used, g, t);
         for (int side = 0; side < 2 * g->dim; side++) {
@@ -433,7 +433,7 @@ static void check_motion(const struct check *c, const struct regions *g)
     double lo[3], hi[3], d[BODY_AXES], dd[BODY_AXES], ddd[BODY_AXES];
     bounds(c->is, lo, hi);
     for (int k = 0; k <= 64; k++) {
-        const double t = c->r->scene.time.end * k / 64.0;
+        const double t = body_drive_instant(k, 64, c->r->scene.time.end);
         double way[3];
         if (!box_motion_foretold(c->r, c->used, t, way))
             return;

@@ -344,6 +344,25 @@ TEST(motion_is_differentiable)
     }
 }
 
+/* Whatever part of the run a period is: the largest speed is A omega, also of one that even
+ * samples, a period apart, would show at rest. */
+TEST(no_period_hides_between_samples)
+{
+    for (int n = 10; n <= 2000; n += 199) {
+        const double period = 2000.0 / n;
+        struct scene_body is = {.motion = {.n = 1}};
+        struct body_drive v;
+        is.motion.of[0] = (struct scene_motion){.kind = MOTION_HARMONIC,
+                                                .axis = AXIS_X,
+                                                .amplitude = 0.5,
+                                                .period = period,
+                                                .phase = 0.5 * M_PI};
+        body_drive_create(&v, &is, 2, NULL);
+        const double wanted = M_PI / period;
+        assert_close(body_drive_speed(&v, 0.0, 2000.0), wanted, 0.02 * wanted);
+    }
+}
+
 /* Locked degrees stay where they are, or go as told; a slider keeps its line. */
 static void push(struct body *b, double loads[6])
 {
