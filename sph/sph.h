@@ -41,6 +41,7 @@ struct list_state {
     bool ready;
     /* Prim and slope belong to y as well, and the next stage may take them as they are. */
     bool sloped;
+    bool pulled; /* what zones of waves want in this step is known: p.pull */
     bool broken; /* the state cannot be trusted: no list is made from it any more */
 };
 

@@ -37,7 +37,9 @@ static void grow(struct particles *p, int capacity)
         GROW(p->size, old, n);
     p->capacity = capacity;
     p->sum_capacity = 0;
+    p->pull_capacity = 0;
     DROP(p->sum);
+    DROP(p->pull);
     set_dummy(p, (p->nstate - 2) / 2);
 }
 
@@ -69,6 +71,15 @@ double *particles_sum(struct particles *p)
         p->sum_capacity = p->capacity;
     }
     return p->sum;
+}
+
+double *particles_pull(struct particles *p)
+{
+    if (p->pull_capacity < p->capacity) {
+        p->pull = NEW_IN(p->owner, double, (size_t)p->capacity *PULL);
+        p->pull_capacity = p->capacity;
+    }
+    return p->pull;
 }
 
 int particles_add(struct particles *p, int64_t id, enum sph_zone zone)

@@ -28,7 +28,7 @@ enum sph_role {
     ROLE_SURPLUS = 32,
     ROLE_SOURCE = 6
 };
-enum { PRIM = 8 }; /* doubles of a line of prim */
+enum { PRIM = 8, PULL = 4 }; /* doubles of a line of prim, of pull */
 /* Where the false divergence (time/damper.h) is: in 2D in a line of prim, in 3D in one of slope. */
 enum { PRIM_FALSE = 6, SLOPE_FALSE = 15 };
 
@@ -53,6 +53,8 @@ struct particles {
     double *sum; /* [sum_capacity][nstate] weighted sum of rates, where the Runge-Kutta scheme needs
                     one */
     int sum_capacity;
+    double *pull; /* [pull_capacity][PULL] 1/s, m/s: rate and velocity of zones, where some are */
+    int pull_capacity;
     double *prim;    /* [capacity+1][8] packed primitive variables */
     double *slope;   /* [capacity+1][nslope] packed gradients and transport velocity */
     int64_t *id;     /* [capacity] unique over all ranks */
@@ -123,6 +125,8 @@ int particles_add(struct particles *p, int64_t id, enum sph_zone zone);
 /* The array `sum', allocated for capacity records; its contents are lost when capacity has
  * grown. */
 double *particles_sum(struct particles *p);
+/* The array `pull', in the same way. */
+double *particles_pull(struct particles *p);
 /* Copies particle `from' over `to': state, id, zone, role, size and slope, which creations of
  * particles read. */
 void particles_copy(struct particles *p, int to, int from);

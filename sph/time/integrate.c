@@ -181,6 +181,7 @@ static void take_stages(struct sph *s, double dt, double t_end, double most[LEVE
     const double t = s->t;
     start(s, "update");
     for (struct sph *q = s; q; q = q->finer) {
+        q->lists.pulled = false;
         q->dt = dt; /* walls of every level bound their waves, and what comes near them, by it */
         memcpy(q->p.y0, q->p.y, (size_t)q->p.n * q->p.nstate * sizeof(double));
     }

@@ -17,6 +17,7 @@
 #include "../walls/sph_walls.h"
 #include "damper.h"
 #include "runge_kutta.h"
+#include "zone_pull.h"
 
 static void start(struct sph *s, const char *timer) { timer_start(&s->run->timers, timer); }
 
@@ -140,39 +141,6 @@ static void add_central(struct sph *s)
     }
 }
 
-/* Zones before sides take momentum, which walls at rest get, and do work where they make waves. The
- * force on a particle is -m rate (u - u_w), with u_w the velocity of the wave that the zone lets
- * through and `rate', 1/s, growing towards the side. Before open sides the flow that brings the
- * level back goes through the zone, too: held back there it would take no effect. */
-static void add_wave_zones(struct sph *s)
-{
-    const int dim = s->dim;
-    double power = 0.0;
-    timer_start(&s->run->timers, "waves");
-    wave_zones_at(s->wave_zones, s->t);
-    for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i), at[3] = {q[0], q[1], dim > 2 ? q[2] : 0.0};
-        double u_w[3], taken[3] = {0.0, 0.0, 0.0};
-        const double rate = wave_zones_rate(s->wave_zones, at, u_w);
-        double *momentum = state_row(&s->p, s->p.rate, i) + dim;
-        const double m = state_row(&s->p, s->p.y, i)[at_mass(dim)];
-        if (rate == 0.0)
-            continue;
-        if (s->zones)
-            zones_add_outflow(s->zones, at, u_w);
-        for (int a = 0; a < dim; a++) {
-            taken[a] = m * rate * (q[dim + a] - u_w[a]);
-            momentum[a] -= taken[a];
-            power -= particles_is_guard(&s->p, i) ? 0.0 : taken[a] * q[dim + a];
-        }
-        if (s->walls && !particles_is_guard(&s->p, i))
-            forces_add(s, -1, q, taken);
-    }
-    timer_stop(&s->run->timers, "waves");
-    if (wave_zones_drive(s->wave_zones))
-        s->watch.wall_power += power;
-}
-
 /* What follows the slopes of one level: of its deep guards these stay for the step. From now on
  * passes of this step leave deep rows out: nobody needs their rates. */
 static void slopes_done(struct sph *s)
@@ -251,7 +219,7 @@ void level_rates(struct sph *s)
     if (s->central > 0.0)
         add_central(s);
     if (s->wave_zones)
-        add_wave_zones(s);
+        zone_pull_add(s);
     if (s->guards)
         guards_rates(s);
 }

@@ -142,6 +142,7 @@ static void take_stages(struct sph *s, double t_end, struct common *all)
     const struct rk_stages *c = s->stages;
     const double t = s->t, dt = t_end - t;
     s->dt = dt;
+    s->lists.pulled = false;
     memcpy(s->p.y0, s->p.y, (size_t)s->p.n * s->p.nstate * sizeof(double));
     for (int k = 0; k < c->n; k++) {
         s->t = c->at[k] == 1.0 ? t_end : t + c->at[k] * dt;

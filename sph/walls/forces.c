@@ -83,6 +83,15 @@ void forces_add(const struct sph *s, int body, const double *x, const double *f)
         body_bend_load(bend, at, f, BEND_STAGE);
 }
 
+void forces_add_at_rest(const struct sph *s, const double force[3], const double moment[3])
+{
+    struct force *sum = s->walls->forces.stage + REST;
+    for (int a = 0; a < 3; a++) {
+        sum->F[a] += force[a];
+        sum->M[a] += moment[a];
+    }
+}
+
 /* An impulse, N s, goes into the step at once, for it is not part of a stage's rate; `hit' keeps it
  * apart, too, for free bodies, which get it after their own stages. */
 void forces_hit(const struct sph *s, int body, const double *x, const double *impulse)

@@ -14,6 +14,8 @@ void forces_clear(struct walls *w);
 /* Adds the force f[dim], N (2D: N/m), that the fluid at x[dim] exerts on a body (-1: the walls at
  * rest), and its moment. */
 void forces_add(const struct sph *s, int body, const double *x, const double *f);
+/* Adds a force, N (2D: N/m), on the walls at rest, and its moment about the origin. */
+void forces_add_at_rest(const struct sph *s, const double force[3], const double moment[3]);
 /* Adds an impulse, N s (2D: N s/m), at x in the same way. */
 void forces_hit(const struct sph *s, int body, const double *x, const double *impulse);
 /* Adds the forces of the stage, or the impulses of the step, of `from', the walls of another level,
