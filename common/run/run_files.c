@@ -164,8 +164,14 @@ struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *w
     MPI_Bcast(window, 1, MPI_INT64_T, 0, r->comm);
     MPI_Bcast(file, sizeof file, MPI_CHAR, 0, r->comm);
     if (!good) {
-        log_say("--restart: %s/checkpoint.txt names no restart file of %s; run without --restart",
-                r->dir, r->name);
+        snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
+        if (access(path, R_OK) != 0) /* rank 0 says it, where it was read */
+            log_say("--restart: %s has no restart files (output.checkpoint asks for them): run "
+                    "without --restart",
+                    r->dir);
+        else
+            log_say("--restart: %s names no restart file of %s; run without --restart", path,
+                    r->name);
         return NULL;
     }
     snprintf(path, sizeof path, "%s/%s", r->dir, file);

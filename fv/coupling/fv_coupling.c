@@ -748,8 +748,11 @@ bool coupling_load(struct fv *s, struct h5 *f)
     if (!c || !good)
         return good;
     good = forced_load(s, f);
-    if (s->surface)
-        good = good && water_budget_restart(&s->link->of_water, f) &&
-               h5_read_attribute_real(f, "inflow", &c->inflow);
+    if (!s->surface)
+        return good;
+    good = good && water_budget_restart(&s->link->of_water, f) &&
+           h5_read_attribute_real(f, "inflow", &c->inflow);
+    if (good && !isnan(s->link->of_water.start)) /* watches compare with all water at once */
+        s->surface->whole = s->link->of_water.start;
     return good;
 }

@@ -287,5 +287,6 @@ bool level_gap_restart(struct sph *s, struct h5 *f)
     return h5_keep_same(f, "level_at_rest", "m", 6, g->at_rest) &&
            h5_keep_same(f, "level_outflow", "m/s", 6, s->zones->outflow) &&
            h5_keep_same(f, "level_lasting", "m/s", 6, g->lasting) &&
-           h5_keep(f, "level_mean", &g->mean) && h5_keep(f, "level_worst", &g->watched.worst);
+           h5_keep_same(f, "level_gap", "m", 6, g->gap) && h5_keep(f, "level_mean", &g->mean) &&
+           h5_keep(f, "level_worst", &g->watched.worst);
 }

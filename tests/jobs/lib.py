@@ -281,7 +281,7 @@ def same_bits(folder, other):
 
 def restarted(folder, case, keys, **how):
     """The job that made a folder, restarted in a copy, FOLDER_again, from the point that it left on its way: a fault if it has other
-    last snapshots or another number of rows in its series."""
+    last snapshots, another number of rows in its series, or other worst values of what both programs differ by."""
     again = folder + '_again'
     shutil.copytree(folder, again)
     for program in 'sph', 'fv':  # those that are compared come from the restart
@@ -291,6 +291,11 @@ def restarted(folder, case, keys, **how):
     for path in glob.glob(folder + '/*series.csv'):
         if len(open(path).readlines()) != len(open(path.replace(folder, again, 1)).readlines()):
             bad('%s: another number of rows after a restart' % path)
+    for program, keys in ('sph', 'overlap_velocity overlap_pressure level_gap'), ('fv', 'unmapped_cells water_missing volume_returned'):
+        whole, part = (summary(at, program)['watch'] for at in (folder, again))
+        for key in keys.split():
+            if whole.get(key) != part.get(key):
+                bad('%s: %s.watch.%s is %s after a restart, not %s' % (folder, program, key, part.get(key), whole[key]))
 
 
 def mpirun(*programs, log='out.txt', most=60):
