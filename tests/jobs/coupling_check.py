@@ -201,4 +201,17 @@ fv:      { cells = (64, 32); };
 '''
 refuses('leaves the free zone of the particles across x', plate)
 accepts(plate, 'time.end=0.2')
+# a line of another period: 5.5 m is 1.5 m, where fv computes; in the box, which goes over the period, it may stand
+over = '''
+format = 1;
+time:    { end = 0.1; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { max = (4, 0.7); periodic = (true, false); };
+walls:   ( { side = "y_min"; }, { side = "y_max"; }, { points = ((5.6, 0), (5.6, 0.2), (5.5, 0.2), (5.5, 0)); } );
+shapes:  ( { form = "below"; level = 0.4; } );
+sph:     { dx = 0.025; box = ((3.3, 0), (4.9, 0.7)); };
+fv:      { cells = (160, 28); };
+'''
+refuses('walls.\\[2\\].points: at \\(5.*fv, which has no walls', over)
+accepts(over.replace('5.6', '4.2').replace('5.5', '4.1'))
 lib.end('%d faults' % lib.failed)
