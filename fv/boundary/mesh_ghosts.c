@@ -139,7 +139,7 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
  * or vertical. */
 static bool is_slanting(const struct fv *s, const struct side *d, int64_t c)
 {
-    const double *g = s->run->scene.fluid.gravity;
+    const double *g = s->gravity.hydrostatic;
     double S[3];
     grid_face_vector(&s->grid, c + d->face, d->a, S);
     const double gS = vec3_dot(g, S), cosine2 = gS * gS / (vec3_dot(S, S) * vec3_dot(g, g));
