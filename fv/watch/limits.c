@@ -217,20 +217,12 @@ static double viscous_time(double nu, const double *h, int dim)
     return nu > 0.0 ? VISCOUS_MOST * least * least / nu : INFINITY;
 }
 
-/* m/s^2: of gravity across closed sides, which alone holds a surface level: along a period it
- * drives the flow. */
-static double level_gravity(const struct scene *s)
-{
-    const struct gravity split = still_split(s);
-    return size_of(split.hydrostatic, s->domain.dim);
-}
-
 /* Waves of two cells: stable steps (rk3), or exact ones of waves that cells resolve. Implicit ones
  * do not see how flat the cells lie. */
 static void lower_surface(struct step_limit *l, const struct scene *s, const struct fv_params *p,
                           double shortest, const double *h)
 {
-    const double g = level_gravity(s), cfl = limits_cfl(p),
+    const double g = size_of(s->fluid.gravity, s->domain.dim), cfl = limits_cfl(p),
                  part[] = {fmin(cfl, 1.0), cfl / BDF2_CFL, cfl};
     lower(l, g > 0.0 ? WAVES * part[p->integrator] * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
     if (p->integrator != INTEGRATOR_NEWTON)
@@ -240,11 +232,10 @@ static void lower_surface(struct step_limit *l, const struct scene *s, const str
 /* Spacing that tells the shortest waves of an even grid. */
 static double shortest_of(const struct scene *s, const struct fv_params *p, const double *h)
 {
-    const struct gravity split = still_split(s);
-    const double g = level_gravity(s);
+    const double g = size_of(s->fluid.gravity, s->domain.dim);
     double shortest = INFINITY;
     for (int a = 0; a < s->domain.dim; a++)
-        if (p->integrator == INTEGRATOR_RK3 || fabs(split.hydrostatic[a]) < 0.7 * g)
+        if (p->integrator == INTEGRATOR_RK3 || fabs(s->fluid.gravity[a]) < 0.7 * g)
             shortest = fmin(shortest, h[a]);
     return shortest;
 }
@@ -313,7 +304,7 @@ static void warn_transient(const struct run *r, const struct fv_params *p, doubl
  */
 static double longest_period(const struct scene *s)
 {
-    const double g = level_gravity(s);
+    const double g = size_of(s->fluid.gravity, s->domain.dim);
     const int up = scene_still_axis(s);
     double low, high, k = INFINITY;
     if (up < 0)

@@ -199,31 +199,6 @@ TEST(viscous_surfaces_hold)
     }
 }
 
-/* Waves under gravity across a film know nothing of that along it, which newton's steps do not see
- * otherwise: sqrt(h/g), h that of cells along the film. */
-TEST(gravity_along_a_period_makes_no_waves)
-{
-    static const char *const along[] = {"fluid.gravity=(0,-1.9)", "fluid.gravity=(9.6,-1.9)"};
-    for (int k = 0; k < 2; k++) {
-        struct fv_case c;
-        fv_case_set(&c, MPI_COMM_SELF,
-                    (const char *const[]){"initial.field=\"rest\"", "fv.surface=\"yes\"",
-                                          "domain.periodic=(true,false)", "fluid.nu=0.1",
-                                          "fv.integrator=\"newton\"", "fv.cells=(10,20)", along[k],
-                                          NULL});
-        wall_add(&c, SIDE_Y_MIN, WALL_NO_SLIP, 0.0);
-        wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
-        c.run.scene.shapes[c.run.scene.nshapes++] =
-            (struct scene_shape){.form = SHAPE_BELOW, .level = 0.41};
-        struct fv *s = fv_case_start(&c, NULL);
-        s->speed.scene = 0.0; /* what gravity along the period will make counts by itself */
-        const struct step_limit l = limits_of(s);
-        assert_int_equal(l.by, LIMIT_WAVES);
-        assert_close(l.dt, 0.5 * sqrt(0.1 / 1.9), 1e-12);
-        fv_free(&c.s);
-    }
-}
-
 /* The amplitude of errors, initial.U, is no part of a step. */
 TEST(unit_of_errors_sets_no_step)
 {
