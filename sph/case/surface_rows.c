@@ -68,12 +68,15 @@ static double find_end(const struct rows_water *w, const double *x, int axis, do
     return lo;
 }
 
-/* Whether the fluid ends at x + way in air. */
+/* Whether the fluid ends at x + way in air, a quarter of a spacing wide or more: between a disc of
+ * water and the polygon of its drum are slivers, and rows that were moved there and not beside were
+ * renewed in part (a seventh of the finer level's particles missing). */
 static bool is_free(const struct rows_water *w, const double *x, int axis, double way)
 {
-    double y[3] = {x[0], x[1], x[2]};
+    double y[3] = {x[0], x[1], x[2]}, farther[3] = {x[0], x[1], x[2]};
     y[axis] += way + copysign(1e-6 * w->s->dx, way);
-    return !has_walls(w, y);
+    farther[axis] += way + copysign(0.25 * w->s->dx, way);
+    return !has_walls(w, y) && !has_walls(w, farther);
 }
 
 /* Where the surface is one row aside, from x, m; NAN: none within 2 dx. */

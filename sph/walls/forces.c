@@ -136,17 +136,18 @@ void forces_join_step(struct walls *to, struct walls *from)
 
 /* Morris's term is nu Lap u, whose traction on a wall is mu du/dn. The stress on a wall that turns
  * at w is mu (du/dn - w x n), for there the other half of the gradient is not 0; over a closed
- * surface the difference is no force but the moment -2 mu V w: of Couette flow between two
- * cylinders, r1/r2 = 1/2, three eighths of the torque. Monaghan's pairs push along the line of
- * centres, and their moment is whole. What the fluid loses is the first: it is what the watch of
- * the energy knows. */
+ * surface the difference is no force but the moment -2 mu V w, +2 mu V w round a tank's water: of
+ * Couette flow between two cylinders, r1/r2 = 1/2, three eighths of the torque. Monaghan's pairs
+ * push along the line of centres, and their moment is whole. What the fluid loses is the first: it
+ * is what the watch of the energy knows. */
 void forces_add_turning(const struct sph *s, int k, double moment[3])
 {
     const struct body *b = s->walls->bodies + k;
     if (b->is->kind != WALL_NO_SLIP || s->prm.viscosity != VISCOSITY_MORRIS)
         return;
+    const double V = b->is->tank ? -b->volume : b->volume;
     for (int a = 0; a < 3; a++)
-        moment[a] -= 2.0 * s->rho0 * s->nu * b->volume * b->now.omega[a];
+        moment[a] -= 2.0 * s->rho0 * s->nu * V * b->now.omega[a];
 }
 
 /* What is the same on all ranks and levels (reference pressure, friction of turning) is added by
