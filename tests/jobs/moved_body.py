@@ -135,7 +135,7 @@ print('plate: static %.5g m of %.5g m' % (-sum(late) / len(late), top(65400, 1.2
 # released from rest: light enough that without resistance the loop would end (mass 200), 0 for a heavy one
 for of, mass in ('65400 200 2e5', 200), ('65400 400 0', 400):
     folder = 'swing_of_%d' % mass
-    plate(folder, of, 'time.end=0.8')
+    plate(folder, of, 'time.end=0.5')
     was, wanted = period(folder + '.txt', -top(65400, 1.2, 1, 1)), wet_period(65400, mass, 1.2, 1, 1, 1000)
     close(folder + ': period, wet', was, wanted, 0.05)
     print('%s: period %.5g s of %.5g s' % (folder, was, wanted))
