@@ -38,7 +38,7 @@ static void read_rows(struct motion_file *m)
         sound = got == m->columns && (m->n == 0 || v[0] > m->rows[size - m->columns]);
         if (!sound)
             break;
-        GROW_IN(m, m->rows, size, size + m->columns);
+        ROOM_IN(m, m->rows, size + m->columns);
         memcpy(m->rows + size, v, (size_t)m->columns * sizeof *v);
         m->n++;
     }

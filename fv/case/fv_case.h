@@ -39,16 +39,10 @@ void surface_check(const struct run *r, struct faults *f);
 void probes_check_surface(const struct run *r, struct faults *f);
 /* Why newton has no outflow outside of which nothing stands, or less than elsewhere. */
 const char *surface_newton_lacks(bool falls);
-/* fv_scene.c, mesh_scene.c, without a surface: the faults of outflows at different heights, and of
- * inflows that take out %g m^%d/s. */
-#define FALLS                                                                                      \
-    "two outflows at different heights: the flow would fall from one to the other, and this "      \
-    "solver balances gravity across sides by the pressure; make that direction periodic, or give " \
-    "one of them as an \"inflow\""
-#define SUCKS                                                                                      \
-    "the velocities of the inflows point out of the domain: %g m^%d/s more would leave through "   \
-    "them than come in, and the fluid come in through the outflow; turn their signs, or make the " \
-    "side where it comes in the \"inflow\" and the other one the \"outflow\""
+/* Without a surface, on cells and on blocks: the faults of outflows at different heights, and of
+ * inflows, of that group of keys, that take out net m^dim/s. */
+void fv_fault_falls(const struct run *r, struct faults *f);
+void fv_fault_sucks(const struct run *r, struct faults *f, const char *group, double net);
 /* hanging_water.c: of water that would hang from the side of the domain above it. */
 void surface_check_hanging(const struct run *r, struct faults *f);
 

@@ -124,6 +124,17 @@ static double side_flux(const struct run *r, const struct exact *e, int a, int u
     return (up ? 1.0 : -1.0) * sum;
 }
 
+void fv_fault_sucks(const struct run *r, struct faults *f, const char *group, double net)
+{
+    params_fault(
+        r->params, f, group,
+        "the velocities of the inflows point out of the domain: %g m^%d/s more would leave "
+        "through them than come in, and the fluid come in through the outflow; turn their "
+        "signs, or make the side where it comes in the \"inflow\" and the other one the "
+        "\"outflow\"",
+        net, r->scene.domain.dim);
+}
+
 /* What flows in must be able to flow out. */
 static void check_balance(const struct run *r, struct faults *f)
 {
@@ -143,7 +154,7 @@ static void check_balance(const struct run *r, struct faults *f)
     if (surface_wanted(r)) /* a tank fills, or empties */
         return;
     if (!given && in && !exact && !r->coupled && net > 1e-6 * all)
-        params_fault(r->params, f, "walls", SUCKS, net, s->domain.dim);
+        fv_fault_sucks(r, f, "walls", net);
     if (!given || fabs(net) <= 1e-6 * all)
         return;
     if (r->coupled && (exact || !in)) /* the partner's part may have the rest */
@@ -159,6 +170,15 @@ static void check_balance(const struct run *r, struct faults *f)
                      "sides without a wall have the velocity of initial.field: %g m^%d/s more flow "
                      "%s than the others let pass; give an \"outflow\"",
                      fabs(net), s->domain.dim, net < 0.0 ? "in" : "out");
+}
+
+void fv_fault_falls(const struct run *r, struct faults *f)
+{
+    params_fault(
+        r->params, f, "fluid.gravity",
+        "two outflows at different heights: the flow would fall from one to the other, and "
+        "this solver balances gravity across sides by the pressure; make that direction "
+        "periodic, or give one of them as an \"inflow\"");
 }
 
 /* Water that flows out at two heights falls; here gravity across sides is left to the pressure, and
@@ -184,7 +204,7 @@ static void check_falling(const struct run *r, struct faults *f)
         most = fmax(most, height);
     }
     if (most - least > 1e-9 * size)
-        params_fault(r->params, f, "fluid.gravity", FALLS);
+        fv_fault_falls(r, f);
 }
 
 /* --- free surface --- */

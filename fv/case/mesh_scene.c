@@ -177,9 +177,9 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
         add_middle(&outflows, outflows.of + g);
     if (outflows.most - outflows.least > 1e-9 * size &&
         !surface_wanted(r)) /* outside stands water, too */
-        params_fault(r->params, f, "fluid.gravity", FALLS);
+        fv_fault_falls(r, f);
     if (out && in && !exact && net > 1e-6 * all && !surface_wanted(r) && !r->coupled)
-        params_fault(r->params, f, "blocks", SUCKS, net, m->dim);
+        fv_fault_sucks(r, f, "blocks", net);
     if (!out && fabs(net) > (exact ? 0.01 : 1e-6) * all)
         params_fault(r->params, f, "blocks",
                      "an %s without an outflow: %g m^%d/s more flow %s, and no side is an "
