@@ -29,6 +29,16 @@ struct tree_foot {
  * angle-weighted pseudonormal of the nearest feature (Baerentzen & Aanaes, IEEE TVCG 11, 2005),
  * which is right on edges and vertices, too. Distance INFINITY: the surface is farther. */
 struct tree_foot tree_nearest(const struct tree *t, const double x[3], double reach);
+/* The foot as a sheet with fluid on both sides has it: whatever is near it is before it. */
+static inline struct tree_foot tree_foot_of_sheet(struct tree_foot f)
+{
+    const double way = f.distance < 0.0 ? -1.0 : 1.0;
+    f.distance *= way;
+    for (int a = 0; a < 3; a++)
+        f.n[a] *= way;
+    return f;
+}
+
 /* Whether the segment a -> b meets a triangle, edges included (Moeller & Trumbore, J. Graphics
  * Tools 2, 1997). *where: fraction of the way from a to the first one, untouched if there is none;
  * NULL: not wanted, which is faster. */

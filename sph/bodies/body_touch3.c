@@ -18,7 +18,7 @@ static double nearest(const struct wall_mesh *m, const double *x, double gap, do
 {
     double own[3], foot[3];
     wall_mesh_to_own(m, x, own);
-    const struct tree_foot f = tree_nearest(m->tree, own, 4.0 * gap);
+    const struct tree_foot f = wall_mesh_nearest(m, own, 4.0 * gap);
     if (f.triangle < 0 || f.rim)
         return INFINITY;
     wall_mesh_to_world(m, f.foot, foot);
@@ -58,7 +58,7 @@ double touch_distance3(const struct walls *w, int body, const double *x, double 
         if (m->body != body || m->image)
             continue;
         wall_mesh_to_own(m, x, own);
-        const struct tree_foot f = tree_nearest(m->tree, own, reach);
+        const struct tree_foot f = wall_mesh_nearest(m, own, reach);
         if (f.triangle < 0 || f.rim || !(f.distance < least))
             continue;
         least = f.distance;

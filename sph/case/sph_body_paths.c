@@ -363,11 +363,21 @@ static double side_distance(const struct scene *c, const double *x, char *what, 
     return least;
 }
 
+/* Whether fluid is on both sides of an open mesh. */
+static bool is_sheet(const struct scene *c, const struct scene_mesh *m)
+{
+    return m->index >= 0 && !m->mesh.closed &&
+           (m->owner == MESH_OF_WALL   ? c->walls[m->index].thin
+            : m->owner == MESH_OF_BODY ? c->bodies[m->index].thin
+                                       : false);
+}
+
 /* Vertices of free body b, whose mesh is m, against another, those of that against the body:
  * nearest of all that its hinge does not hold; of faces that are flush, whose vertices lie on each
  * other, the middles of triangles, too. reach: of contact, of the search. */
-static double mesh_distance(const struct scene_body *b, const struct scene_mesh *m,
-                            const struct scene_mesh *n, const double reach[2], double at[3])
+static double mesh_distance(const struct scene *c, const struct scene_body *b,
+                            const struct scene_mesh *m, const struct scene_mesh *n,
+                            const double reach[2], double at[3])
 {
     double least = INFINITY;
     for (int e = 0; e < 2; e++) {
@@ -379,7 +389,9 @@ static double mesh_distance(const struct scene_body *b, const struct scene_mesh 
                 memcpy(x, of->mesh.x[i], sizeof x);
             else
                 trimesh_middle(&of->mesh, i - nv, x);
-            const struct tree_foot t = tree_nearest(against->tree, x, reach[1]);
+            struct tree_foot t = tree_nearest(against->tree, x, reach[1]);
+            if (is_sheet(c, against))
+                t = tree_foot_of_sheet(t);
             if (t.triangle < 0 || t.rim || t.distance >= (i < nv ? least : fmin(least, 0.0)) ||
                 is_held(b, x, reach[0]))
                 continue;
@@ -415,7 +427,7 @@ static void check_start3(const struct run *r, const struct sph_params *used, int
         if (n == m || n->owner == MESH_OF_SHAPE ||
             !looks(c, k, n->owner == MESH_OF_BODY ? n->index : -1))
             continue;
-        const double d = mesh_distance(b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
+        const double d = mesh_distance(c, b, m, n, (const double[2]){gap, fmax(size, gap)}, at);
         snprintf(what, sizeof what, "%s", n->name);
         if (d < least)
             fault_contact(r, k, b->name, what, d, gap, at, f);

@@ -133,6 +133,35 @@ static void check_profile(const struct run *r, const struct sph_params *used, in
     }
 }
 
+/* What faces hold, and the lattice that stands for the flow behind them, is seen through a mesh
+ * that is thin: the half of a duct behind a splitter that went through the opening lost its
+ * particles, and the run ended after 0.5 s. */
+static void check_sheets(const struct run *r, const struct sph_params *used, struct faults *f)
+{
+    const struct scene *c = &r->scene;
+    double lo[3], hi[3];
+    if (used->outer == OUTER_NONE || c->domain.dim < 3 || !c->meshes)
+        return;
+    zones_free_box(r, used, lo, hi);
+    for (int k = 0; k < c->meshes->n; k++) {
+        const struct scene_mesh *m = c->meshes->of + k;
+        const bool thin = m->index >= 0 && m->owner == MESH_OF_WALL && c->walls[m->index].thin;
+        bool out = false, within = true;
+        for (int a = 0; a < 3; a++) {
+            out = out || (lo[a] > used->box[0][a] && m->lo[a] < lo[a]) ||
+                  (hi[a] < used->box[1][a] && m->hi[a] > hi[a]);
+            within = within && m->lo[a] < used->box[1][a] && m->hi[a] > used->box[0][a];
+        }
+        if (thin && out && within)
+            params_fault(r->params, f, key_text("walls.[%d].thin", m->index),
+                         "%s reaches into the zone of an open side, which does not know of thin "
+                         "meshes: let it end within (%g, %g, %g) to (%g, %g, %g) m, or make it a "
+                         "solid of 0.7 sph.R_dx sph.dx = %.2g m",
+                         m->name, lo[0], lo[1], lo[2], hi[0], hi[1], hi[2],
+                         0.7 * used->R_dx * used->dx);
+    }
+}
+
 /* Under a surface levels are given, in full channels pressures. */
 static void check_openings(const struct run *r, const struct sph_params *used, struct faults *f)
 {
@@ -482,6 +511,7 @@ void sph_sense_check(const struct run *r, const struct sph_params *given,
     if (c->has_fv)
         return; /* the flow around is the partner's */
     check_openings(r, used, f);
+    check_sheets(r, used, f);
     const int before = f->n;
     check_islands(r, used, f);
     if (f->n == before)

@@ -69,15 +69,15 @@ static double way_to(const struct sph *s, const struct scene_probe *g, const dou
     return r2;
 }
 
-/* w W of local particle i at a gauge; 0: out of reach, or a guard. A gauge with a face as large as
- * `radius' has at least that for its support. */
+/* w W of local particle i at a gauge; 0: out of reach, behind a thin wall, or a guard. A gauge with
+ * a face as large as `radius' has at least that for its support. */
 static double weight_at(const struct sph *s, int i, const struct scene_probe *g)
 {
     const double *q = prim_line(&s->p, i);
     const double R = fmax(s->p.size ? s->p.size[i][0] : s->R, g->radius);
     double d[3];
     const double r2 = way_to(s, g, q, d);
-    return r2 >= R * R || particles_is_guard(&s->p, i)
+    return r2 >= R * R || particles_is_guard(&s->p, i) || walls_hide(s, q, d)
                ? 0.0
                : q[at_volume(s->dim)] * kernel_w(s->dim, sqrt(r2), R);
 }

@@ -247,23 +247,24 @@ void wall_joints_find(const struct sph *s, struct wall_joints *to)
         }
 }
 
-/* The fluid whose faces are nearest of those that show x their front; the first one if x is behind
- * all. */
+/* The fluid whose faces are nearest of those that show x their front; of those that show their back
+ * if x is behind all. */
 int wall_joint_fluid(const struct wall_joint *j, const double *x)
 {
-    int nearest = 0;
-    double least = INFINITY;
+    int nearest[2] = {0, -1};
+    double least[2] = {INFINITY, INFINITY};
     for (int fluid = 0; fluid < j->nfluids; fluid++) {
         struct wall_side side = wall_side_none(INFINITY);
         for (int k = 0; k < j->nfaces; k++)
             if (j->face[k].fluid == fluid)
                 wall_side_add(&side, &j->face[k].is, x);
-        if (side.distance > 0.0 && side.distance < least * (1.0 - 1e-9)) {
-            least = side.distance;
-            nearest = fluid;
+        const int front = side.distance > 0.0;
+        if (fabs(side.distance) < least[front] * (1.0 - 1e-9)) {
+            least[front] = fabs(side.distance);
+            nearest[front] = fluid;
         }
     }
-    return nearest;
+    return nearest[1] >= 0 ? nearest[1] : nearest[0];
 }
 
 /* Whether the line of sight from x to y goes through a segment, from either side. */
@@ -287,6 +288,23 @@ bool wall_joint_hides(const struct wall_joint *j, const double *x, const double 
             return true;
     }
     return false;
+}
+
+bool walls_hide(const struct sph *s, const double *x, const double *d)
+{
+    const struct walls *w = s->walls;
+    const double r = sqrt(vec_distance2(s->dim, d, (const double[3]){0.0, 0.0, 0.0}));
+    double to[3] = {0.0, 0.0, 0.0}, way[3] = {0.0, 0.0, 0.0};
+    bool thin = false, hidden = false;
+    for (int a = 0; a < s->dim; a++) {
+        way[a] = fmax(1.0 - 0.01 * s->dx / r, 0.0) * d[a];
+        to[a] = x[a] + way[a];
+    }
+    for (int k = 0; w && w->joints && k < w->joints->n && !hidden; k++)
+        hidden = wall_joint_hides(w->joints->of + k, x, to);
+    for (int k = 0; w && k < w->nmeshes && !thin; k++)
+        thin = w->meshes[k].thin;
+    return hidden || (thin && walls_meet(s, x, way) < 1.0);
 }
 
 const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, int fluid)

@@ -37,7 +37,8 @@ struct wall_joints {
 /* Finds the joints of the walls as they are now. Walls touch where they are nearer to each other
  * than dx/10; faces are followed to 2 R from the joint. */
 void wall_joints_find(const struct sph *s, struct wall_joints *to);
-/* Which of its fluids holds x: of those whose faces x is before, the one with the nearest. */
+/* Which of its fluids holds x: of those whose faces x is before, the one with the nearest; behind
+ * all faces that with the nearest. */
 int wall_joint_fluid(const struct wall_joint *j, const double *x);
 /* Whether x and y lie in different fluids with walls of the joint between them. */
 bool wall_joint_hides(const struct wall_joint *j, const double *x, const double *y);
@@ -45,5 +46,9 @@ bool wall_joint_hides(const struct wall_joint *j, const double *x, const double 
 const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, int fluid);
 /* Whether two fluids have faces within reach of x, on this side of where they meet again. */
 bool wall_joint_parts(const struct wall_joint *j, const double *x, double reach);
+/* Whether a wall too thin for the support, through which pairs do not see either, stands between a
+ * particle at x and the place x + d, m: a thin mesh, or a body beside the point where it touches
+ * another wall. A place on such a wall is seen from both sides. */
+bool walls_hide(const struct sph *s, const double *x, const double *d);
 
 #endif

@@ -84,6 +84,12 @@ static bool is_nearer(const struct tree_foot *f, const struct tree_foot *best)
     return r <= least * (1.0 + 1e-12) && best->rim && !f->rim;
 }
 
+struct tree_foot wall_mesh_nearest(const struct wall_mesh *m, const double *own, double reach)
+{
+    const struct tree_foot f = tree_nearest(m->tree, own, reach);
+    return m->thin && !m->mesh.closed ? tree_foot_of_sheet(f) : f;
+}
+
 struct tree_foot wall_meshes_nearest(const struct walls *w, const double *x, double reach,
                                      int *mesh)
 {
@@ -94,7 +100,7 @@ struct tree_foot wall_meshes_nearest(const struct walls *w, const double *x, dou
         double own[3], foot[3], n[3];
         wall_mesh_to_own(m, x, own);
         struct tree_foot f =
-            tree_nearest(m->tree, own, fmin(reach, fabs(best.distance) * (1.0 + 1e-12)));
+            wall_mesh_nearest(m, own, fmin(reach, fabs(best.distance) * (1.0 + 1e-12)));
         if (f.triangle < 0 || !is_nearer(&f, &best))
             continue;
         wall_mesh_to_world(m, f.foot, foot);

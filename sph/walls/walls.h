@@ -245,6 +245,9 @@ void wall_mesh_turn_to_world(const struct wall_mesh *m, const double *own, doubl
 /* Velocity, m/s, and acceleration, m/s^2 (NULL: not wanted), of the mesh's material point x. */
 void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const double *x,
                         double *u, double *du);
+/* Nearest point of one mesh to a place in its own frame within reach, m, as tree_nearest has it;
+ * open thin ones have fluid on both sides, and the place is before them. */
+struct tree_foot wall_mesh_nearest(const struct wall_mesh *m, const double *own, double reach);
 /* Nearest point of all meshes to x within reach, m, in the world's frame; *mesh: which one, -1:
  * none. Of two equally near ones it is the one whose side is known. */
 struct tree_foot wall_meshes_nearest(const struct walls *w, const double *x, double reach,

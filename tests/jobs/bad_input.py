@@ -662,6 +662,7 @@ else:
     faulty('mesh', 's/mesh = "solid.stl"/points = ((0, 0), (1, 1))/', 'walls and bodies of points need 2 dimensions: in space give a mesh', 'sph')
     faulty('mesh', 's/{ side = "y_max"; }, //; s/^shapes.*//', 'domain: the fluid fills it up to its side y_max, which is open', 'sph')
     faulty('mesh', r's/{ side = "x_min"; }, { side = "x_max"; }/{ side = "x_min"; kind = "inflow"; velocity = (1, 0, 0); }, { side = "x_max"; kind = "outflow"; }/; s/{ mesh.*/{ side = "z_max"; } );/; /^shapes/d; s/ gravity.*/ };/; s/^sph/bodies: ( { name = "b"; mesh = "solid.stl"; } );\n&/', r'bodies.\[0\]: b leaves the free zone of the particles across x', 'sph')
+    faulty('mesh', r's/{ side = "x_min"; }, { side = "x_max"; }/{ side = "x_min"; kind = "inflow"; velocity = (1, 0, 0); }, { side = "x_max"; kind = "outflow"; }/; s/{ mesh.*/{ side = "z_max"; }, { mesh = "open.stl"; thin = true; } );/; /^shapes/d; s/ gravity.*/ };/', r'walls.\[6\].thin: open reaches into the zone of an open side', 'sph')
     faulty('mesh', r's/{ mesh.*/{ side = "z_max"; } );/; s/^sph/bodies: ( { name = "a"; free = true; density = 2000; mesh = "solid.stl"; }, { name = "b"; free = true; density = 2000; mesh = "solid.stl"; translate = (0, 0, 0.35); } );\n&/', r'bodies.\[1\]: b reaches 0.0[0-9]* m into a', 'sph')
     # what only filling finds
     for change in 's/solid.stl/plate.stl/', r's/^sph/initial: { seed = ((0.5, 0.5, 0.9)); };\n&/':

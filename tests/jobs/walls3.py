@@ -25,17 +25,21 @@ for what in 'cube force x', 'cube force y', 'cube force z', 'cube moment x', 'cu
     check(largest('stream', what) < 1e-7, 'stream: %s is %g' % (what, largest('stream', what)))
 
 # a thin plate, solid or a sheet, with water of 0.5 m on one side and air on the other: nothing gets through, and the
-# water does not know of the other side
+# water does not know of the other side; nor does a gauge there, or a free body behind the sheet
 box_stl('plate.stl', (0.49, -0.2, -0.2), (0.51, 0.7, 1.2))
 box_stl('sheet.stl', (0.5, -0.2, -0.2), (0.52, 0.7, 1.2), 'xp ym yp zm zp')
 for name, side in ('plate', 'outside'), ('sheet', 'sheet'):
     run_case(name, changed(TANK3, time='end = 0.3;', domain='dim = 3; max = (1, 0.4, 1);', initial='field = "rest"; U = 2.2;',
                            walls=FIVE + ', { mesh = "%s.stl"; thin = true; fluid_side = "%s"; }' % (name, side),
                            shapes='{ form = "box"; box = ((0, 0, 0), (0.49, 0.4, 0.5)); }', sph='dx = 0.05; R_dx = 2.5; c0 = 30.0;',
-                           probes='{ name = "right"; kind = "level"; at = (0.65, 0.2, 0); }'))
+                           probes='{ name = "right"; kind = "level"; at = (0.65, 0.2, 0); }, { name = "dry"; at = (0.53, 0.2, 0.1); }'))
     held(name, 1e-10)
+    check(largest(name, 'dry') == 0, '%s: a gauge behind it reads %g Pa' % (name, largest(name, 'dry')))
     check(largest(name, 'right') == 0, '%s: %g m of water behind it' % (name, largest(name, 'right')))
     check(number(name, 'max_mach') < 5e-3, '%s: Mach %g beside it' % (name, number(name, 'max_mach')))
+
+run_case('behind', changed(open('sheet.cfg').read(), bodies='{ name = "cube"; free = true; density = 600; box = ((0.65, 0.1, 0.1), (0.85, 0.3, 0.3)); }'),
+         '--check')
 
 # a cube of six particles that stands on the floor under water: p A on its top, 3 %, and nothing to a side
 box_stl('block.stl', (0.3, 0.3, 0), (0.7, 0.7, 0.4))
