@@ -73,21 +73,32 @@ static double area(const struct scene *s, int side)
     return A;
 }
 
-/* What comes in leaves by the outlets, in a profile whose largest velocity is 3/2 of the mean. */
+/* Mean of an inflow's velocity over its largest one, -: of parabolas between closed sides, along
+ * each of two in 3D. */
+static double mean_share(const struct scene *s, const struct scene_wall *w)
+{
+    double share = 1.0;
+    for (int a = 0; a < s->domain.dim && w->profile == PROFILE_PARABOLIC; a++)
+        share *= a == (w->side - SIDE_X_MIN) / 2 || s->domain.periodic[a] ? 1.0 : 2.0 / 3.0;
+    return share;
+}
+
+/* What comes in leaves by the outlets, in the parabola that it has or one whose largest velocity is
+ * 3/2 of the mean. */
 static double inflow_speed(const struct scene *s)
 {
-    double speed = 0.0, rate = 0.0, out = 0.0;
+    double speed = 0.0, rate = 0.0, out = 0.0; /* rate: with the largest velocity, m^dim/s */
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         const double u = vec3_length(w->velocity);
         if (w->kind == WALL_INFLOW) {
             speed = fmax(speed, u);
-            rate += area(s, w->side) * u * (w->profile == PROFILE_PARABOLIC ? 2.0 / 3.0 : 1.0);
+            rate += area(s, w->side) * u * (w->profile == PROFILE_PARABOLIC ? 1.0 : 1.5);
         } else if (w->kind > WALL_INFLOW) {
             out += area(s, w->side);
         }
     }
-    return out > 0.0 ? fmax(speed, 1.5 * rate / out) : speed;
+    return out > 0.0 ? fmax(speed, rate / out) : speed;
 }
 
 /* Of walls that move along themselves. */
@@ -393,8 +404,7 @@ static double channel_pressure(const struct scene *s)
         if (w->kind != WALL_INFLOW)
             continue;
         const int a = (w->side - SIDE_X_MIN) / 2;
-        const double mean =
-            fabs(w->velocity[a]) * (w->profile == PROFILE_PARABOLIC ? 2.0 / 3.0 : 1.0);
+        const double mean = fabs(w->velocity[a]) * mean_share(s, w);
         most = fmax(most, s->fluid.nu * mean * extent(s, a) * narrowness(s, a));
     }
     return most;
