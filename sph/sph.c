@@ -264,6 +264,30 @@ static void warn_of_start(const struct run *r, const struct sph_params *prm)
                                 c->fluid.rho * prm->c0 * U));
 }
 
+/* Where no surface lets it out the sound of a jump runs to and fro. A disc of 8 dx that is
+ * accelerated uniformly from rest in a full box of ten times its radius has 109 to 172 kg/m of
+ * added mass over a period of 0.5 s with c0 10 m/s, 108 to 170 over 0.25 s with 20, 137 on average.
+ */
+static void warn_of_jolts(const struct run *r, const struct sph_params *prm)
+{
+    const struct scene *c = &r->scene;
+    const double period = 2.0 * prm->speed.across / prm->c0, *U = c->initial.velocity;
+    if (scene_has_surface(c) || !(period > 0.0))
+        return;
+    const struct body_jolt j = bodies_jolt(c, r->motions, U, c->time.end - period);
+    if (j.u > 0.0)
+        log_warn("bodies: %s changes its velocity by %.3g m/s at once, at t = %.3g s, in a room "
+                 "without air: its sound, rho c0 U = %.2g Pa, runs to and fro for long, and forces "
+                 "and pressures swing with it: read their means over whole periods of some %.3g s, "
+                 "or let the motion begin with a ramp of several",
+                 j.name, j.u, j.at, c->fluid.rho * prm->c0 * j.u, period);
+    else if (j.name)
+        log_warn("bodies: %s changes its acceleration by %.3g m/s^2 at once, at t = %.3g s, in a "
+                 "room without air: its sound runs to and fro for long, and its force swings by a "
+                 "fifth with it, whatever sph.c0 is: read means over whole periods of some %.3g s",
+                 j.name, j.a, j.at, period);
+}
+
 /* A tank of 48 x 32 particles without air, a level's edge across it: Mach 0.018 after 1.4 s of
  * rest, twice that each half a second. Under a surface riemann_ale does not rest either: water of
  * 12 rows, half of its length refined, after 3 s Mach 0.018, at the floor 2.6 % too much (riemann
@@ -326,6 +350,7 @@ static void warn_of(const struct run *r)
     warn_of_support(prm);
     warn_of_lift(r, prm);
     warn_of_start(r, prm);
+    warn_of_jolts(r, prm);
     warn_of_levels(r, prm);
     if (prm->outer == OUTER_SIDES && prm->surface == SURFACE_YES &&
         prm->scheme != SCHEME_RIEMANN_ALE)

@@ -11,6 +11,7 @@ struct series {
     FILE *file; /* NULL on the ranks that do not write */
     char path[1100];
     int ncolumns;
+    char last[32]; /* time of the last row of the earlier run, as it stands there; "": none */
 };
 
 /* The k-th field of a line, of that length; NULL: the line has fewer. */
@@ -66,8 +67,9 @@ static void keep_dropped(const char *path, double t, const char *header, int kep
 /* Keeps the rows up to t of an existing file, which hold t in 12 digits, under the columns of this
  * run: a case may have other gauges after a restart. A row that a kill cut short goes, too. Twelve
  * digits round by up to 5e-12 of t, hence 1e-11. The shorter file takes the place of the old one by
- * rename. */
-static void drop_later_rows(const char *path, double t, int n, const char *const *columns)
+ * rename. last[size]: the time of the last one that is kept. */
+static void drop_later_rows(const char *path, double t, int n, const char *const *columns,
+                            char *last, size_t size)
 {
     char *line = NULL;
     size_t room = 0;
@@ -82,8 +84,10 @@ static void drop_later_rows(const char *path, double t, int n, const char *const
         keep_dropped(path, t, line, kept);
     }
     while (in && getline(&line, &room, in) > 0)
-        if (strchr(line, '\n') && atof(line) <= t * (1.0 + 1e-11))
+        if (strchr(line, '\n') && atof(line) <= t * (1.0 + 1e-11)) {
             write_earlier(out, line, n, from);
+            snprintf(last, size, "%.*s", (int)strcspn(line, ",\r\n"), line);
+        }
     free(line);
     mem_free(from);
     if (in)
@@ -120,7 +124,7 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
     FILE *old = keep ? fopen(path, "r") : NULL;
     if (old) {
         fclose(old);
-        drop_later_rows(path, t_restart, ncolumns, columns);
+        drop_later_rows(path, t_restart, ncolumns, columns, s->last, sizeof s->last);
     }
     snprintf(s->path, sizeof s->path, "%s", path);
     s->file = fopen(path, old ? "a" : "w");
@@ -134,8 +138,15 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
     return s;
 }
 
+/* What restarts where the earlier run ended has that row already. */
 void series_row(struct series *s, const double *values)
 {
+    char t[32];
+    snprintf(t, sizeof t, "%.12g", values[0]);
+    const bool known = strcmp(t, s->last) == 0;
+    s->last[0] = '\0';
+    if (known)
+        return;
     for (int k = 0; s->file && k < s->ncolumns; k++)
         fprintf(s->file, "%.12g%s", values[k], k < s->ncolumns - 1 ? "," : "\n");
     if (s->file && ferror(s->file))

@@ -17,7 +17,7 @@ struct series;
  * A file that cannot be written ends the run (disk_failed). */
 struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
                              double t_restart);
-/* Writes one row, values[ncolumns] with 12 digits, flushed at once. */
+/* Writes a row with 12 digits, flushed at once; after a restart not one that is there already. */
 void series_row(struct series *s, const double *values);
 
 /* The summary in memory: an ordered list of keys with values. Keys with dots become nested objects,

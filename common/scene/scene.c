@@ -5,6 +5,7 @@
 #include "exact.h"
 #include "scene_check.h"
 #include "scene_facts.h"
+#include "scene_fluid.h"
 #include "scene_mesh.h"
 #include "scene_waves.h"
 
@@ -386,10 +387,35 @@ double scene_wave_length(const struct scene *s)
                : s->initial.L;
 }
 
+/* Whether a box, or water below a level, leaves no air between sides that are all closed. */
+static bool is_filled(const struct scene *s)
+{
+    const struct scene_domain *d = &s->domain;
+    double low, high;
+    bool shut = !s->has_waves, filled = false;
+    for (int a = 0; a < d->dim; a++)
+        for (int end = 0; end < 2; end++)
+            shut = shut && (d->periodic[a] || scene_side_is_wall(s, SIDE_X_MIN + 2 * a + end));
+    scene_heights(s, &low, &high);
+    for (int k = 0; k < s->nshapes; k++) {
+        const struct scene_shape *h = s->shapes + k;
+        bool all = h->form == SHAPE_BOX;
+        for (int a = 0; a < d->dim && all; a++) {
+            const double near = 1e-9 * (d->max[a] - d->min[a]);
+            all = fmin(h->box[0][a], h->box[1][a]) <= d->min[a] + near &&
+                  fmax(h->box[0][a], h->box[1][a]) >= d->max[a] - near;
+        }
+        all = all || (h->form == SHAPE_BELOW && h->level >= high - 1e-9 * (high - low));
+        filled = !h->hole && (filled || all);
+    }
+    return shut && filled;
+}
+
 bool scene_has_surface(const struct scene *s)
 {
     const int f = s->initial.field;
-    return s->nshapes > 0 || scene_has_wave(s) || f == FIELD_PATCH || f == FIELD_DROP;
+    return (s->nshapes > 0 && !is_filled(s)) || scene_has_wave(s) || f == FIELD_PATCH ||
+           f == FIELD_DROP;
 }
 
 bool scene_has_openings(const struct scene *s)

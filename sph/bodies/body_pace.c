@@ -168,3 +168,50 @@ struct body_pace bodies_pace(const struct scene *c, struct motion_files *files, 
     }
     return most;
 }
+
+/* Velocity and acceleration of the centre at t; before the start those of the fluid. */
+static void course_at(const struct body_drive *v, const double U[3], double t, double u[3],
+                      double a[3])
+{
+    struct body_motion m = {.u = {U[0], U[1], U[2]}};
+    if (t >= 0.0)
+        body_drive_motion(v, t, &m);
+    memcpy(u, m.u, sizeof m.u);
+    memcpy(a, m.du, sizeof m.du);
+}
+
+/* At t, by the motion just before and just after. What it changes by between is no jump, so two
+ * intervals of which the second is ten times the first tell them apart. */
+static struct body_jolt jolt_at(const struct body *b, const double U[3], double t, double end)
+{
+    double u[4][3], a[4][3], change[2][2];
+    const double apart[4] = {-1e-5, -1e-6, 1e-6, 1e-5};
+    for (int k = 0; k < 4; k++)
+        course_at(&b->drive, U, t + apart[k] * end, u[k], a[k]);
+    for (int k = 0; k < 2; k++) {
+        vec3_from(u[k], u[3 - k], u[k]);
+        vec3_from(a[k], a[3 - k], a[k]);
+        change[k][0] = vec3_length(u[k]);
+        change[k][1] = vec3_length(a[k]);
+    }
+    const bool jumps = change[1][0] > 0.5 * change[0][0] || change[1][1] > 0.5 * change[0][1];
+    return (struct body_jolt){jumps ? b->is->name : NULL, t,
+                              change[1][0] > 0.5 * change[0][0] ? change[1][0] : 0.0,
+                              change[1][1] > 0.5 * change[0][1] ? change[1][1] : 0.0};
+}
+
+struct body_jolt bodies_jolt(const struct scene *c, struct motion_files *files, const double U[3],
+                             double until)
+{
+    struct body_jolt first = {.name = NULL};
+    for (int k = 0; k < c->nbodies && !first.name; k++) {
+        struct body b;
+        if (!scene_body_moves(c->bodies + k) || c->bodies[k].free)
+            continue;
+        body_create(&b, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, files);
+        for (double t = 0.0; t <= until && !first.name; t = body_drive_event(&b.drive, t))
+            first = jolt_at(&b, U, t, c->time.end);
+        body_destroy(&b);
+    }
+    return first;
+}

@@ -16,6 +16,17 @@ struct body_pace {
     double rate; /* 1/s: of harmonic motion, and of springs that a body swings on */
 };
 
+/* A jump in what a body is told. */
+struct body_jolt {
+    const char *name; /* of the body, borrowed from the scene; NULL: no body jumps */
+    double at;        /* s */
+    double u, a;      /* m/s, m/s^2: by which the velocity, the acceleration of its centre jump */
+};
+
+/* The first jump of a prescribed motion at 0 or where a term begins or ends, before the time
+ * `until', s, in fluid that has the velocity U at 0; free bodies are left out. */
+struct body_jolt bodies_jolt(const struct scene *c, struct motion_files *files, const double U[3],
+                             double until);
 /* spacing, m, of the particles, which narrower gaps do not let through. */
 struct body_pace bodies_pace(const struct scene *c, struct motion_files *files, double spacing);
 /* m/s: the largest speed of a point of one body. */

@@ -365,7 +365,7 @@ void sph_watch_summarise(const struct sph *s)
 
 /* What a restart needs to judge as if nothing had been; the same on all ranks but for energy
  * removed and walls' work. */
-enum { KEPT = 5 + 3 * SPH_WATCHES + 2 * HISTORY + 1 + 2 * WATCH_SLOTS + 6 * BODIES_MAX };
+enum { KEPT = 5 + 3 * SPH_WATCHES + 2 * HISTORY + 1 + 2 * WATCH_SLOTS + 6 * BODIES_MAX + 9 };
 
 /* x to, or from, the next place of v. */
 static double keep(double **v, double x, bool load)
@@ -406,6 +406,13 @@ static void flatten(struct sph_watch *w, double *v, bool load)
             r->off[a] = keep(&v, r->off[a], load);
         r->pushed = keep(&v, r->pushed, load);
         r->pressure = keep(&v, r->pressure, load);
+    }
+    w->sound.from = keep(&v, w->sound.from, load);
+    w->sound.swing = keep(&v, w->sound.swing, load);
+    w->sound.n = (int)keep(&v, w->sound.n, load);
+    for (int a = 0; a < 3; a++) {
+        w->sound.least[a] = keep(&v, w->sound.least[a], load);
+        w->sound.most[a] = keep(&v, w->sound.most[a], load);
     }
 }
 
