@@ -185,21 +185,28 @@ static double height_of(const struct stretch *c, double h)
     return sum;
 }
 
+/* Only where boxes lie above the place it matters to all ranks what each has. */
 double surface_level(const struct fv *s, const double *x)
 {
     const struct block *b = &s->b;
     const int up = still_upright(&s->run->scene);
     const bool down = s->run->scene.fluid.gravity[up] > 0.0; /* the water hangs at the upper end */
     const struct columns c = columns_over(s, x, up);
-    double sum = down ? -(b->origin[up] + b->length[up]) : b->origin[up];
-    for (int i = 0; i < c.n; i++)
-        if (c.weight[i] > 0.0) {
-            struct stretch of = stretch_over(s, c.cell[i], up, down, x[up]);
-            add_water(s, c.cell[i], up, down, &of);
-            MPI_Allreduce(MPI_IN_PLACE, of.water, of.n, MPI_DOUBLE, MPI_SUM, s->comm);
-            sum += c.weight[i] * height_of(&of, b->h[up]);
-        }
     int rank;
     MPI_Comm_rank(b->cart, &rank);
-    return rank == 0 ? sum : 0.0; /* against gravity, as keys of levels are */
+    double sum = 0.0, all = down ? -(b->origin[up] + b->length[up]) : b->origin[up];
+    for (int i = 0; i < c.n; i++) {
+        if (!(c.weight[i] > 0.0))
+            continue;
+        struct stretch of = stretch_over(s, c.cell[i], up, down, x[up]);
+        add_water(s, c.cell[i], up, down, &of);
+        if (of.n > 1) {
+            MPI_Allreduce(MPI_IN_PLACE, of.water, of.n, MPI_DOUBLE, MPI_SUM, s->comm);
+            all += c.weight[i] * height_of(&of, b->h[up]);
+        } else {
+            all += c.weight[i] * b->h[up] * of.from[0];
+            sum += c.weight[i] * of.water[0];
+        }
+    }
+    return sum + (rank == 0 ? all : 0.0); /* against gravity, as keys of levels are */
 }

@@ -67,7 +67,7 @@ double surface_reach(const struct fv *s, int a);
 /* Writes period and damping of a standing wave, the volume and counts to the summary. */
 void surface_summarise(struct fv *s);
 /* even_level.c, uniform cells: height of the water over x, m, against gravity: that of the water in
- * the column of cells there on top of what x stands on. On rank 0; 0 on others. Collective. */
+ * the column of cells there on top of what x stands on. This rank's part of it. Collective. */
 double surface_level(const struct fv *s, const double *x);
 
 /* newton_report.c: sets the names, which are static, of newton's columns in the series, and returns
