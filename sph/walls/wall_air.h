@@ -90,6 +90,18 @@ static inline double wall_air_edge(const struct sph *s, const struct wall_list *
     return share * fmin(1.0, fmax(0.0, 10.0 * back / (all * s->dx)));
 }
 
+/* 0 to 1: how much of a pressure p, Pa, is tension beyond the weight of a row. */
+static inline double wall_air_parted(const struct sph *s, double p, int dim)
+{
+    double gravity = 0.0;
+    for (int a = 0; a < dim; a++)
+        gravity += s->gravity[a] * s->gravity[a];
+    if (!(gravity > 0.0) || !(p < 0.0))
+        return 0.0;
+    const double q = fmin(-p / (s->rho0 * sqrt(gravity) * s->dx), 1.0);
+    return q * q * (3.0 - 2.0 * q);
+}
+
 /* Of P, the pressure of a particle near a free surface and of the wall beside it together, Pa, what
  * is left under a roof, of normal n out of the fluid, and at an edge (its share: wall_air_edge),
  * where it is tension: all of noise, none beyond the weight of a row, for air comes between. The
@@ -107,12 +119,11 @@ static inline double wall_air_tension(const struct sph *s, const double *n, doub
         gravity += s->gravity[a] * s->gravity[a];
         away -= s->gravity[a] * n[a];
     }
-    gravity = sqrt(gravity);
-    away = fmax(away, 0.5 * edge * gravity);
+    away = fmax(away, 0.5 * edge * sqrt(gravity));
     if (!(away > 0.0))
         return P;
-    const double q = fmin(tension / (2.0 * s->rho0 * gravity * s->dx), 1.0);
-    return P + fmin(2.0 * away / gravity, 1.0) * tension * q * q * (3.0 - 2.0 * q);
+    return P + fmin(2.0 * away / sqrt(gravity), 1.0) * tension *
+                   wall_air_parted(s, -0.5 * tension, dim);
 }
 
 /* Whether a film runs along a wall so fast that its weight is nothing to it: rho u^2/2 above
