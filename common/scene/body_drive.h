@@ -95,8 +95,9 @@ double body_drive_step(const struct body_drive *v, double t);
 /* The next time after t, s, at which a term starts, ends or reaches its full size; INFINITY:
  * none. */
 double body_drive_event(const struct body_drive *v, double t);
-/* The i-th of n + 1 times, s, from 0 to `end' at which a motion is looked at: in order, but not
- * even, for an even row shows a motion whose period is a part of it in one phase alone. */
+/* The i-th of n + 1 times, s, from 0, the only one if n is 0, to `end' at which a motion is looked
+ * at: in order, but not even, for an even row shows a motion whose period is a part of it in one
+ * phase alone. */
 double body_drive_instant(int i, int n, double end);
 /* Largest speeds until the time `end', s, of points at the distance `reach', m, from the centre;
  * found by sampling. */

@@ -45,6 +45,13 @@ const char *scene_mesh_source(const struct scene *s, enum mesh_owner owner, int 
                                              : s->bodies[k].name;
 }
 
+bool scene_mesh_thin(const struct scene *s, const struct scene_mesh *m)
+{
+    return m->index >= 0 && (m->owner == MESH_OF_WALL   ? s->walls[m->index].thin
+                             : m->owner == MESH_OF_BODY ? s->bodies[m->index].thin
+                                                        : false);
+}
+
 bool scene_has_meshes(const struct scene *s)
 {
     bool any = false;

@@ -50,6 +50,9 @@ void scene_mesh_key(const struct scene *s, enum mesh_owner owner, int k, char ke
 bool scene_has_triangles(const struct scene *s, enum mesh_owner owner, int k);
 /* Their file, or the name of the body of simple form, for messages. Borrowed from the scene. */
 const char *scene_mesh_source(const struct scene *s, enum mesh_owner owner, int k);
+/* Whether fluid is on both sides of it, by the key thin of its wall or body; not of shapes and of
+ * what another program has. */
+bool scene_mesh_thin(const struct scene *s, const struct scene_mesh *m);
 /* Reads and repairs all meshes of the scene into s->meshes (scene_mesh_read.c). Faults name file,
  * triangle and remedy. Collective over comm. */
 void scene_meshes_read(struct scene *s, const char *case_dir, const struct params *p, MPI_Comm comm,

@@ -92,14 +92,13 @@ static bool is_wet_along(const struct scene *s, const double *x, const double *d
     return wet;
 }
 
-/* 1: the water lies before the body along the waves, -1: behind it; of both the longer way to the
- * domain's end. */
-static double water_side(const struct scene *s, const struct scene_body *b)
+/* 1: the water lies before the body, which reaches so far along the waves, -1: behind it; of both
+ * the longer way to the domain's end. */
+static double water_side(const struct scene *s, const struct scene_body *b, const double reach[2])
 {
     const int up = scene_still_axis(s);
-    double d[3], back[3], reach[2], last[3], first[3], room[2] = {0.0, 0.0};
+    double d[3], back[3], last[3], first[3], room[2] = {0.0, 0.0};
     scene_waves_direction(s, d, NULL);
-    reach_of(s, b, reach);
     middle_of(b, last);
     last[up] = (s->fluid.gravity[up] < 0.0 ? 1.0 : -1.0) *
                (scene_waves_level(s) - 0.1 * scene_waves_depth(s));
@@ -140,9 +139,9 @@ void wave_paddle_of(const struct scene *s, const struct scene_body *b, const str
                     struct wave_paddle *p)
 {
     double reach[2];
-    *p = (struct wave_paddle){
-        .per = lever(s, b, m), .hinge = axis_height(s, b, m), .side = water_side(s, b)};
     reach_of(s, b, reach);
+    *p = (struct wave_paddle){
+        .per = lever(s, b, m), .hinge = axis_height(s, b, m), .side = water_side(s, b, reach)};
     p->face = reach[p->side > 0.0];
     middle_of(b, p->middle);
 }

@@ -363,15 +363,6 @@ static double side_distance(const struct scene *c, const double *x, char *what, 
     return least;
 }
 
-/* Whether fluid is on both sides of an open mesh. */
-static bool is_sheet(const struct scene *c, const struct scene_mesh *m)
-{
-    return m->index >= 0 && !m->mesh.closed &&
-           (m->owner == MESH_OF_WALL   ? c->walls[m->index].thin
-            : m->owner == MESH_OF_BODY ? c->bodies[m->index].thin
-                                       : false);
-}
-
 /* Vertices of free body b, whose mesh is m, against another, those of that against the body:
  * nearest of all that its hinge does not hold; of faces that are flush, whose vertices lie on each
  * other, the middles of triangles, too. reach: of contact, of the search. */
@@ -390,7 +381,7 @@ static double mesh_distance(const struct scene *c, const struct scene_body *b,
             else
                 trimesh_middle(&of->mesh, i - nv, x);
             struct tree_foot t = tree_nearest(against->tree, x, reach[1]);
-            if (is_sheet(c, against))
+            if (!against->mesh.closed && scene_mesh_thin(c, against))
                 t = tree_foot_of_sheet(t);
             if (t.triangle < 0 || t.rim || t.distance >= (i < nv ? least : fmin(least, 0.0)) ||
                 is_held(b, x, reach[0]))
@@ -444,7 +435,7 @@ static void check_meshes(const struct run *r, const struct sph_params *used, str
         const int before = f->n, most = bodies[k].free ? 0 : times < 200 ? times : 200;
         const bool here = m && !solids_elsewhere(r, MESH_OF_BODY, k);
         for (int i = 0; here && i <= most && f->n == before; i++) {
-            const double t = body_drive_instant(i, most, most ? c->time.end : 0.0);
+            const double t = body_drive_instant(i, most, c->time.end);
             const struct room room = room_at(r, used, t);
             char when[64];
             snprintf(when, sizeof when, t > 0.0 ? "at t = %g s" : "at the start", t);
@@ -591,7 +582,7 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
     const double wanted = fmin(2.0 * speed * c->time.end / used->dx, MOST_TIMES);
     const int times = speed > 0.0 ? (int)fmax(wanted, LEAST_TIMES) : 0;
     for (int i = 0; i <= times && plane; i++) {
-        const double t = body_drive_instant(i, times, times ? c->time.end : 0.0);
+        const double t = body_drive_instant(i, times, c->time.end);
         place_bodies(c, bodies, t, now);
         if (check_places(r, used, all, n, t, f))
             break;

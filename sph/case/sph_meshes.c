@@ -12,11 +12,6 @@ static const char *file_of(const struct scene *c, const struct scene_mesh *m)
     return scene_mesh_source(c, m->owner, m->index);
 }
 
-static bool is_thin(const struct scene *c, const struct scene_mesh *m)
-{
-    return m->owner == MESH_OF_WALL ? c->walls[m->index].thin : c->bodies[m->index].thin;
-}
-
 static void check_size(const struct run *r, const struct scene_mesh *m, double dx, struct faults *f)
 {
     double size = 0.0;
@@ -116,7 +111,7 @@ static void check_thin(const struct run *r, const struct scene_mesh *m,
     const struct exact e = exact_create(&r->scene);
     const double reach = 0.7 * used->R_dx * used->dx;
     const int stride = 1 + m->mesh.ntriangles / RAYS;
-    for (int t = 0; t < m->mesh.ntriangles && !is_thin(&r->scene, m); t += stride) {
+    for (int t = 0; t < m->mesh.ntriangles && !scene_mesh_thin(&r->scene, m); t += stride) {
         struct facing is;
         if (!is_seen_through(&r->scene, &e, m, t, reach, &is))
             continue;

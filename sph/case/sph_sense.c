@@ -145,7 +145,7 @@ static void check_sheets(const struct run *r, const struct sph_params *used, str
     zones_free_box(r, used, lo, hi);
     for (int k = 0; k < c->meshes->n; k++) {
         const struct scene_mesh *m = c->meshes->of + k;
-        const bool thin = m->index >= 0 && m->owner == MESH_OF_WALL && c->walls[m->index].thin;
+        const bool thin = m->owner == MESH_OF_WALL && scene_mesh_thin(c, m);
         bool out = false, within = true;
         for (int a = 0; a < 3; a++) {
             out = out || (lo[a] > used->box[0][a] && m->lo[a] < lo[a]) ||

@@ -172,7 +172,7 @@ void coupling_check_walls(const struct run *r, const struct sph_params *prm, str
             continue;
         for (int i = 0; i <= times && f->n == before; i++) {
             struct given_flow g = {.domain = &r->scene.domain, .box = box, .open = open};
-            const double t = body_drive_instant(i, times, times ? r->scene.time.end : 0.0);
+            const double t = body_drive_instant(i, times, r->scene.time.end);
             const bool known = box_motion_foretold(r, prm, t, g.way) || i == 0;
             for (int a = 0; a < dim && !known; a++)
                 g.way[a] = box_motion_along(r, prm, a) ? INFINITY : 0.0;

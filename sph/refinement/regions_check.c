@@ -354,7 +354,7 @@ static void check_open_sides(const struct run *r, const struct sph_params *used,
     const int times = !moves || !told ? 0 : g->dim == 3 ? 4 : 32;
     const int before = f->n;
     for (int k = 0; k <= times && f->n == before; k++) {
-        const double t = body_drive_instant(k, times, times > 0 ? r->scene.time.end : 0.0);
+        const double t = body_drive_instant(k, times, r->scene.time.end);
         if (k > 0)
             stand_at(r, used, g, t);
         for (int side = 0; side < 2 * g->dim; side++) {

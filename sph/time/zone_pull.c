@@ -31,11 +31,11 @@ void zone_pull_add(struct sph *s)
 {
     const int dim = s->dim;
     const bool through = s->zones && s->zones->gap && s->zones->gap->kept;
-    const double *pull = particles_pull(&s->p);
+    double *pull = particles_pull(&s->p);
     double power = 0.0, force[3] = {0.0, 0.0, 0.0}, moment[3] = {0.0, 0.0, 0.0};
     timer_start(&s->run->timers, "waves");
     if (!s->lists.pulled)
-        look_up(s, particles_pull(&s->p));
+        look_up(s, pull);
     s->lists.pulled = true;
     for (int i = 0; i < s->p.n; i++, pull += PULL) {
         if (pull[0] == 0.0)

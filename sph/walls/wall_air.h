@@ -66,7 +66,9 @@ static inline double wall_air_share(const struct sph *s, const struct wall_touch
 static inline double wall_air_edge(const struct sph *s, const struct wall_list *l, int k,
                                    const int dim)
 {
-    double all = 0.0, apart = 0.0, back = 0.0, turn = 0.0, e[3] = {0.0}, n[3] = {0.0};
+    double all = 0.0, apart = 0.0, back = 0.0, e[3] = {0.0}, n[3] = {0.0};
+    if (l->first[k + 1] - l->first[k] < 2) /* as beside most walls */
+        return 0.0;
     for (const struct wall_touch *t = l->touch + l->first[k]; t < l->touch + l->first[k + 1]; t++) {
         const double W = wall_touch_counts(t);
         all += W;
@@ -79,7 +81,7 @@ static inline double wall_air_edge(const struct sph *s, const struct wall_list *
     }
     if (!(all > 0.0))
         return 0.0;
-    turn = all;
+    double turn = all;
     for (int a = 0; a < dim; a++) {
         apart -= e[a] * e[a] / all;
         turn -= n[a] * n[a] / all;
@@ -91,14 +93,12 @@ static inline double wall_air_edge(const struct sph *s, const struct wall_list *
 }
 
 /* 0 to 1: how much of a pressure p, Pa, is tension beyond the weight of a row. */
-static inline double wall_air_parted(const struct sph *s, double p, int dim)
+static inline double wall_air_parted(const struct sph *s, double p)
 {
-    double gravity = 0.0;
-    for (int a = 0; a < dim; a++)
-        gravity += s->gravity[a] * s->gravity[a];
-    if (!(gravity > 0.0) || !(p < 0.0))
+    const double weight = s->rho0 * vec3_length(s->gravity) * s->dx;
+    if (!(weight > 0.0) || !(p < 0.0))
         return 0.0;
-    const double q = fmin(-p / (s->rho0 * sqrt(gravity) * s->dx), 1.0);
+    const double q = fmin(-p / weight, 1.0);
     return q * q * (3.0 - 2.0 * q);
 }
 
@@ -113,17 +113,14 @@ static inline double wall_air_parted(const struct sph *s, double p, int dim)
 static inline double wall_air_tension(const struct sph *s, const double *n, double P, double edge,
                                       int dim)
 {
-    double gravity = 0.0, away = 0.0;
-    const double tension = 2.0 * s->background - P;
-    for (int a = 0; a < dim && tension > 0.0; a++) {
-        gravity += s->gravity[a] * s->gravity[a];
-        away -= s->gravity[a] * n[a];
-    }
-    away = fmax(away, 0.5 * edge * sqrt(gravity));
-    if (!(away > 0.0))
+    const double tension = 2.0 * s->background - P, gravity = vec3_length(s->gravity);
+    double away = 0.5 * edge * gravity, along = 0.0;
+    for (int a = 0; a < dim; a++)
+        along += s->gravity[a] * n[a];
+    away = fmax(away, -along);
+    if (!(tension > 0.0) || !(away > 0.0))
         return P;
-    return P + fmin(2.0 * away / sqrt(gravity), 1.0) * tension *
-                   wall_air_parted(s, -0.5 * tension, dim);
+    return P + fmin(2.0 * away / gravity, 1.0) * tension * wall_air_parted(s, -0.5 * tension);
 }
 
 /* Whether a film runs along a wall so fast that its weight is nothing to it: rho u^2/2 above
@@ -133,13 +130,12 @@ static inline bool wall_air_runs_along(const struct sph *s, const double *u, con
                                        const double *n, int dim)
 {
     enum { WEIGHTS = 500 };
-    double square = 0.0, across = 0.0, gravity = 0.0;
+    double square = 0.0, across = 0.0;
     for (int a = 0; a < dim; a++) {
         square += (u[a] - uw[a]) * (u[a] - uw[a]);
         across += (u[a] - uw[a]) * n[a];
-        gravity += s->gravity[a] * s->gravity[a];
     }
-    return fmax(square - across * across, 0.0) >= 2.0 * WEIGHTS * sqrt(gravity) * s->dx;
+    return fmax(square - across * across, 0.0) >= 2.0 * WEIGHTS * vec3_length(s->gravity) * s->dx;
 }
 
 #endif

@@ -295,16 +295,14 @@ bool walls_hide(const struct sph *s, const double *x, const double *d)
     const struct walls *w = s->walls;
     const double r = sqrt(vec_distance2(s->dim, d, (const double[3]){0.0, 0.0, 0.0}));
     double to[3] = {0.0, 0.0, 0.0}, way[3] = {0.0, 0.0, 0.0};
-    bool thin = false, hidden = false;
+    bool hidden = false;
     for (int a = 0; a < s->dim; a++) {
         way[a] = fmax(1.0 - 0.01 * s->dx / r, 0.0) * d[a];
         to[a] = x[a] + way[a];
     }
     for (int k = 0; w && w->joints && k < w->joints->n && !hidden; k++)
         hidden = wall_joint_hides(w->joints->of + k, x, to);
-    for (int k = 0; w && k < w->nmeshes && !thin; k++)
-        thin = w->meshes[k].thin;
-    return hidden || (thin && walls_meet(s, x, way) < 1.0);
+    return hidden || (w && walls_any_thin(w) && walls_meet(s, x, way) < 1.0);
 }
 
 const struct joint_face *wall_joint_face(const struct wall_joint *j, int piece, int fluid)

@@ -84,6 +84,14 @@ static bool is_nearer(const struct tree_foot *f, const struct tree_foot *best)
     return r <= least * (1.0 + 1e-12) && best->rim && !f->rim;
 }
 
+bool walls_any_thin(const struct walls *w)
+{
+    bool any = false;
+    for (int k = 0; k < w->nmeshes; k++)
+        any = any || w->meshes[k].thin;
+    return any;
+}
+
 struct tree_foot wall_mesh_nearest(const struct wall_mesh *m, const double *own, double reach)
 {
     const struct tree_foot f = tree_nearest(m->tree, own, reach);
@@ -331,7 +339,7 @@ static void add_lent(struct sph *s, struct walls *w)
         m->of = is;
         m->body = body ? is->index : -1;
         m->no_slip = (body ? c->bodies[is->index].kind : c->walls[is->index].kind) == WALL_NO_SLIP;
-        m->thin = body ? c->bodies[is->index].thin : c->walls[is->index].thin;
+        m->thin = scene_mesh_thin(c, is);
         m->friction = body ? 0.0 : c->walls[is->index].friction;
         if (!body)
             memcpy(m->u, c->walls[is->index].velocity, sizeof m->u);

@@ -360,7 +360,7 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
         /* Nor does what parts from an edge follow the wall: stretched by it, the water beside it
          * had -10 kPa for 2 (dam break against a box four particles high). */
         if (i->edge > 0.0 && across > 0.0)
-            across *= 1.0 - i->edge * wall_air_parted(s, 0.5 * P - s->background, dim);
+            across *= 1.0 - i->edge * wall_air_parted(s, 0.5 * P - s->background);
         P = wall_air_tension(s, t->n, P, i->edge, dim);
     }
     struct given to = {.w = W * across, .m = -W * m};
@@ -432,7 +432,8 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
     const int n = l->first[k + 1] - l->first[k];
     struct given all = *rim;
     ROOM_IN(m, m->q, n);
-    ROOM_IN(m, m->rub, n);
+    if (i->mu > 0.0)
+        ROOM_IN(m, m->rub, n);
     for (int j = 0; j < n; j++) {
         const struct wall_touch *t = l->touch + l->first[k] + j;
         struct wall_touch part;
@@ -441,9 +442,10 @@ INLINE struct given all_fluxes(const struct sph *s, struct nfm *m, int k, const 
             to = flux(s, l, k, t->on < 0 ? t : covering(t, &part, dim), i, wave, dim);
         for (int a = 0; a < dim; a++) {
             m->q[j][a] = to.q[a];
-            m->rub[j][a] = to.rub[a];
             all.q[a] += to.q[a];
         }
+        if (i->mu > 0.0)
+            memcpy(m->rub[j], to.rub, sizeof to.rub);
         all.w += to.w;
         all.m += to.m;
     }

@@ -7,15 +7,6 @@
 
 #include "wall_shadow.h"
 
-/* Whether some mesh is thin. */
-static bool any_thin(const struct walls *w)
-{
-    bool any = false;
-    for (int k = 0; k < w->nmeshes; k++)
-        any = any || w->meshes[k].thin;
-    return any;
-}
-
 /* --- pairs --- */
 
 /* Whether the segment a -> b meets a triangle (Moeller & Trumbore, J. Graphics Tools 2, 1997). Few
@@ -79,7 +70,7 @@ static bool has_thin(const struct sph *s, const struct wall_list *l, int k)
 
 void wall_list3_cut(const struct sph *s, struct wall_list *l)
 {
-    if (!any_thin(s->walls))
+    if (!walls_any_thin(s->walls))
         return;
     for (int k = 0; k < l->n; k++)
         if (has_thin(s, l, k))
@@ -289,7 +280,7 @@ static void shade(const struct sph *s, struct wall_list *l, int k)
 
 void wall_list3_shade(const struct sph *s, struct wall_list *l)
 {
-    if (!any_thin(s->walls))
+    if (!walls_any_thin(s->walls))
         return;
     for (int k = 0; k < l->n; k++) {
         memset(l->rim[k], 0, sizeof *l->rim);

@@ -245,6 +245,8 @@ void wall_mesh_turn_to_world(const struct wall_mesh *m, const double *own, doubl
 /* Velocity, m/s, and acceleration, m/s^2 (NULL: not wanted), of the mesh's material point x. */
 void wall_mesh_velocity(const struct walls *w, const struct wall_mesh *m, const double *x,
                         double *u, double *du);
+/* Whether some mesh is thin. */
+bool walls_any_thin(const struct walls *w);
 /* Nearest point of one mesh to a place in its own frame within reach, m, as tree_nearest has it;
  * open thin ones have fluid on both sides, and the place is before them. */
 struct tree_foot wall_mesh_nearest(const struct wall_mesh *m, const double *own, double reach);
