@@ -157,6 +157,33 @@ static double last_tolerance(const struct fv *s)
     return s->blocked ? 0.01 * s->prm.tol_pressure : s->prm.tol_pressure;
 }
 
+/* In a step of less than half the length of that before, psi becomes what it was before that stage,
+ * with a surface, and the smaller part of its change the shorter the step is. G does not see waves
+ * near the odd-even one, so their D I(u) stays, and psi has 1/tau of it: at most twice as much now.
+ * The last step, of a fiftieth, of a stream past a post (outputs each 3.3845 s, the end at 6.769 s)
+ * had five times the force. What else errs in a divergence, as the solver does, grows likewise. */
+static void bound_short(const struct fv *s, double dt, double *psi, const double *before)
+{
+    const double r = dt / s->step.dt, share = 4.0 * r * r;
+    for (int64_t i = 0; i < s->size; i++) {
+        const double base = s->surface ? before[i] : 0.0;
+        psi[i] = base + share * (psi[i] - base);
+    }
+}
+
+/* The stage's projection of length tau in a step of dt. */
+static void project_stage(struct fv *s, double dt, double t, int stage, double tau, double tol)
+{
+    const bool is_short = dt < 0.5 * s->step.dt;
+    double *before = is_short ? NEW(double, s->size) : NULL;
+    if (is_short)
+        memcpy(before, s->stages.psi[stage], (size_t)s->size * sizeof(double));
+    projection(s, t, stage, tau, tol);
+    if (is_short)
+        bound_short(s, dt, s->stages.psi[stage], before);
+    FREE(before);
+}
+
 static bool step_rk3(struct fv *s, double dt)
 {
     /* one cycle mostly; but a fixed number of them diverges around a hole on some grids (50 and 54
@@ -179,7 +206,7 @@ static bool step_rk3(struct fv *s, double dt)
         before = ab * dt;
         stop(s, "viscous");
         s->stages.implicit = k == 2 && !s->surface ? rk3_beta[k] * dt * s->nu : 0.0;
-        projection(s, t_stage, k, ab * dt, k == 2 ? last : first);
+        project_stage(s, dt, t_stage, k, ab * dt, k == 2 ? last : first);
     }
     s->stages.implicit = 0.0;
     if (s->surface)
@@ -228,7 +255,7 @@ static bool step_bdf2(struct fv *s, double dt)
     const bool good = add_increment(s, tau, s->t + dt, 0.0);
     stop(s, "viscous");
     s->stages.implicit = s->surface ? 0.0 : tau * s->nu;
-    projection(s, s->t + dt, 0, tau, last_tolerance(s));
+    project_stage(s, dt, s->t + dt, 0, tau, last_tolerance(s));
     s->stages.implicit = 0.0;
     add_pressure(s, s->stages.psi[0]);
     return good;
