@@ -1,12 +1,13 @@
 /* plate.c - a program that bends a body of sph: an elastic plate, pushed by the water.
  *
- *   plate DIR BODY OUTLINE.csv STIFFNESS MASS RESISTANCE [DAMPING], beside sph and coupler
+ *   plate DIR BODY OUTLINE.csv STIFFNESS MASS RESISTANCE [DAMPING [restart]], beside sph and
+ *   coupler
  *
  * The plate of Euler and Bernoulli, small deflections, upright and clamped at its foot; in 2D.
  * OUTLINE.csv has the points of the body's outline as the case has them, m; STIFFNESS N m: E
  * d^3/(12 (1 - nu^2)) of a plate of thickness d; MASS kg/m^2; RESISTANCE kg/(m^2 s): 2 rho c0 on
  * each wet side, 0 for plates that are heavy (coupler/README.md); DAMPING 1/s: force over MASS and
- * velocity.
+ * velocity. With `restart' it goes on from the restart files in DIR, as the others do.
  *
  * Cubic elements (deflection and slope at each node), in time the theta rule, for which no step is
  * too long. A cross-section stays plane: the point at the height z and the distance d from the
@@ -170,6 +171,51 @@ static void step(const struct state *s, double h, double resist, double damping,
     }
 }
 
+/* --- restart --- */
+
+/* All that a step begins with: the elements, the loads and the mean rates of the last step. */
+struct kept {
+    struct state now;
+    double f[N], seen[N];
+};
+
+/* Of this coupling step; all programs then name their files to the coupler (DIR/checkpoint.txt). */
+static void save(const char *dir, const struct kept *k)
+{
+    char name[80], path[800];
+    snprintf(name, sizeof name, "plate-%lld.bin", (long long)cpl_window_number(c));
+    snprintf(path, sizeof path, "%.400s/%s", dir, name);
+    FILE *to = fopen(path, "wb");
+    const int written = to && fwrite(k, sizeof *k, 1, to) == 1;
+    if (!to || fclose(to) || !written) {
+        fprintf(stderr, "plate: %s cannot be written\n", path);
+        exit(1); /* a partner that goes ends the job */
+    }
+    must(cpl_saved(c, name));
+}
+
+/* The coupling step and time, s, that the manifest has, and the state from the file that it names;
+ * 0: there is none. */
+static int load(const char *dir, long long *window, double *t, struct kept *k)
+{
+    char path[800], line[400], name[256] = "";
+    snprintf(path, sizeof path, "%.400s/checkpoint.txt", dir);
+    FILE *from = fopen(path, "r");
+    while (from && fgets(line, sizeof line, from)) {
+        (void)sscanf(line, "window %lld", window);
+        (void)sscanf(line, "t %lf", t);
+        (void)sscanf(line, "plate %255s", name);
+    }
+    if (from)
+        fclose(from);
+    snprintf(path, sizeof path, "%.400s/%s", dir, name);
+    from = *name ? fopen(path, "rb") : NULL;
+    const int read = from && fread(k, sizeof *k, 1, from) == 1;
+    if (from)
+        fclose(from);
+    return read;
+}
+
 /* Where the points are and how they get to the state `end' a step of h later. */
 static void tell(int field, double t, double h, const struct state *s, const struct state *end)
 {
@@ -188,19 +234,25 @@ static void tell(int field, double t, double h, const struct state *s, const str
 
 int main(int argc, char **argv)
 {
-    static double load[2 * POINTS], ones[POINTS];
+    static double loads[2 * POINTS], ones[POINTS];
     static int64_t ids[POINTS];
-    double of[4] = {0.0}, t0, t1, f[N] = {0}, seen[N] = {0};
-    struct state now = {{0}, {0}}, next = now;
+    double of[4] = {0.0}, t0, t1, begin = 0.0;
+    struct kept k = {0};
+    struct state next;
+    long long window = -1;
     int set, motion, pushed, action, code = 0;
     char name[2][CPL_NAME];
     MPI_Comm mine;
     for (int i = 4; i < argc && i < 8; i++)
         of[i - 4] = atof(argv[i]);
-    if (argc < 7 || argc > 8 || !(of[0] > 0.0) || !(of[1] > 0.0) || read_outline(argv[3]) < 3) {
+    if (argc < 7 || argc > 9 || !(of[0] > 0.0) || !(of[1] > 0.0) || read_outline(argv[3]) < 3) {
         /* before MPI_Init: the launcher ends the others */
         fprintf(stderr, "usage, beside sph and coupler: plate DIR BODY OUTLINE.csv STIFFNESS MASS "
-                        "RESISTANCE [DAMPING]\n");
+                        "RESISTANCE [DAMPING [restart]]\n");
+        return 2;
+    }
+    if (argc == 9 && !load(argv[1], &window, &begin, &k)) {
+        fprintf(stderr, "plate: no restart files in %s\n", argv[1]);
         return 2;
     }
     build(of[0], of[1]);
@@ -211,14 +263,14 @@ int main(int argc, char **argv)
         fprintf(stderr, "plate: no other program takes part in this job\n");
         return MPI_Finalize(), 2;
     }
-    must(cpl_meet(c, 0, -1, 0, argv[1]));
+    must(cpl_meet(c, 0, window, 0, argv[1]));
     must(cpl_points(c, "plate", 2, 1.0, &set)); /* any support: the points are those of sph */
     snprintf(name[0], CPL_NAME, "%s.outline", argv[2]);
     snprintf(name[1], CPL_NAME, "sph.%s.load", argv[2]);
     must(cpl_field(c, set, name[0], "m", 4, CPL_PUT, 0, &motion));
     must(cpl_field(c, set, name[1], "N", 2, CPL_GET, CPL_NEAREST | CPL_CONSERVATIVE, &pushed));
     /* resist h is then at most 1 in `step' */
-    must(cpl_ready(c, 0.0, of[2] > 0.0 ? of[1] / of[2] : INFINITY));
+    must(cpl_ready(c, begin, of[2] > 0.0 ? of[1] / of[2] : INFINITY));
     must(cpl_move(c, set, npoints, *x, ids, ones));
     printf("t, deflection, velocity, load\n"); /* of the top; all of the load along x */
     for (;;) {
@@ -226,17 +278,19 @@ int main(int argc, char **argv)
         if (action & CPL_STOP)
             break;
         const double h = t1 - t0;
-        step(&now, h, of[2] / of[1], of[3], f, seen, &next);
-        tell(motion, t0, h, &now, &next);
-        must(cpl_get(c, pushed, npoints, load, NULL)); /* means over the step of sph */
-        gather(load, f);
+        step(&k.now, h, of[2] / of[1], of[3], k.f, k.seen, &next);
+        tell(motion, t0, h, &k.now, &next);
+        must(cpl_get(c, pushed, npoints, loads, NULL)); /* means over the step of sph */
+        gather(loads, k.f);
         for (int i = 0; i < N; i++)
-            seen[i] = (next.q[i] - now.q[i]) / h;
-        now = next;
+            k.seen[i] = (next.q[i] - k.now.q[i]) / h;
+        k.now = next;
         double all = 0.0;
         for (int i = 0; i < npoints; i++)
-            all += load[2 * i];
-        printf("%.9g, %.9g, %.9g, %.9g\n", t1, now.q[N - 2], now.v[N - 2], all);
+            all += loads[2 * i];
+        printf("%.9g, %.9g, %.9g, %.9g\n", t1, k.now.q[N - 2], k.now.v[N - 2], all);
+        if (action & CPL_SAVE)
+            save(argv[1], &k);
         must(cpl_advance(c, t1, 0));
     }
     code = cpl_close(&c, code);

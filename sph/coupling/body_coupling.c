@@ -21,7 +21,6 @@ struct body_coupling {
     int force[BODIES_MAX], motion[BODIES_MAX], moved[BODIES_MAX]; /* moved: -1: by no partner */
     int load[BODIES_MAX];                                         /* of bodies that bend */
     struct force before[BODIES_MAX];                              /* N s: at t0 */
-    double (*before_load[BODIES_MAX])[2]; /* N s: the same on the points of one that bends */
     double t0;
 };
 
@@ -86,7 +85,6 @@ static void create_bend(struct sph *s, struct body_coupling *k, int b)
     partner_check(k->c, cpl_field(k->c, set, field_of(s->run, "", b, "outline"), "m", BENT, CPL_GET,
                                   CPL_NEAREST, k->moved + b));
     partner_check(k->c, cpl_move(k->c, set, mine, *x, id, one));
-    k->before_load[b] = mem_new_in(k, (size_t)p->n, sizeof *k->before_load[b]);
     FREE(x, id, one);
 }
 
@@ -198,8 +196,7 @@ void body_coupling_begin(struct sph *s, double t0, double t1)
         if (k->moved[b] >= 0)
             take_motion(s, b, t0, t1);
         if (bend)
-            memcpy(k->before_load[b], bend->load[BEND_TOTAL],
-                   (size_t)bend->n * sizeof *k->before_load[b]);
+            body_bend_clear(bend, BEND_WINDOW);
     }
 }
 
@@ -207,10 +204,10 @@ void body_coupling_begin(struct sph *s, double t0, double t1)
 static void put_loads(struct body_coupling *k, int b, const struct body_bend *bend, int rank,
                       double t1)
 {
-    double(*const mean)[2] = k->before_load[b];
+    double(*const mean)[2] = bend->load[BEND_WINDOW];
     for (int i = 0; i < bend->n; i++)
         for (int a = 0; a < 2; a++)
-            mean[i][a] = (bend->load[BEND_TOTAL][i][a] - mean[i][a]) / (t1 - k->t0);
+            mean[i][a] /= t1 - k->t0;
     partner_check(k->c, cpl_put(k->c, k->load[b], t1, rank ? 0 : bend->n, *mean, NULL));
 }
 

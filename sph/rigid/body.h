@@ -44,9 +44,9 @@ struct body_free {
 /* --- body_bend.c: a body in the plane whose outline another program bends --- */
 
 /* What the points of an outline bear, per metre: N in the stage under way and N s in the step, of
- * this level and rank; N s since the start and N of the pressure that the particles leave out, of
- * all ranks. */
-enum bend_load { BEND_STAGE, BEND_STEP, BEND_TOTAL, BEND_REFERENCE, BEND_LOADS };
+ * this level and rank; N s in the coupling step and N of the pressure that the particles leave out,
+ * of all ranks. */
+enum bend_load { BEND_STAGE, BEND_STEP, BEND_WINDOW, BEND_REFERENCE, BEND_LOADS };
 
 /* Its n points where they are now, and their loads. */
 struct body_bend {

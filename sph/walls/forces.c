@@ -207,7 +207,7 @@ void forces_step(struct sph *s, double dt)
             MPI_Allreduce(MPI_IN_PLACE, bend->load[BEND_STEP], 2 * bend->n, MPI_DOUBLE, MPI_SUM,
                           s->run->comm);
     }
-    add_bends(s->walls, BEND_TOTAL, 1.0, s->walls, BEND_STEP);
+    add_bends(s->walls, BEND_WINDOW, 1.0, s->walls, BEND_STEP);
     clear_bends(s->walls, BEND_STEP);
     f->known = true;
     if (s->walls->nbodies > 0)

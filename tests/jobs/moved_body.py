@@ -99,9 +99,9 @@ told('short', 'another program wishes coupling steps of .*coupling.memory = ')
 plate_case, outline = (root + '/coupler/examples/plate.' + end for end in ('cfg', 'csv'))
 
 
-def plate(folder, of, keys='', ranks='1'):
+def plate(folder, of, keys='', ranks='1', how='--force'):
     """Deflection of the top over time beside water of depth 1 m in a tank of 1 m; `of': stiffness, mass, resistance, damping."""
-    lib.ended(folder, run(launcher, plate_case, '-n', ranks, '-o', folder, '--force', *settings(keys), '--with',
+    lib.ended(folder, run(launcher, plate_case, '-n', ranks, '-o', folder, how, *settings(keys), '--with',
                           '%s/examples/plate %s plate %s %s' % (build, folder, outline, of), log=folder + '.txt'), (0,))
     return places(folder + '.txt')
 
@@ -139,9 +139,14 @@ for of, mass in ('65400 200 2e5', 200), ('65400 400 0', 400):
     was, wanted = period(folder + '.txt', -top(65400, 1.2, 1, 1)), wet_period(65400, mass, 1.2, 1, 1, 1000)
     close(folder + ': period, wet', was, wanted, 0.05)
     print('%s: period %.5g s of %.5g s' % (folder, was, wanted))
-# loads do not depend on the ranks
-a, b = plate('plate1', '65400 200 2e5', 'time.end=0.05'), plate('plate2', '65400 200 2e5', 'time.end=0.05', '2')
+# loads do not depend on the ranks, and a restart goes on as if nothing had been
+keys = 'time.end=0.05 output.checkpoint=0.03'
+a, b = plate('plate1', '65400 200 2e5', keys), plate('plate2', '65400 200 2e5', 'time.end=0.05', '2')
 close('plate on two ranks: deflection', b[-1][1], a[-1][1], 1e-6)
+unbroken = open('plate1/sph-series.csv').read()
+again = plate('plate1', '65400 200 2e5 0 restart', keys, how='--restart')
+if not 1 < len(again) < len(a) or again != a[-len(again):] or open('plate1/sph-series.csv').read() != unbroken:
+    bad('plate: a restart does not go on as the unbroken run')
 refused_by('sph', beside, 'kind = "partner"', 'kind = "bending"; }, { kind = "harmonic"; amplitude = 0.1; period = 1.0',
            'a partner that bends a body moves all of its outline')
 
