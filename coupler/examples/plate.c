@@ -174,13 +174,13 @@ static void step(const struct state *s, double h, double resist, double damping,
 /* --- restart --- */
 
 /* All that a step begins with: the elements, the loads and the mean rates of the last step. */
-struct kept {
+struct plate_state {
     struct state now;
     double f[N], seen[N];
 };
 
 /* Of this coupling step; all programs then name their files to the coupler (DIR/checkpoint.txt). */
-static void save(const char *dir, const struct kept *k)
+static void save(const char *dir, const struct plate_state *k)
 {
     char name[80], path[800];
     snprintf(name, sizeof name, "plate-%lld.bin", (long long)cpl_window_number(c));
@@ -196,7 +196,7 @@ static void save(const char *dir, const struct kept *k)
 
 /* The coupling step and time, s, that the manifest has, and the state from the file that it names;
  * 0: there is none. */
-static int load(const char *dir, long long *window, double *t, struct kept *k)
+static int load(const char *dir, long long *window, double *t, struct plate_state *k)
 {
     char path[800], line[400], name[256] = "";
     snprintf(path, sizeof path, "%.400s/checkpoint.txt", dir);
@@ -237,7 +237,7 @@ int main(int argc, char **argv)
     static double loads[2 * POINTS], ones[POINTS];
     static int64_t ids[POINTS];
     double of[4] = {0.0}, t0, t1, begin = 0.0;
-    struct kept k = {0};
+    struct plate_state k = {0};
     struct state next;
     long long window = -1;
     int set, motion, pushed, action, code = 0;
