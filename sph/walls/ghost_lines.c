@@ -22,6 +22,17 @@ double ghost_density(const struct sph *s, double rho, double K, double d)
     return s->rho0 * pow(sixth > 0.1 ? sixth : 0.1, 1.0 / 6.0);
 }
 
+/* An image that pulled no more than it presses still let rows fall with 0.3 to 0.7 g, for it goes
+ * up as they go down, which stretches them. */
+bool ghost_parted(const struct sph *s, double rho, double K, double d, double u)
+{
+    const double g = vec3_length(s->gravity);
+    if (!s->surface || !(-2.0 * K > g) || u > 0.0)
+        return false;
+    return eos_p(ghost_density(s, rho, K, d), s->rho0, s->c0, s->gamma) <
+           -0.25 * s->rho0 * g * s->dx;
+}
+
 void ghost_set_line(const struct sph *s, double *line, const double *x, const double *u, double w,
                     double rho)
 {

@@ -16,6 +16,11 @@ struct ghost_block {
 /* Density at the distance d, m, along n from a point with density rho, by (1/rho) dp/dn = K, m/s^2
  * [3.9-3.10]. */
 double ghost_density(const struct sph *s, double rho, double K, double d);
+/* Whether fluid of density rho, at the distance d, m, before a wall, parts from it: air comes
+ * between in scenes with a free surface where fluid at u, m/s, along n relative to the wall, leaves
+ * a roof (from 30 degrees to the upright on) that it hangs from by more than a quarter of the
+ * weight of a row. K as above. */
+bool ghost_parted(const struct sph *s, double rho, double K, double d, double u);
 /* Writes x, u, w, rho into the packed record of a ghost. */
 void ghost_set_line(const struct sph *s, double *line, const double *x, const double *u, double w,
                     double rho);

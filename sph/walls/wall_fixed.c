@@ -138,6 +138,7 @@ static void set_ghost(struct sph *s, struct fixed *m, int k, const struct fixed_
         K += (s->gravity[a] - du[a]) * n[a];
     }
     const double rho = any ? ghost_density(s, v->rho, K, 2.0 * r) : s->rho0;
+    const bool parted = any && ghost_parted(s, v->rho, K, r, -across);
     for (int a = 0; a < 2; a++) {
         u[a] = any ? v->u[a] + 2.0 * across * n[a] : uw[a];
         m->ghosts.rub[2 * k + a] =
@@ -146,7 +147,7 @@ static void set_ghost(struct sph *s, struct fixed *m, int k, const struct fixed_
             any ? v->grho[a] - 2.0 * (steep - rho * K / (s->c0 * s->c0)) * n[a] : 0.0;
     }
     ghost_set_line(s, prim_line(&s->p, s->p.n + m->ghosts.first + k), x, u,
-                   d->w * presence(m->room[k], v), rho);
+                   parted ? 0.0 : d->w * presence(m->room[k], v), rho);
 }
 
 static void lines(struct sph *s)

@@ -112,6 +112,14 @@ static void lines(struct sph *s)
     }
 }
 
+/* Whether the line i, at the distance d, m, has no image, for it leaves a roof. */
+static bool parts_from(const struct sph *s, const struct wall_plane *p, int i, double d)
+{
+    const double *q = prim_line(&s->p, i);
+    return ghost_parted(s, q[at_rho(s->dim)], p->sign * s->gravity[p->axis], d,
+                        p->sign * q[s->dim + p->axis]);
+}
+
 static void ghosts(struct sph *s)
 {
     struct mirror *m = s->walls->state;
@@ -123,7 +131,7 @@ static void ghosts(struct sph *s)
         const int before = m->ghosts.n;
         for (int i = 0; i < have; i++) {
             const double d = p->sign * (p->at - prim_line(&s->p, i)[p->axis]);
-            if (d >= 0.0 && d < reach_of(s, i))
+            if (d >= 0.0 && d < reach_of(s, i) && !parts_from(s, p, i, d))
                 add(s, m, i, k);
         }
         if (m->ghosts.n > before) /* the next sides mirror these, too */
