@@ -41,6 +41,8 @@ struct sides {
     double fall[6];             /* Pa/m: the pressure's slope into the domain */
     double mean[6];             /* Pa: slow mean of the pressure inside a given inflow */
     double surge[6];            /* Pa: what it exceeds that by now */
+    double back[6];             /* s: share that runs back, over the second half of the run */
+    double watched;             /* s: of it */
     double *table;              /* [bins][BIN] sums, then means */
     struct side_plane *planes;  /* [bins]: velocity and pressure of the flow inside */
     struct side_levels *levels; /* of the water outside; NULL: no free surface */
@@ -238,6 +240,21 @@ static void find_shares(struct sides *d)
     }
 }
 
+/* What runs back beside what leaves; where all runs in it is driven so. */
+static void watch_backflow(struct sides *d, double dt)
+{
+    const struct sph *s = d->s;
+    const double part = fmin(dt, s->t - 0.5 * s->run->scene.time.end);
+    if (part <= 0.0)
+        return;
+    d->watched += part;
+    for (int side = 0; side < 2 * s->dim; side++) {
+        const struct opening_side *of = d->of + side;
+        const bool outlet = of->is && of->is->kind != WALL_INFLOW && of->leaves > 0.5;
+        d->back[side] += outlet ? part * (1.0 - of->leaves) : 0.0;
+    }
+}
+
 /* From sums over the bins: a side whose velocity is given lets sound out, p' = -rho c u', while the
  * slow mean of the velocity stays as given. Held at every moment it is a wall for sound, an
  * outlet's pressure is one of the other kind, and the blow of a sudden start goes to and fro
@@ -351,6 +368,7 @@ static void look_inside(struct sph *s)
     }
     MPI_Allreduce(MPI_IN_PLACE, d->table, BIN * d->bins, MPI_DOUBLE, MPI_SUM, s->run->comm);
     find_shares(d);
+    watch_backflow(d, dt);
     if (!d->levels)
         find_surges(d, fmax(dt, 0.0));
     find_planes(d);
@@ -522,12 +540,32 @@ double sides_level(const struct sph *s, int side)
     return d->levels && d->of[side].is ? side_levels_level(d->levels, side) : NAN;
 }
 
-/* What is smoothed in time; the rest follows from the particles. */
+void sides_summarise(const struct sph *s)
+{
+    static const double much = 0.1;
+    const struct sides *d = s->zones->ctx;
+    for (int side = 0; side < 2 * s->dim && d->watched > 0.0; side++) {
+        const char *const name = scene_side_names[side];
+        const double back = d->back[side] / d->watched;
+        if (!d->of[side].is || d->of[side].is->kind == WALL_INFLOW)
+            continue;
+        summary_real(s->run->summary, key_text("backflow.%s", name), back);
+        if (back > much)
+            log_warn("%.0f %% of what flows through the outlet %s runs back in, over the second "
+                     "half of the run: it comes as water at rest outside would, which is no more "
+                     "than a guess; put the outlet farther away from what stirs the flow",
+                     100.0 * back, name);
+    }
+}
+
+/* What is smoothed or summed in time; the rest follows from the particles. */
 bool sides_restart(struct sph *s, struct h5 *f)
 {
     struct sides *d = s->zones->ctx;
     d->t = h5_writes(f) ? d->t : s->t;
     return h5_keep_same(f, "sides_slope", "Pa/m", 6, d->fall) &&
            h5_keep_same(f, "sides_mean", "Pa", 6, d->mean) &&
+           h5_keep_same(f, "sides_back", "s", 6, d->back) &&
+           h5_keep_same(f, "sides_watched", "s", 1, &d->watched) &&
            (!d->levels || side_levels_restart(d->levels, f));
 }

@@ -13,6 +13,9 @@
 void sides_create(struct sph *s, struct zones *z);
 /* Level of the water outside a side under a free surface, m against gravity; NAN: there is none. */
 double sides_level(const struct sph *s, int side);
+/* backflow.SIDE of the summary: what runs back at an outlet beside what leaves, over all that flows
+ * through it, mean over the second half of the run; a warning where that is much. */
+void sides_summarise(const struct sph *s);
 /* Restart files, written or read; false: the file has none that fit. */
 bool sides_restart(struct sph *s, struct h5 *f);
 

@@ -466,6 +466,8 @@ void sph_finish(void *state)
         summary_real(to, "mass_fluctuation_particles", s->total.fluctuation_particles);
         summary_int(to, "born", llround(births(s)));
         summary_int(to, "gone", llround(removals(s)));
+        if (s->zones->update)
+            sides_summarise(s);
     }
     opening_summary(s, to);
 }
