@@ -319,6 +319,14 @@ static bool look_around(const struct fv *s, const struct part *p, const double *
     return true;
 }
 
+/* Whether passes go on where cubics are not through what resolves the surface, or no longer come
+ * closer, as between two bends: of points that are found in the end not one in 500 is like that,
+ * and the other way round they took a quarter of all passes. */
+static bool is_lost(const struct around *w, const struct cubic q[3], double before, double moved)
+{
+    return moved > before || !is_resolved(w, q);
+}
+
 /* false: the cells around do not resolve the surface, and *distance is left as it is. Two passes at
  * least: the first starts from the centre and knows nothing of how phi bends. */
 bool surface_closest(const struct fv *s, const struct part *p, const double *phi, int64_t c,
@@ -329,12 +337,14 @@ bool surface_closest(const struct fv *s, const struct part *p, const double *phi
     double x[3] = {0.0, 0.0, 0.0}, moved = INFINITY, square = 0.0;
     if (fabs(phi[c]) > 3.0 * s->surface->largest || !look_around(s, p, phi, c, &w))
         return false;
-    for (int k = 0; k < PASSES && (k < 2 || moved > EXACT * w.h * w.h); k++) {
+    const double near = EXACT * w.h * w.h;
+    for (int k = 0; k < PASSES && (k < 2 || moved > near); k++) {
+        const double before = moved;
         moved = move(&w, q, x, k == 0);
-        if (!isfinite(moved))
+        if (!isfinite(moved) || (k >= 2 && moved > near && is_lost(&w, q, before, moved)))
             return false;
     }
-    if (moved > EXACT * w.h * w.h || !is_resolved(&w, q))
+    if (moved > near || !is_resolved(&w, q))
         return false;
     for (int a = 0; a < s->dim; a++)
         square += x[a] * x[a];
