@@ -201,9 +201,9 @@ static void check_error(const char *what, const char *key, const struct params *
 /* First words of the keys of summary.json that sph and fv write (tests/style.sh compares). */
 /* clang-format off */
 static const char *const words[] = {
-    "accepted", "balance", "body", "born", "case", "cell_steps_per_s", "cells", "compare",
-    "cpu_s", "damping", "dim", "discharge", "divergence", "dp", "drift", "drops", "dt", "du",
-    "enstrophy", "error", "extrema", "faces_hold", "force", "fringe_cells", "fringe_cells_linear",
+    "accepted", "backflow", "balance", "body", "born", "case", "cell_steps_per_s", "cells",
+    "compare", "cpu_s", "damping", "dim", "discharge", "divergence", "dp", "drift", "drops", "dt",
+    "du", "enstrophy", "error", "extrema", "faces_hold", "force", "fringe_cells", "fringe_cells_linear",
     "gone", "halved_steps", "height", "krylov_per_newton", "largest_velocity", "level_volume",
     "levels", "mass_fluctuation", "mass_fluctuation_particles", "max_cfl", "max_mach",
     "max_mach_late", "max_speed_over_U", "mesh", "modules", "momentum", "newton_iterations",

@@ -92,7 +92,7 @@ static double mass_at(const struct walls *w, const struct pair *p, const struct 
         if (k < 0)
             continue;
         for (int a = 0; a < w->bodies[k].dim; a++)
-            arm[a] = t->x[a] - body_centre(w->bodies + k, a);
+            arm[a] = t->x[a] - (e ? t->shift[a] : 0.0) - body_centre(w->bodies + k, a);
         yields += 1.0 / body_effective_mass(w->bodies + k, arm, t->out);
     }
     return 1.0 / yields;
@@ -130,13 +130,14 @@ static void push(struct sph *s, const struct pair *p, double (*loads)[6])
     for (int i = 0; i < p->n; i++) {
         const struct touch *t = p->touch + i;
         const int of = t->mine ? p->a : p->b, against = t->mine ? p->b : p->a;
-        double F[3];
+        double F[3], beside[3];
+        vec3_from(t->shift, t->x, beside);
         force_of(t, t->depth / all, &law, mass_at(w, p, t) / w->dt_contact, F, rubs->more);
         pressed += vec3_dot(F, t->out);
         if (of >= 0)
-            body_load(w->bodies + of, t->x, F, 1.0, loads[of]);
+            body_load(w->bodies + of, t->mine ? t->x : beside, F, 1.0, loads[of]);
         if (against >= 0)
-            body_load(w->bodies + against, t->x, F, -1.0, loads[against]);
+            body_load(w->bodies + against, t->mine ? beside : t->x, F, -1.0, loads[against]);
         for (int e = 0; e < 2; e++) {
             const int who = e ? against : of;
             if (who >= 0 && w->bodies[who].free)
@@ -161,12 +162,22 @@ static bool next_pair(const struct walls *w, struct pair *p)
     return false;
 }
 
-/* The gap is that of the first body of the pair. */
+/* Of the first body of the pair with the second, and with the images of that across periods: those
+ * of walls at rest are walls of their own. The gap is that of the first body. */
 static void find(const struct sph *s, struct pair *p)
 {
+    int way[3], most[3] = {0, 0, 0};
+    for (int a = 0; a < s->dim && p->b >= 0; a++)
+        most[a] = s->periodic[a];
     p->n = 0;
-    (s->dim == 2 ? pair_find2 : pair_find3)(s->walls, p,
-                                            s->walls->bodies[p->a].contact.gap * s->dx);
+    for (way[0] = -most[0]; way[0] <= most[0]; way[0]++)
+        for (way[1] = -most[1]; way[1] <= most[1]; way[1]++)
+            for (way[2] = -most[2]; way[2] <= most[2]; way[2]++) {
+                for (int a = 0; a < 3; a++)
+                    p->shift[a] = way[a] ? way[a] * (s->hi[a] - s->lo[a]) : 0.0;
+                (s->dim == 2 ? pair_find2 : pair_find3)(s->walls, p,
+                                                        s->walls->bodies[p->a].contact.gap * s->dx);
+            }
 }
 
 static double *start_gap(struct walls *w, const struct pair *p)

@@ -21,11 +21,13 @@ static struct touch_box box_of(const struct walls *w, int first, int n, double m
     return b;
 }
 
-static bool meets(const struct touch_box *b, const struct segment *g)
+/* Of a segment that stands off by shift. */
+static bool meets(const struct touch_box *b, const struct segment *g, const double *shift)
 {
     bool any = true;
     for (int a = 0; a < 2; a++)
-        any = any && fmin(g->a[a], g->b[a]) <= b->hi[a] && fmax(g->a[a], g->b[a]) >= b->lo[a];
+        any = any && fmin(g->a[a], g->b[a]) + shift[a] <= b->hi[a] &&
+              fmax(g->a[a], g->b[a]) + shift[a] >= b->lo[a];
     return any;
 }
 
@@ -35,7 +37,7 @@ static bool holds(const struct touch_box *b, const double *x)
 }
 
 /* Segments of a body, or those at rest. The range of walls at rest is that of all segments, images
- * across periods included; a body's is its own segments alone. */
+ * across periods included; a body's is its own segments alone, its images are among the last. */
 static bool belongs(const struct segment *g, int body) { return g->body == body; }
 
 static void range(const struct walls *w, int body, int *first, int *end)
@@ -44,15 +46,17 @@ static void range(const struct walls *w, int body, int *first, int *end)
     *end = body < 0 ? w->nsegments : *first + w->bodies[body].n;
 }
 
-/* Signed distance of x to what body has within reach, its nearest point and the normal there. */
-static double nearest(const struct walls *w, int body, const double *x, double reach, double *out)
+/* Signed distance of x to what body, with its images or without, has within reach, its nearest
+ * point and the normal there. */
+static double nearest(const struct walls *w, int body, bool images, const double *x, double reach,
+                      double *out)
 {
     struct wall_side side = wall_side_none(reach);
     double least = INFINITY, foot[2] = {0.0, 0.0};
     const struct segment *found = NULL;
     int first, end;
     range(w, body, &first, &end);
-    for (int k = first; k < end; k++) {
+    for (int k = first; k < (images ? w->nsegments : end); k++) {
         const struct segment *g = w->segments + k;
         if (!belongs(g, body))
             continue;
@@ -81,7 +85,8 @@ static double nearest(const struct walls *w, int body, const double *x, double r
 double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
                       double out[3])
 {
-    return dim == 2 ? nearest(w, body, x, reach, out) : touch_distance3(w, body, x, reach, out);
+    return dim == 2 ? nearest(w, body, true, x, reach, out)
+                    : touch_distance3(w, body, x, reach, out);
 }
 
 /* Walls at rest do not move, even those with a velocity along themselves. */
@@ -92,17 +97,25 @@ static void velocity_of(const struct walls *w, int body, const double *x, double
         body_velocity(w->bodies + body, x, u);
 }
 
+void pair_beside(const struct pair *p, const double *x, double y[3], int dim)
+{
+    for (int a = 0; a < dim; a++)
+        y[a] = x[a] - p->shift[a];
+}
+
 void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
               double depth, bool mine)
 {
-    double other[3];
+    double other[3], beside[3];
     ROOM_IN(NULL, p->touch, p->n + 1);
     struct touch *t = p->touch + p->n++;
     *t = (struct touch){.depth = depth, .mine = mine};
     memcpy(t->x, x, (size_t)w->bodies[p->a].dim * sizeof *x);
     memcpy(t->out, out, sizeof t->out);
-    velocity_of(w, mine ? p->a : p->b, x, t->u);
-    velocity_of(w, mine ? p->b : p->a, x, other);
+    memcpy(t->shift, p->shift, sizeof t->shift);
+    pair_beside(p, x, beside, w->bodies[p->a].dim);
+    velocity_of(w, mine ? p->a : p->b, mine ? x : beside, t->u);
+    velocity_of(w, mine ? p->b : p->a, mine ? beside : x, other);
     vec3_add(t->u, -1.0, other);
 }
 
@@ -117,7 +130,7 @@ bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, 
         if (!b || !b->free || !b->free->hinged)
             continue;
         for (int a = 0; a < b->dim; a++)
-            arm[a] = x[a] - b->free->hinge[a];
+            arm[a] = x[a] - (e ? p->shift[a] : 0.0) - b->free->hinge[a];
         vec3_add(arm, -vec3_dot(arm, b->free->axis), b->free->axis);
         held = held || vec3_length(arm) < gap;
     }
@@ -132,12 +145,12 @@ double touch_settle(double d, const double way[3], double e, const double beside
     return e - vec3_dot(way, out);
 }
 
-/* nearest, of corner x of segment k of a line. Corners of lines at rest have the normals of both
- * segments in turn. */
+/* nearest, of corner x, beside what it may touch, of segment k of a line. Corners of lines at rest
+ * have the normals of both segments in turn. */
 static double nearest_of_corner(const struct walls *w, int of, int k, int against, const double *x,
                                 double gap, double *out)
 {
-    const double d = nearest(w, against, x, 4.0 * gap, out);
+    const double d = nearest(w, against, false, x, 4.0 * gap, out);
     double way[3] = {0.0, 0.0, 0.0}, y[2], beside[3];
     int first, end;
     if (!(fabs(d) < TOUCH_FLUSH * gap))
@@ -148,7 +161,7 @@ static double nearest_of_corner(const struct walls *w, int of, int k, int agains
         way[a] = TOUCH_FLUSH * gap * (n[a] + (of < 0 ? 0.0 : before[a]));
         y[a] = x[a] + way[a];
     }
-    const double e = nearest(w, against, y, 4.0 * gap, beside);
+    const double e = nearest(w, against, false, y, 4.0 * gap, beside);
     return touch_settle(d, way, e, beside, out);
 }
 
@@ -165,9 +178,15 @@ static void find_corners(const struct walls *w, struct pair *p, const struct tou
         if (!belongs(g, of))
             continue;
         for (int e = 0; e < (of < 0 ? 2 : 1); e++) { /* lines at rest may be open */
-            const double *x = e ? g->b : g->a;
-            const double d =
-                holds(near, x) ? nearest_of_corner(w, of, k, against, x, gap, out) : INFINITY;
+            const double *own = e ? g->b : g->a;
+            double x[2], y[2]; /* beside a and b */
+            for (int a = 0; a < 2; a++) {
+                x[a] = own[a] + (mine ? 0.0 : p->shift[a]);
+                y[a] = x[a] - p->shift[a];
+            }
+            const double d = holds(near, x)
+                                 ? nearest_of_corner(w, of, k, against, mine ? y : x, gap, out)
+                                 : INFINITY;
             if (d < gap && !pair_is_held(w, p, x, gap))
                 pair_add(w, p, x, out, gap - d, mine);
         }
@@ -181,7 +200,7 @@ static bool any_near(const struct walls *w, const struct pair *p, const struct t
     bool any = false;
     range(w, p->b, &first, &end);
     for (int k = first; k < end && !any; k++)
-        any = belongs(w->segments + k, p->b) && meets(near, w->segments + k);
+        any = belongs(w->segments + k, p->b) && meets(near, w->segments + k, p->shift);
     return any;
 }
 

@@ -8,13 +8,15 @@
 /* A corner of one near the other. */
 struct touch {
     double x[3], out[3]; /* m: position of the corner; unit normal out of what is touched */
+    double shift[3];     /* m: how far what is touched of the second body stands from that body */
     double depth, u[3];  /* m; m/s of the corner's body relative to what it touches */
     bool mine;           /* the corner belongs to the first of the pair */
 };
 
 /* Two bodies with their touches; touch is owned. */
 struct pair {
-    int a, b; /* bodies; b = -1: walls at rest */
+    int a, b;        /* bodies; b = -1: walls at rest */
+    double shift[3]; /* m: from b to its image across periods that is looked at */
     int n;
     struct touch *touch;
 };
@@ -23,7 +25,8 @@ struct pair {
  * `out' is the normal there. */
 void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
               double depth, bool mine);
-/* Signed distance, m, of x to the surface of a body (-1: walls at rest) within reach, with the unit
+/* Signed distance, m, of x to the surface of a body (-1: walls at rest), its images across periods
+ * among it, within reach, with the unit
  * normal out of it; INFINITY: nothing is within reach. */
 double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
                       double out[3]);
@@ -36,9 +39,12 @@ double touch_distance(const struct walls *w, int dim, int body, const double *x,
  * nearest to it, with the normal out; way: to the place inside, m; e, beside: the same of that
  * place. */
 double touch_settle(double d, const double way[3], double e, const double beside[3], double out[3]);
+/* *y: where x, beside the first body of the pair, lies beside the second. */
+void pair_beside(const struct pair *p, const double *x, double y[3], int dim);
 /* Whether x is within `gap', m, of the axis that one of the two is hinged about. */
 bool pair_is_held(const struct walls *w, const struct pair *p, const double *x, double gap);
-/* Adds all corners nearer than `gap', m: of polylines; pair_find3 (body_touch3.c) of meshes. */
+/* Adds all corners nearer than `gap', m, to b where p->shift has it: of polylines; pair_find3
+ * (body_touch3.c) of meshes. */
 void pair_find2(const struct walls *w, struct pair *p, double gap);
 double touch_distance3(const struct walls *w, int body, const double *x, double reach,
                        double out[3]);

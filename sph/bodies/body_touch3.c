@@ -55,7 +55,7 @@ double touch_distance3(const struct walls *w, int body, const double *x, double 
     for (int j = 0; j < w->nmeshes; j++) {
         const struct wall_mesh *m = w->meshes + j;
         double own[3], n[3];
-        if (m->body != body || m->image)
+        if (m->body != body)
             continue;
         wall_mesh_to_own(m, x, own);
         const struct tree_foot f = wall_mesh_nearest(m, own, reach);
@@ -77,14 +77,17 @@ static void find_vertices(const struct walls *w, struct pair *p, double gap, boo
         const struct wall_mesh *m = w->meshes + i;
         for (int k = 0; m->body == of && !m->image && k < m->mesh.nvertices; k++) {
             double x[3];
+            double y[3];
             wall_mesh_to_world(m, m->mesh.x[k], x);
-            if (!is_near(w, p->a, x, gap) || (p->b >= 0 && !is_near(w, p->b, x, gap)))
+            vec3_add(x, mine ? 0.0 : 1.0, p->shift);
+            pair_beside(p, x, y, 3);
+            if (!is_near(w, p->a, x, gap) || (p->b >= 0 && !is_near(w, p->b, y, gap)))
                 continue;
             for (int j = 0; j < w->nmeshes; j++) {
                 double out[3];
                 if (w->meshes[j].body != against || w->meshes[j].image)
                     continue;
-                const double d = nearest_of_vertex(m, k, w->meshes + j, x, gap, out);
+                const double d = nearest_of_vertex(m, k, w->meshes + j, mine ? y : x, gap, out);
                 if (d < gap && !pair_is_held(w, p, x, gap))
                     pair_add(w, p, x, out, gap - d, mine);
             }
@@ -100,10 +103,11 @@ static bool any_near(const struct walls *w, const struct pair *p, double gap)
     for (int j = 0; j < w->nmeshes && !any; j++) {
         const struct wall_mesh *m = w->meshes + j;
         const double centre[3] = {body_centre(a, 0), body_centre(a, 1), body_centre(a, 2)};
-        double own[3];
+        double own[3], beside[3];
         if (m->body != p->b || m->image)
             continue;
-        wall_mesh_to_own(m, centre, own);
+        pair_beside(p, centre, beside, 3);
+        wall_mesh_to_own(m, beside, own);
         any = tree_nearest(m->tree, own, a->reach + gap).triangle >= 0;
     }
     return any;

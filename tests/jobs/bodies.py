@@ -63,6 +63,18 @@ run_case('begins_tank', changed(TANK, time='end = 0.02;', domain='min = (-1, -1)
                                 bodies='{ name = "t"; box = ((0, 0), (1, 0.8)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.2); } ); }'))
 within('water in a tank that begins elsewhere', column('begins_tank', 'mass')[0], 400, 0.01)
 
+# Contact knows no period: a block that is pushed against another one, both free, one above the other's middle, in the middle of the
+# domain and across its end.
+far = []
+for low in -0.5, 0:
+    blocks = ', '.join('{ name = "%s"; box = ((%g, %g), (%g, %g)); density = 500; free = true; %s }' % (name, x, y, x + 0.2, y + 0.2, more)
+                       for name, x, y, more in (('a', 0.1, 0.3, 'velocity = (-0.5, 0);'), ('b', 0.75 if low == 0 else -0.25, 0.38, '')))
+    run_case('across', changed(TANK, time='end = 0.22;', fluid='', domain='min = (%g, 0); max = (%g, 0.8); periodic = (true, false);' % (low, low + 1),
+                               walls=sides('y_min'), shapes='{ box = ((%g, 0), (%g, 0.1)); }' % (low, low + 1), bodies=blocks,
+                               initial='field = "rest"; U = 1.0;', sph='dx = 0.05; c0 = 10.0;', output='series = 1; snapshots = false;'))
+    far.append([last('across', name) for name in ('a x', 'a u', 'a spin', 'b u', 'b spin')])
+check(far[0][1] > -0.4 and max(abs(x - y) for x, y in zip(*far)) < 1e-9,
+      'two blocks meet in the domain and across its end: %s, %s' % (far[0], far[1]))
 # A flap that a driven block comes to later does not start in contact with it.
 run_case('lifted', changed(TANK, bodies='''{ name = "flap"; box = ((0.2, 0.45), (0.9, 0.6)); free = true; density = 2500; hinge = { at = (0.25, 0.525); }; },
     { name = "lift"; box = ((0.7, 0.15), (0.85, 0.35)); motion = ( { kind = "polynomial"; axis = "y"; coefficients = (0.0, 0.2); } ); }'''), '--check')
