@@ -112,7 +112,9 @@ static double share_between(const struct sph *s, const struct gauge_section *c, 
     return fmax(0.0, fmin(fmin(low, high), fmin(1.0, most)));
 }
 
-/* The sum over the flowing particles of one level of this rank, m^dim/s. */
+/* The sum over the particles of one level of this rank, m^dim/s. Where levels meet each counts by
+ * its share: by their roles rows of the coarser one, half of which is beyond the edge, were in or
+ * out as a whole (2 % of a stream 25 rows deep). */
 static double flow_of(const struct sph *s, const struct gauge_section *c)
 {
     double sum = 0.0;
@@ -120,10 +122,11 @@ static double flow_of(const struct sph *s, const struct gauge_section *c)
         const double *q = prim_line(&s->p, i);
         const double d = project(c->is.across, q, c->at, s->dim), off = fabs(d) / c->width;
         double part = off < 1.0 ? (1.0 - off) / c->width : 0.0;
-        if (part == 0.0 || particles_is_guard(&s->p, i))
+        if (part == 0.0)
             continue;
         for (int k = 0; k < c->is.n && part > 0.0; k++)
             part *= share_between(s, c, k, project(c->is.along[k], q, c->at, s->dim), q, d);
+        part *= part > 0.0 && s->places ? s->places->share(s, q) : 1.0;
         sum += part * q[at_volume(s->dim)] * project(c->is.across, q + s->dim, NULL, s->dim);
     }
     return sum;

@@ -9,14 +9,13 @@
 static const double half = 2.0;  /* dx: half width of a column's hat function */
 static const double least = 0.5; /* dx: depth of the thinnest water */
 
-/* Adds the volumes of one level, and their moments in y, to columns of distance dx. sums[2 k] and
- * [2 k + 1]: volume and moment of column k at lo + k dx. */
+/* Adds the volumes of one level, where levels meet by shares, and their moments in y, to columns of
+ * distance dx. sums[2 k] and [2 k + 1]: volume and moment of column k at lo + k dx. */
 static void fill_columns(const struct sph *s, double lo, double dx, int n, double *sums)
 {
     for (int i = 0; i < s->p.n; i++) {
-        const double *q = prim_line(&s->p, i), at = (q[0] - lo) / dx, w = q[at_volume(s->dim)];
-        if (particles_is_guard(&s->p, i))
-            continue;
+        const double *q = prim_line(&s->p, i), at = (q[0] - lo) / dx,
+                     w = q[at_volume(s->dim)] * (s->places ? s->places->share(s, q) : 1.0);
         const int first = (int)fmax(ceil(at - half), 0.0);
         for (int k = first; k < n && k < at + half; k++) {
             const double part = w * (1.0 - fabs(at - k) / half);
