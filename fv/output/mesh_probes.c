@@ -26,29 +26,27 @@ static bool mesh_covers(const struct fv *s, const struct overset *o, const doubl
 
 enum { ALONG = 400 };
 
-/* Values of phi at ALONG + 1 positions along gravity over x, from the top of the domain down; 0, as
- * on a surface, where no cells are. Collective. */
+/* Values of phi at ALONG + 1 positions along gravity over x, from the top of the domain down; NAN
+ * where no cells are. Collective. */
 static void levels_along(struct fv *s, int gauge, const double *at, int up, bool down, double *phi)
 {
     const struct scene_domain *d = &s->run->scene.domain;
     const double L = d->max[up] - d->min[up];
-    double x[ALONG + 1][3];
+    double x[ALONG + 1][3], sums[2][ALONG + 1] = {{0.0}};
     for (int n = 0; n <= ALONG; n++) {
         for (int a = 0; a < 3; a++)
             x[n][a] = at[a];
         x[n][up] = down ? d->min[up] + n * L / ALONG : d->max[up] - n * L / ALONG;
     }
     const struct block_samples *of = block_samples_of(s, gauge, ALONG + 1, x);
+    for (int n = 0; n <= ALONG; n++) {
+        sums[0][n] = block_sample_phi(s, of, n, x[n]);
+        for (int k = of->first[n]; k < of->first[n + 1]; k++)
+            sums[1][n] += of->weight[k];
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2 * (ALONG + 1), MPI_DOUBLE, MPI_SUM, s->comm);
     for (int n = 0; n <= ALONG; n++)
-        phi[n] = block_sample_phi(s, of, n, x[n]);
-    MPI_Allreduce(MPI_IN_PLACE, phi, ALONG + 1, MPI_DOUBLE, MPI_SUM, s->comm);
-}
-
-static bool covers_at(const struct fv *s, const double *at, int up, double height)
-{
-    double x[3] = {at[0], at[1], at[2]};
-    x[up] = height;
-    return mesh_covers(s, s->output->search, x);
+        phi[n] = sums[1][n] > 0.5 ? sums[0][n] : NAN;
 }
 
 /* Place along gravity where cells begin, between one where none are and one where some are. */
@@ -57,27 +55,16 @@ static double edge_between(const struct fv *s, const double *at, int up, double 
     enum { HALVINGS = 24 };
     for (int k = 0; k < HALVINGS; k++) {
         const double middle = 0.5 * (out + in);
-        *(covers_at(s, at, up, middle) ? &in : &out) = middle;
+        double x[3] = {at[0], at[1], at[2]};
+        x[up] = middle;
+        *(mesh_covers(s, s->output->search, x) ? &in : &out) = middle;
     }
     return in;
 }
 
-/* Place along gravity of the lowest cells over x, the ground of a dry column, from top to end; NAN:
- * there are none, as where a tank has moved away or a partner's part is. */
-static double ground_at(const struct fv *s, const double *at, int up, double top, double end)
-{
-    const double part = (top - end) / ALONG;
-    int n = 0;
-    while (n <= ALONG && !covers_at(s, at, up, end + n * part))
-        n++;
-    if (n == 0 || n > ALONG)
-        return n == 0 ? end : NAN;
-    return edge_between(s, at, up, end + (n - 1) * part, end + n * part);
-}
-
 /* Length without water from sample n of a column of phi down to sample `floor', in distances
- * between samples, linear between them: under drops and jets, and of air that is shut in. Where no
- * cells are, phi is 0, as in a body that water stands on. */
+ * between samples, linear between them: under drops and jets, and of air that is shut in. A body
+ * that water stands on, where no cells are, is none. */
 static double dry_below(const double *phi, int n, int floor)
 {
     double sum = 0.0;
@@ -89,48 +76,77 @@ static double dry_below(const double *phi, int n, int floor)
     return sum;
 }
 
-/* The first sample at or below the place, which is `share' of the way down, where no cells are: it
- * stands on what is there. */
-static int floor_below(const double *phi, double share)
+/* The lowest sample of cells of the column that stands `share' of the way down or, in a body, on
+ * it; -1: no cells are there. */
+static int ground_of(const double *phi, double share)
 {
     int n = (int)ceil(fmin(fmax(share, 0.0), 1.0) * ALONG);
-    while (n < ALONG && phi[n] != 0.0)
+    while (n < ALONG && !isnan(phi[n]))
         n++;
+    while (n >= 0 && isnan(phi[n]))
+        n--;
     return n;
+}
+
+/* Whether a sample from n up to the next without cells is water; *top: the last of them. */
+static bool wet_above(const double *phi, int n, int *top)
+{
+    bool any = false;
+    for (*top = n; *top >= 0 && !isnan(phi[*top]); --*top)
+        any = any || phi[*top] < 0.0;
+    ++*top;
+    return any;
+}
+
+/* The first sample from the top of a column that counts for what stands on sample `ground': beyond
+ * a deck there if there is no air below it, to `air' between samples, and water on it. */
+static int top_over(const double *phi, int ground, double air)
+{
+    int low = ground, top, next;
+    (void)wet_above(phi, low, &top);
+    while (!(dry_below(phi, top, low) > air)) {
+        for (low = top - 1; low >= 0 && isnan(phi[low]);)
+            low--;
+        if (low < 0 || !wet_above(phi, low, &next))
+            break;
+        top = next;
+    }
+    return top;
 }
 
 /* Height against gravity of the highest water over x, linear between samples, as keys of levels
  * are; of the ground if there is none, NAN where FV does not compute. What it stands on without
- * water is taken off, so that a drop counts by its height, as in columns of even cells. */
+ * water is taken off, so that a drop counts by its height, as in columns of even cells; half a cell
+ * of air parts the water on a deck from that below. */
 static double level_at(struct fv *s, int gauge, const double *x)
 {
     const struct scene_domain *d = &s->run->scene.domain;
     const int up = still_upright(&s->run->scene);
     const bool down = s->run->scene.fluid.gravity[up] > 0.0;
     const double top = down ? -d->min[up] : d->max[up], end = down ? -d->max[up] : d->min[up];
-    const double most = 1.5 * (top - end) / ALONG;
-    const double sign = down ? -1.0 : 1.0;
-    double phi[ALONG + 1], ground = NAN;
-    if (!mesh_stays(s)) {
-        ground = ground_at(s, x, up, sign * top, sign * end);
-        if (isnan(ground))
-            return NAN;
-    }
+    const double step = (top - end) / ALONG, sign = down ? -1.0 : 1.0;
+    double phi[ALONG + 1];
     levels_along(s, gauge, x, up, down, phi);
-    const int bottom = floor_below(phi, (top - sign * x[up]) / (top - end));
-    for (int n = 0; n <= ALONG; n++) {
-        if (!(phi[n] < 0.0))
-            continue;
-        /* 0 before it is the surface itself, or no cell: then phi need not be near 0 here */
-        const bool falls = n > 0 && (phi[n - 1] > 0.0 || (phi[n - 1] == 0.0 && -phi[n] < most));
-        const double step = (top - end) / ALONG, place = top - n * step;
-        const double dry = step * dry_below(phi, n, bottom);
-        if (n > 0 && !falls) /* below a roof */
-            return sign * edge_between(s, x, up, sign * (place + step), sign * place) - dry;
-        const double back = falls ? phi[n] / (phi[n] - phi[n - 1]) : 0.0;
-        return place + back * step - dry;
-    }
-    return sign * (isnan(ground) ? ground_at(s, x, up, sign * top, sign * end) : ground);
+    const int ground = ground_of(phi, (top - sign * x[up]) / (top - end));
+    if (ground < 0)
+        return NAN;
+    const double lowest = top - ground * step; /* of the samples, and what it stands on */
+    const double floor = ground == ALONG
+                             ? end
+                             : sign * edge_between(s, x, up, sign * (lowest - step), sign * lowest);
+    const int first = top_over(phi, ground, 0.5 * s->surface->least / step);
+    int n = first;
+    while (n <= ground && !(phi[n] < 0.0))
+        n++;
+    if (n > ground)
+        return floor;
+    const double place = top - n * step, dry = step * dry_below(phi, n, ground) +
+                                               (phi[ground] > 0.0 ? lowest - floor : 0.0);
+    if (n > first)
+        return place + step * phi[n] / (phi[n] - phi[n - 1]) - dry;
+    const double roof =
+        n > 0 ? sign * edge_between(s, x, up, sign * (place + step), sign * place) : top;
+    return fmin(roof, place - phi[n]) - dry; /* phi of water near it, a distance */
 }
 
 bool mesh_is_out(const struct fv *s, const double *x)

@@ -264,6 +264,16 @@ for case, water, deck, wanted in ('decks', '{ box = ((0, 0), (1, 0.16)); }, { bo
         for gauge, level in ('below', wanted), ('above', 0.5):
             near('%s, %s: level %s the deck' % (case, program, gauge), column(case, gauge + ' [')[0], level, 0.1 * 0.02, case + '.txt')
 
+# On blocks, too, over each other (0.5 m below the deck, with air there; on a bare deck 0.16 m).
+TANK_OF_BLOCKS = '{ name = "%s"; min = (%g, %g); max = (%g, %g); cells = (%d, %d); i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip"; }'
+for case, water, wanted in ('decks', '{ box = ((0, 0), (1, 0.16)); }, { box = ((0, 0.4), (1, 0.5)); }', (0.16, 0.5)), \
+        ('full', '{ box = ((0, 0), (1, 0.5)); }', (0.5, 0.5)), ('bare', '{ box = ((0, 0), (1, 0.16)); }', (0.16, 0.4)):
+    run_case(case, scene(0.01, '''fluid: { gravity = (0, -9.81); }; domain: { dim = 2; max = (1, 0.8); };
+    shapes: ( %s ); probes: ( %s ); fv: {}; blocks: ( %s, %s );
+    ''' % (water, probes('level', 'below 0.5, 0.1', 'above 0.5, 0.45'), TANK_OF_BLOCKS % ('low', 0, 0, 1, 0.3, 50, 15), TANK_OF_BLOCKS % ('top', 0, 0.4, 1, 0.8, 50, 20))), program='fv')
+    for gauge, level in zip(('below', 'above'), wanted):
+        near('%s on blocks: level %s the deck' % (case, gauge), column(case, gauge + ' [')[0], level, 0.1 * 0.02, case + '.txt')
+
 # Beside a hull that pierces the surface what of it lies above the water is none (all of it counted, up to its deck: 0.85 m for
 # 0.7), below it the level is its underside; a place in a body that stands flush on the floor is taken for the one above it
 # (the floor below it counted, 0.15 m for 0.3). The same where heights are below zero (-1.28 m for the underside at -1.5).
