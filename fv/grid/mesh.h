@@ -115,6 +115,7 @@ struct mesh {
     struct mesh_exchange halo, fringe;
     double *grid[3];        /* m^dim/s: flux of the moving cells' own velocity, see mesh_motion.h */
     struct overset *search; /* of blocks, or a box of imposed cells, that move; else NULL */
+    bool *twice;            /* marks of mesh_twice; NULL: not looked for */
     double turn;            /* s: at this time motions have the velocity of just before */
     char trouble[600];      /* a cell without donors on this rank, after a move; "" : none */
 };

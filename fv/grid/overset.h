@@ -52,6 +52,10 @@ bool overset_sample(const struct mesh *m, const struct overset *o, const double 
  * there, no further than a cell beyond it. */
 bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, const double *x,
                            struct mesh_request *r, double *weight);
+/* Marks of this rank's cells, that a later block computes the flow at their centre, too, so that
+ * sums over the flow leave them out; NULL: blocks do not overlap. stays: blocks, and what a partner
+ * computes, stay where they are: then the marks of the last call hold. Owned by m. */
+const bool *mesh_twice(const struct run *r, struct mesh *m, bool stays);
 /* The bins of the search alone, for gauges. */
 struct overset *overset_search(const struct run *r, const struct mesh *m);
 

@@ -274,3 +274,26 @@ struct overset *overset_search(const struct run *r, const struct mesh *m)
     }
     return o;
 }
+
+const bool *mesh_twice(const struct run *r, struct mesh *m, bool stays)
+{
+    if (!m->has_fringe || (m->twice && stays))
+        return m->has_fringe ? m->twice : NULL;
+    struct overset *o = m->search ? m->search : overset_search(r, m);
+    if (!m->twice)
+        m->twice = NEW_IN(m, bool, m->size_local);
+    for (const struct part *p = m->part; p < m->part + m->nparts; p++) {
+        int i[3];
+        PART_CELLS (p, i, c) {
+            const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
+            const struct mesh_block *b = m->block + p->block;
+            const int64_t own = mesh_cell(b, at);
+            int block, cell[3];
+            m->twice[c] = b->status[own] == CELL_COMPUTED &&
+                          overset_computed(m, o, p->block, b->centre[own], &block, cell);
+        }
+    }
+    if (o != m->search)
+        FREE(o);
+    return m->twice;
+}

@@ -11,6 +11,12 @@
 #include "mesh_output.h"
 #include "output.h"
 
+/* Cells that later blocks compute, too; NULL: none. */
+static const bool *counted_twice(const struct fv *s)
+{
+    return s->m ? mesh_twice(s->run, s->m, mesh_stays(s)) : NULL;
+}
+
 /* A cell's volume, m^dim, 0 where none is computed, and its centre. */
 struct cell {
     double volume, x[3];
@@ -33,15 +39,18 @@ static struct cell cell_at(const struct fv *s, const struct part *p, const int *
             for (struct cell of = cell_at(s, p, i, c); of.volume > 0.0; of.volume = 0.0)
 
 /* n: velocity, pressure, vorticity. On blocks u, p and vorticity are averages over indices, and so
- * are the exact ones. Collective. */
+ * are the exact ones; where blocks overlap cells of the latest count. Collective. */
 void fv_errors(struct fv *s, struct norm n[NORMS])
 {
     double *vorticity = NEW(double, s->size), u[3], p, w;
+    const bool *twice = counted_twice(s);
     int i[3];
     flow_vorticity(s, vorticity);
     for (int k = 0; k < NORMS; k++)
         n[k] = (struct norm){0};
     COMPUTED_CELLS (s, part, i, c, of) {
+        if (twice && twice[c])
+            continue;
         cell_exact(s, part, i, s->t, u, &p, &w);
         for (int a = 0; a < s->dim; a++)
             norm_add(n, of.volume, s->u[a][c] - u[a], u[a]);
@@ -50,25 +59,6 @@ void fv_errors(struct fv *s, struct norm n[NORMS])
     }
     mem_free(vorticity);
     norm_reduce(n, NORMS, s->comm);
-}
-
-/* Marks of the cells that must not count, since a later block computes the flow there, too; NULL:
- * blocks do not overlap. Kept while blocks, and what a partner computes, stay where they are. */
-static const bool *counted_twice(const struct fv *s)
-{
-    struct fv_output *o = s->output;
-    int i[3];
-    if (!grid_overlaps(&s->grid))
-        return NULL;
-    if (o->twice && mesh_stays(s))
-        return o->twice;
-    struct overset *of = s->m->search ? s->m->search : overset_search(s->run, s->m);
-    ROOM_IN(o, o->twice, s->size);
-    COMPUTED_CELLS (s, p, i, c, here)
-        o->twice[c] = mesh_counts_twice(s, of, p->block, here.x);
-    if (of != s->m->search)
-        FREE(of);
-    return o->twice;
 }
 
 /* sum[0]: int u^2/2, sum[1]: of the exact velocities, m^(dim+2)/s^2; with a surface of the water

@@ -11,21 +11,6 @@
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
 
-/* Whether a later block computes the flow at x, so that an earlier one's cell there must not
- * count. */
-bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x)
-{
-    int cell[3];
-    double xi[3];
-    for (int k = block + 1; k < s->m->nblocks; k++) {
-        const struct mesh_block *b = s->m->block + k;
-        if (overset_locate(s->m, o, k, x, cell, xi) &&
-            b->status[mesh_cell(b, cell)] == CELL_COMPUTED)
-            return true;
-    }
-    return false;
-}
-
 /* Position of the centre of rotation and angles of each block with a motion of its own. */
 int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns)
 {

@@ -39,7 +39,5 @@ int mesh_places(const struct fv *s, double *values);
 /* Adds to the summary what it has of blocks alone: cells and net flux of overlaps, iterations of
  * the start, solves that were repeated. Collective. */
 void mesh_summarise(struct fv *s);
-/* Whether a later block computes the place of a cell of `block', too. */
-bool mesh_counts_twice(const struct fv *s, const struct overset *o, int block, const double *x);
 
 #endif
