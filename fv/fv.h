@@ -197,6 +197,7 @@ struct fv {
     struct blocked *blocked;
     struct forcing *forcing;
     struct wave_zones *wave_zones; /* common/scene/wave_zones.h; NULL: none */
+    struct zone_cells *zone_cells; /* those that it relaxes (time/relax.c) */
     struct outflows *outflows;
     struct levels *levels;
     struct surface *surface;

@@ -6,6 +6,9 @@
 #include "scene_fluid.h"
 #include "scene_waves.h"
 
+/* As many heights at a place pay for the blending of its columns. */
+enum { WAVE_COLUMN_LEAST = 6 };
+
 struct wave_zones {
     int n, up;
     struct {
@@ -122,15 +125,21 @@ bool wave_zones_drive(const struct wave_zones *z)
     return any;
 }
 
+/* Adds rate times v (along, up, across) to u. */
+static void add_turned(const struct wave_zones *z, double rate, const double *v, double *u)
+{
+    for (int a = 0; a < 3; a++)
+        u[a] += rate * (v[0] * z->along[a] + v[2] * z->across[a]);
+    u[z->up] += rate * z->sign * v[1];
+}
+
 /* Adds rate times the velocity of a zone's waves at x. */
 static void add_velocity(const struct wave_zones *z, int k, double rate, const double *x, double *u)
 {
     double v[3];
     waves_velocity(z->zone[k].waves, vec3_dot(x, z->along), vec3_dot(x, z->across),
                    z->sign * x[z->up] - z->level, v);
-    for (int a = 0; a < 3; a++)
-        u[a] += rate * (v[0] * z->along[a] + v[2] * z->across[a]);
-    u[z->up] += rate * z->sign * v[1];
+    add_turned(z, rate, v, u);
 }
 
 /* The same; a beach brings the water to the mean flow. */
@@ -164,24 +173,61 @@ static double rate_of_several(const struct wave_zones *z, const double *x, doubl
     return rate;
 }
 
-/* Most points are in no zone, most others in one. */
-double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
+/* The zone that x is in; -1: in none, -2: in several. *rate: in one, 1/s. */
+static int zone_at(const struct wave_zones *z, const double *x, double *rate)
 {
-    double rate = 0.0;
     int one = -1;
-    bool several = false;
+    *rate = 0.0;
     for (int k = 0; k < z->n; k++) {
         const double r = rate_of(z, k, x);
         if (r == 0.0)
             continue;
-        several = several || one >= 0;
-        one = k;
-        rate = r;
+        one = one == -1 ? k : -2;
+        *rate = r;
     }
+    return one;
+}
+
+/* Most points are in no zone, most others in one. */
+double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w)
+{
+    double rate;
+    const int one = zone_at(z, x, &rate);
     u_w[0] = u_w[1] = u_w[2] = 0.0;
-    if (several)
+    if (one == -2)
         return rate_of_several(z, x, u_w);
     if (one >= 0)
         add_target(z, one, 1.0, x, u_w);
+    return rate;
+}
+
+bool wave_zones_hold(const struct wave_zones *z, const double *x)
+{
+    double rate;
+    return zone_at(z, x, &rate) != -1;
+}
+
+/* Zones stand before upright sides: all places have one rate. */
+double wave_zones_column(const struct wave_zones *z, int n, double (*x)[3], double (*u_w)[3])
+{
+    double rate, height[WAVE_COLUMN], v[WAVE_COLUMN][3];
+    const int one = zone_at(z, x[0], &rate);
+    const bool beach = one >= 0 && !z->zone[one].waves;
+    if (beach || one < 0 || n < WAVE_COLUMN_LEAST) {
+        for (int i = 0; i < n; i++)
+            if (beach && i > 0)
+                memcpy(u_w[i], u_w[0], sizeof u_w[i]);
+            else
+                rate = wave_zones_rate(z, x[i], u_w[i]);
+        return rate;
+    }
+    for (int i = 0; i < n; i++)
+        height[i] = z->sign * x[i][z->up] - z->level;
+    waves_velocities(z->zone[one].waves, vec3_dot(x[0], z->along), vec3_dot(x[0], z->across), n,
+                     height, v);
+    for (int i = 0; i < n; i++) {
+        u_w[i][0] = u_w[i][1] = u_w[i][2] = 0.0;
+        add_turned(z, 1.0, v[i], u_w[i]);
+    }
     return rate;
 }

@@ -15,6 +15,12 @@ void wave_zones_at(struct wave_zones *z, double t);
 /* The rate r, 1/s, at x[3], and the wanted velocity u_w[3], m/s, 0 outside of the zones. Where
  * zones overlap, rates add and u_w is their mean weighted by them. */
 double wave_zones_rate(const struct wave_zones *z, const double *x, double *u_w);
+/* Whether x[3], m, is in a zone. */
+bool wave_zones_hold(const struct wave_zones *z, const double *x);
+/* wave_zones_rate at n <= WAVE_COLUMN places, m, above each other: rate and, to rounding, the
+ * velocities u_w, m/s. Several times as fast for tens of them. */
+enum { WAVE_COLUMN = 64 };
+double wave_zones_column(const struct wave_zones *z, int n, double (*x)[3], double (*u_w)[3]);
 /* Writes the state of waves that evolve nonlinearly to a restart file; collective over the file's
  * communicator, `writes' being true on one rank. */
 void wave_zones_save(const struct wave_zones *z, struct h5 *f, bool writes);

@@ -106,6 +106,10 @@ double waves_eta(const struct waves *w, double x, double y);
 double waves_flux(const struct waves *w, double x);
 /* Velocity at (x, y), z: along, up, across, m/s. */
 void waves_velocity(const struct waves *w, double x, double y, double z, double u[3]);
+/* The same, to rounding, at n heights z above or below one place; several times as fast for tens of
+ * them. */
+void waves_velocities(const struct waves *w, double x, double y, int n, const double *z,
+                      double (*u)[3]);
 /* Before waves_at, for waves_pressure of sums along one direction: its table. */
 void waves_need_pressure(struct waves *w);
 /* Pressure over the density, m^2/s^2, at (x, y), z, where waves_velocity gives u; 0 on the surface.

@@ -173,25 +173,57 @@ static inline __attribute__((always_inline)) void sum_nodes(const struct wave_ta
     }
 }
 
-/* of order 2 (slope): above the still level u(0) + z du/dz up to the surface, as the expansion has
- * it; deeper than `reach' velocities die away with the longest wave's exponential. */
-void wave_table_velocity(const struct wave_table *t, double x, double y, double z, double u[3])
+/* From the columns `at', where the level is `eta'. Of order 2 (slope): above the still level u(0) +
+ * z du/dz up to the surface, as the expansion has it; deeper than `reach' velocities die away with
+ * the longest wave's exponential. */
+static void velocity_of(const struct wave_table *t, const struct about *at, double eta, double z,
+                        double u[3])
 {
-    struct about at;
     double along[4];
-    columns_about(t, x, y, &at);
-    const double eta = !t->flat || t->slope ? eta_of(t, &at) : 0.0;
     const double top = t->flat ? 0.0 : eta, over = t->slope ? lesser(z, eta) : 0.0;
     const int node = nodes_about(t, top, t->slope ? over : z, along);
     u[0] = u[1] = u[2] = 0.0;
     if (t->parts == 2)
-        sum_nodes(t, &at, node, along, 2, u);
+        sum_nodes(t, at, node, along, 2, u);
     else
-        sum_nodes(t, &at, node, along, 3, u);
-    for (int k = 0; k < at.n && over > 0.0; k++)
+        sum_nodes(t, at, node, along, 3, u);
+    for (int k = 0; k < at->n && over > 0.0; k++)
         for (int a = 0; a < 2; a++)
-            u[a] += at.weight[k] * over * t->slope[2 * at.column[k] + a];
+            u[a] += at->weight[k] * over * t->slope[2 * at->column[k] + a];
     const double left = z < -t->reach && t->decay > 0.0 ? exp(t->decay * (z + t->reach)) : 1.0;
     for (int a = 0; a < 3; a++)
         u[a] *= left;
+}
+
+void wave_table_velocity(const struct wave_table *t, double x, double y, double z, double u[3])
+{
+    struct about at;
+    columns_about(t, x, y, &at);
+    velocity_of(t, &at, !t->flat || t->slope ? eta_of(t, &at) : 0.0, z, u);
+}
+
+void wave_table_column(const struct wave_table *t, double x, double y, struct wave_column *to)
+{
+    struct about at;
+    const int values = WAVE_NODES * t->parts;
+    columns_about(t, x, y, &at);
+    to->is = *t;
+    to->is.u = to->u;
+    to->is.slope = t->slope ? to->slope : NULL;
+    to->eta = eta_of(t, &at);
+    memset(to->u, 0, sizeof to->u);
+    memset(to->slope, 0, sizeof to->slope);
+    for (int k = 0; k < at.n; k++) {
+        const double *q = t->u + at.column[k] * values;
+        for (int i = 0; i < values; i++)
+            to->u[i] += at.weight[k] * q[i];
+        for (int a = 0; a < 2 && t->slope; a++)
+            to->slope[a] += at.weight[k] * t->slope[2 * at.column[k] + a];
+    }
+}
+
+void wave_column_velocity(const struct wave_column *c, double z, double u[3])
+{
+    static const struct about itself = {.n = 1, .weight = {1.0}};
+    velocity_of(&c->is, &itself, c->eta, z, u);
 }

@@ -29,6 +29,14 @@ struct wave_table {
     double *slope;
 };
 
+/* A table's velocities above and below one place: a table of one column that points into itself, so
+ * it is not to be copied. */
+struct wave_column {
+    struct wave_table is; /* its shape; eta is not used */
+    double eta;           /* m */
+    double u[WAVE_NODES * 3], slope[2];
+};
+
 /* Weights of four equidistant values for the position s = 0 .. 1 between the second and the
  * third. */
 void wave_table_cubic(double s, double weight[4]);
@@ -46,5 +54,9 @@ void wave_table_blend(struct wave_table *to, int n, const struct wave_table *of,
 double wave_table_eta(const struct wave_table *t, double x, double y);
 /* u (m/s: along, up, across) at (x, y), z, m; above the highest node as on it, but for `slope'. */
 void wave_table_velocity(const struct wave_table *t, double x, double y, double z, double u[3]);
+/* The same for many heights at one place: the columns about it are blended once. To rounding as
+ * wave_table_velocity. */
+void wave_table_column(const struct wave_table *t, double x, double y, struct wave_column *to);
+void wave_column_velocity(const struct wave_column *c, double z, double u[3]);
 
 #endif

@@ -322,14 +322,30 @@ double waves_eta(const struct waves *w, double x, double y)
     return w->grown * wave_table_eta(&w->table, place(w, x), y);
 }
 
-/* The current runs at all times, waves grow. */
-void waves_velocity(const struct waves *w, double x, double y, double z, double u[3])
+/* u of the table to that of the water: the current runs at all times, waves grow. */
+static void scale(const struct waves *w, double u[3])
 {
     const double r = w->grown * (w->of.kind == WAVE_REGULAR ? w->gain : 1.0);
-    wave_table_velocity(&w->table, place(w, x), y, z, u);
     u[0] = r * (u[0] + w->current) + w->of.current;
     u[1] *= r;
     u[2] *= r;
+}
+
+void waves_velocity(const struct waves *w, double x, double y, double z, double u[3])
+{
+    wave_table_velocity(&w->table, place(w, x), y, z, u);
+    scale(w, u);
+}
+
+void waves_velocities(const struct waves *w, double x, double y, int n, const double *z,
+                      double (*u)[3])
+{
+    struct wave_column c;
+    wave_table_column(&w->table, place(w, x), y, &c);
+    for (int i = 0; i < n; i++) {
+        wave_column_velocity(&c, z[i], u[i]);
+        scale(w, u[i]);
+    }
 }
 
 /* By Simpson's rule over heights. */

@@ -62,6 +62,36 @@ TEST(tables_give_the_wave)
     }
 }
 
+/* At many heights of one place, from the floor to above the surface, as at each of them: regular,
+ * deep, of second order, with short crests, while they grow, on a current. */
+TEST(columns_are_their_points)
+{
+    enum { HEIGHTS = 23 };
+    for (int i = 0; i < 5; i++) {
+        struct wave_spec of = spec(i < 2   ? WAVE_REGULAR
+                                   : i < 4 ? WAVE_SEA
+                                           : WAVE_FOCUSED,
+                                   0.04, i == 1 ? 0.5 : 1.0, i == 1 ? 4.0 : 0.4);
+        of.order = i == 2 ? 2 : 1;
+        of.spread = i == 3 ? 8.0 : 0.0;
+        of.window[1][1] = 2.0;
+        of.start = 4.0;
+        of.current = i == 0 ? 0.2 : 0.0;
+        struct waves *w = waves_create(&of);
+        double z[HEIGHTS], u[HEIGHTS][3], v[3];
+        for (int k = 0; k < HEIGHTS; k++)
+            z[k] = -of.depth + (of.depth + 0.06) * k / (HEIGHTS - 1);
+        waves_at(w, 1.3);
+        waves_velocities(w, 1.234, 0.77, HEIGHTS, z, u);
+        for (int k = 0; k < HEIGHTS; k++) {
+            waves_velocity(w, 1.234, 0.77, z[k], v);
+            for (int a = 0; a < 3; a++)
+                near(u[k][a], v[a], 1e-14 * w->speed);
+        }
+        FREE(w);
+    }
+}
+
 /* Numbers of waves on a current satisfy omega = sqrt(g k tanh kh) + k U; deep water against them is
  * held from g/(4 |U|) on; the group velocity is the slope of the frequency. */
 TEST(currents_change_lengths)
