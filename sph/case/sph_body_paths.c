@@ -69,7 +69,7 @@ static void foot_of(const struct line *l, const double *x, double foot[2], doubl
     *side = f.past ? 0.0 : f.aside;
 }
 
-/* Whether the middle of the gap at x lies where fluid could be: behind no wall. */
+/* Whether the middle of the gap at x, or its image, lies where fluid could be: behind no wall. */
 static bool is_wet(const struct scene *c, const struct bound *A, const struct bound *B,
                    const double *x)
 {
@@ -79,9 +79,13 @@ static bool is_wet(const struct scene *c, const struct bound *A, const struct bo
     const double mid[3] = {0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.0};
     foot_of(&A->line, mid, p, left);
     foot_of(&B->line, mid, q, left + 1);
-    bool in = scene_is_room(c, mid) && !scene_is_behind_lines(c, mid);
+    double y[3] = {mid[0], mid[1], 0.0};
     for (int a = 0; a < 2; a++)
-        in = in && mid[a] > c->domain.min[a] && mid[a] < c->domain.max[a];
+        y[a] = scene_image_from(&c->domain, a, c->domain.min[a], mid[a]);
+    bool in = scene_is_room(c, y) && !scene_is_behind_lines(c, y);
+    for (int a = 0; a < 2; a++)
+        in = in &&
+             (c->domain.periodic[a] || (mid[a] > c->domain.min[a] && mid[a] < c->domain.max[a]));
     return in && (is_side(A) || left[0] >= 0.0) && (is_side(B) || left[1] >= 0.0);
 }
 
@@ -451,23 +455,67 @@ static void check_meshes(const struct run *r, const struct sph_params *used, str
     }
 }
 
-/* Between what does not move by forces, at the start: of particles one must fit. */
+/* Of particles one must fit between two of which none moves by forces. beyond: b stands across a
+ * period. */
+static void check_gap(const struct run *r, const struct sph_params *used, const struct bound *b,
+                      const struct bound *other, bool beyond, struct faults *f)
+{
+    double at[2] = {0.0, 0.0};
+    const double gap = line_gap(&b->line, &other->line, at);
+    if (gap > 1e-3 * used->dx && gap < (1.0 - 1e-6) * used->dx && is_wet(&r->scene, b, other, at))
+        params_fault(r->params, f, b->body < 0 && other->body < 0 ? "walls" : "bodies",
+                     "a gap of %g m between %s and %s%s at (%g, %g) m, where no particle of %g m "
+                     "fits: close it, or refine sph.dx",
+                     gap, other->name, b->name, beyond ? " across the period" : "", at[0], at[1],
+                     used->dx);
+}
+
+/* The same with the image of b at `way' periods along each axis. */
+static void check_gap_beyond(const struct run *r, const struct sph_params *used,
+                             const struct bound *b, const struct bound *other, const int way[2],
+                             struct faults *f)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    struct bound image = *b;
+    double(*const x)[2] = mem_new((size_t)b->line.n, sizeof *x);
+    for (int i = 0; i < b->line.n; i++)
+        for (int a = 0; a < 2; a++)
+            x[i][a] = b->line.x[i][a] + way[a] * (d->max[a] - d->min[a]);
+    image.line.x = (const double(*)[2])x;
+    check_gap(r, used, &image, other, true, f);
+    mem_free(x);
+}
+
+/* Of a body with others' images across periods, its own among them; walls go on there, and lines
+ * that do not are check_period_ends'. One of two that face each other suffices. */
+static void check_gaps_beyond(const struct run *r, const struct sph_params *used,
+                              const struct bound *b, const struct bound *other, struct faults *f)
+{
+    const bool *periodic = r->scene.domain.periodic;
+    int way[2];
+    for (way[0] = -periodic[0]; way[0] <= periodic[0]; way[0]++)
+        for (way[1] = -periodic[1]; way[1] <= periodic[1]; way[1]++) {
+            const int order = way[0] ? way[0] : way[1]; /* an own image has an opposite one */
+            if (order != 0 && (b != other || order > 0))
+                check_gap_beyond(r, used, b, other, way, f);
+        }
+}
+
+/* Between what does not move by forces, at the start. */
 static void check_gaps(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     struct bound all[BOUNDS_MAX];
     const int n = find_bounds(&r->scene, used, all);
     for (int k = 0; k < n; k++)
-        for (int m = 0; m < k; m++) {
-            double at[2] = {0.0, 0.0};
+        for (int m = 0; m <= k; m++) {
             if (is_free(&r->scene, all + k) || is_free(&r->scene, all + m))
                 continue; /* it closes and opens */
-            const double gap = line_gap(&all[k].line, &all[m].line, at);
-            if (gap > 1e-3 * used->dx && gap < (1.0 - 1e-6) * used->dx &&
-                is_wet(&r->scene, all + k, all + m, at))
-                params_fault(r->params, f, all[k].body < 0 && all[m].body < 0 ? "walls" : "bodies",
-                             "a gap of %g m between %s and %s at (%g, %g) m, where no particle of "
-                             "%g m fits: close it, or refine sph.dx",
-                             gap, all[m].name, all[k].name, at[0], at[1], used->dx);
+            if (m < k)
+                check_gap(r, used, all + k, all + m, false, f);
+            if (all[k].body >= 0 && !is_side(all + m))
+                check_gaps_beyond(r, used, all + k, all + m, f);
+            else if (all[m].body >= 0 && !is_side(all + k))
+                check_gaps_beyond(r, used, all + m, all + k, f);
         }
 }
 

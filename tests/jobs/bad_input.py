@@ -398,6 +398,9 @@ faulty('channel', 's/"outflow"/"outflow"; velocity = (1, 0)/', r'walls.\[1\].vel
 faulty('channel', 's/kind = "inflow"/kind = "inflow"; pressure = 3.0/', r'walls.\[0\].pressure: is not used: ', 'sph')
 faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"/', r'case.cfg:6: walls.\[0\].velocity: an inflow of 0 m/s along x lets nothing in', 'sph')
 faulty('channel', 's/kind = "inflow"; velocity = (1, 0)/kind = "inflow"; velocity = (-1, 0)/', r'walls.\[0\].velocity: an inflow of -1 m/s along x lets nothing in', 'sph')
+write('beyond.cfg', changed(lib.TANK, domain='max = (1, 0.8); periodic = (true, false);', walls='{ side = "y_min"; }', shapes='{ box = ((0, 0), (1, 0.5)); }',
+                            bodies='{ box = ((0.01, 0.1), (0.21, 0.3)); }, { box = ((0.8, 0.1), (1, 0.3)); }'))
+faulty('beyond', 's/^format/&/', 'a gap of 0.01 m between .* across the period at', 'sph')
 write('rest.cfg', changed(lib.TANK, fluid='', shapes='{ box = ((0, 0), (0.5, 0.5)); }', bodies='{ box = ((0.8, 0), (0.9, 0.2)); }'))
 faulty('rest', 's/end = 0.4/end = 0.2/', 'fluid.gravity: a free surface, and nothing that moves the fluid', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "rz"; amplitude = 20; period = 1; } )/', r'leaves the domain across .*it turns about the origin, by angles in rad: give its centre', 'sph')
