@@ -61,17 +61,46 @@ void fv_errors(struct fv *s, struct norm n[NORMS])
     norm_reduce(n, NORMS, s->comm);
 }
 
-/* sum[0]: int u^2/2, sum[1]: of the exact velocities, m^(dim+2)/s^2; with a surface of the water
- * alone. Collective. */
-void fv_energies(struct fv *s, double sum[2])
+/* Half of a slope over the distance of two cells is that over one: on layers of unequal height. */
+static double share_of_step(const struct fv *s, int64_t c, int b)
+{
+    const int j = s->b.rows ? block_row(&s->b, c) : 0;
+    return s->m ? 0.5
+                : block_size(&s->b, b, j) / (block_step(&s->b, b, j) + block_step(&s->b, b, j + 1));
+}
+
+/* m^2/s^2: mean of u^2 over a cell less the square of its average, of fourth order: 1/12 of the
+ * squares of slopes s. On blocks averages are over indices, and volumes V vary: the mean of V f is
+ * <V><f> + s(V) s(f)/12. Without it the energy of a flow that is carried through cells of different
+ * size swings (vortices through waving cells, 28 x 28: by 0.16 %). */
+static double square_within(const struct fv *s, const struct part *p, int64_t c)
+{
+    double sum = 0.0;
+    for (int b = 0; b < s->dim; b++) {
+        const int64_t d = p->stride[b];
+        const double part = share_of_step(s, c, b), *V = s->m ? s->m->V + c : NULL,
+                     bend = V && V[d] > 0.0 && V[-d] > 0.0 ? part * (V[d] - V[-d]) / V[0] : 0.0;
+        for (int a = 0; a < s->dim && !is_blocked(s, c - d) && !is_blocked(s, c + d); a++) {
+            const double slope = part * (s->u[a][c + d] - s->u[a][c - d]);
+            sum += slope * (slope + 2.0 * s->u[a][c] * bend);
+        }
+    }
+    return sum / 12.0;
+}
+
+/* sum[0]: of averages, int u^2/2, sum[1]: of the exact ones, sum[2]: what the velocity within cells
+ * adds to sum[0], m^(dim+2)/s^2; with a surface of the water alone, and without sum[2]. Collective.
+ */
+void fv_energies(struct fv *s, double sum[3])
 {
     const bool *twice = s->surface ? NULL : counted_twice(s);
     double u[3] = {0.0, 0.0, 0.0}, p, w;
     int i[3];
     sum[0] = s->surface ? surface_energy(s) : 0.0;
-    sum[1] = 0.0;
+    sum[1] = sum[2] = 0.0;
     if (s->surface)
         return;
+    grid_halo(&s->grid, s->dim, s->u);
     COMPUTED_CELLS (s, part, i, c, of) {
         if (twice && twice[c])
             continue;
@@ -81,8 +110,9 @@ void fv_energies(struct fv *s, double sum[2])
             sum[0] += 0.5 * of.volume * s->u[a][c] * s->u[a][c];
             sum[1] += 0.5 * of.volume * u[a] * u[a];
         }
+        sum[2] += 0.5 * of.volume * square_within(s, part, c);
     }
-    MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPI_DOUBLE, MPI_SUM, s->comm);
+    MPI_Allreduce(MPI_IN_PLACE, sum, 3, MPI_DOUBLE, MPI_SUM, s->comm);
 }
 
 /* Over the cells outside of the partner's part; where blocks overlap those of the latest count. A

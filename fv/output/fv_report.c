@@ -91,10 +91,10 @@ int fv_columns(const struct run *r, const struct fv_params *prm, const char **co
 void fv_row(void *state, double *values)
 {
     struct fv *s = state;
-    double sum[2];
+    double sum[3];
     int n = 3;
     fv_energies(s, sum);
-    values[0] = s->run->scene.fluid.rho * sum[0];
+    values[0] = s->run->scene.fluid.rho * (sum[0] + sum[2]);
     values[1] = fv_fastest(s);
     s->totals.fastest = fmax(s->totals.fastest, values[1]);
     values[2] = flow_largest_divergence(s);
@@ -143,7 +143,7 @@ void fv_finish(void *state)
     struct fv *s = state;
     struct run *r = s->run;
     const double cells = grid_computed(&s->grid);
-    double sum[2];
+    double sum[3];
     summary_int(r->summary, "cells", llround(cells));
     if (r->scene.initial.U > 0.0)
         summary_real(r->summary, "max_speed_over_U", s->totals.fastest / r->scene.initial.U);
