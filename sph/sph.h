@@ -60,6 +60,8 @@ struct sph_step {
     double shift_speed;
     double drift[3], stray; /* m/s: middle of the range of the velocities u0 in each direction,
                                largest |u0 - drift| */
+    double carried;         /* -: 1 where the drift carries all water alike, 0 where some part of it
+                               nearly rests: what is left of the drift is motion */
     double dt_most;         /* s: largest next step [2.102-2.104] */
     /* kg: with refinement, of the fluid after the step, this rank. Levels take over from each other
      * across a width of one spacing of the coarser one, so that a lattice row that passes there

@@ -207,6 +207,7 @@ static const struct number {
     }
     NUMBER("dt_most", step.dt_most),
     NUMBER("stray", step.stray),
+    NUMBER("carried", step.carried),
     NUMBER("drift[0]", step.drift[0]),
     NUMBER("drift[1]", step.drift[1]),
     NUMBER("drift[2]", step.drift[2]),
@@ -241,7 +242,7 @@ static const struct number {
     NUMBER("volume0", start.volume),
 };
 /* The first of them belong to the flow, one for all levels. */
-enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 12 };
+enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 13 };
 
 /* The member itself. */
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }

@@ -47,10 +47,12 @@ static inline double scheme_shift_speed(const struct sph *s, int i)
 }
 
 /* What the scene says of how much the water streams: 0 and less up to 0.001 c0 of what it keeps
- * streaming, 1 and more from 0.002 c0 on. */
+ * streaming, 1 from 0.002 c0 on. A stream that carries all water alike has no pressures to be erred
+ * by: it is water at rest from another point of view, and goes without that order no better (a
+ * level one of 0.25 m/s over edges of refinement: 11 % of its energy in 3 s). */
 static inline double scheme_kept(const struct sph *s)
 {
-    return s->prm.speed.stream / (0.001 * s->c0) - 1.0;
+    return (1.0 - s->step.carried) * fmin(s->prm.speed.stream / (0.001 * s->c0) - 1.0, 1.0);
 }
 
 /* How much the water streams, 0 to 1: 1 where what holds particles in order errs by more than the

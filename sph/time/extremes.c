@@ -92,6 +92,16 @@ static void learn(struct sph *s, const double *most, double signal)
         s->total.mach_late = fmax(s->total.mach_late, s->step.max_speed / s->c0);
 }
 
+/* How much the drift carries all water alike, 0 to 1 (struct sph_step), after learn: from 0 where
+ * what is relative to it reaches half of it to 1 where that is a quarter. Where anything rests it
+ * reaches the whole. Not with open sides, where what differs little from the stream may be the flow
+ * that is asked for. */
+static double carried(const struct sph *s)
+{
+    const double drift = vec3_length(s->step.drift);
+    return drift > 0.0 && !s->zones ? fmax(0.0, fmin(2.0 - 4.0 * s->step.stray / drift, 1.0)) : 0.0;
+}
+
 /* Records of all levels stand side by side, so that it is one reduction whatever the number of
  * levels. */
 void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES])
@@ -106,8 +116,10 @@ void extremes_reduce(struct sph *s, double most[LEVELS][EXTREMES])
         for (int k = 0; k < EXTREMES; k++)
             extremes_raise(most[0] + k, most[m][k]);
     }
-    for (struct sph *q = s; q; q = q->finer)
+    for (struct sph *q = s; q; q = q->finer) {
         learn(q, most[0], signal[q->level]);
+        q->step.carried = carried(s);
+    }
 }
 
 void extremes_reduce_level(struct sph *s, double *most)

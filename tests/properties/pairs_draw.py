@@ -675,6 +675,18 @@ def opening_side(rng):
     return s
 
 
+def stream_surface_edge(rng):
+    """A level stream under a surface, carried over a period through a region from floor to surface, in full gravity."""
+    s = tank2(rng, "period", wide=(44, 52), deep=(12, 16))
+    s.velocity = [rng.choice([-1, 1]) * rng.uniform(0.1, 0.3) * math.sqrt(G * s.depth), 0.0]
+    a = rng.randint(0, 6) - 3
+    s.regions.append(([(a + 12) * s.dx, -s.dx], [(a + rng.randint(28, 34)) * s.dx, s.hi[1] + s.dx]))
+    s.gauges([0.5 * s.dx])
+    s.end = 16.0 * math.sqrt(s.depth / G)
+    s.laws["stream"] = 0.02
+    return s
+
+
 def opening_level_edge(rng):
     s = stream(rng, "sph")
     s.n[0] += 2 * 28  # transition, buffer and R at each end
@@ -796,6 +808,7 @@ PAIRS = [
     ("box-body", "SPH box side x body", 1, box_body),
     ("opening-side", "inlet, outlet x side or period", 1, opening_side),
     ("opening-edge", "inlet, outlet x level edge", 1, opening_level_edge),
+    ("stream-surface-edge", "level stream under a surface x level edge", 0, stream_surface_edge),
     ("opening-corner-edge", "inlet, outlet x corners of a region, on a side or across a period", 1, opening_corner_edge),
     ("opening-body", "inlet, outlet x body that goes with the stream", 1, opening_body),
     ("body-moving-edge", "inlet, outlet, side or period x body x level edge that follows it", 1, body_moving_edge),

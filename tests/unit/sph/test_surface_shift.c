@@ -115,3 +115,33 @@ TEST(shifts_do_no_work_against_gravity_in_thin_water)
         DROP(c.s);
     }
 }
+
+/* Mean height, m, of ten rows over a floor, with a period, after some time: at rest in the mean of
+ * a stream of speed U. */
+static double height_in_stream(double U)
+{
+    struct sph_case c;
+    struct scene *e = sph_case_column(&c, 20);
+    double sum = 0.0;
+    e->domain.periodic[0] = true;
+    e->nwalls = 1;
+    e->walls[0].side = SIDE_Y_MIN;
+    e->shapes[0].box[1][0] = 1.0;
+    e->initial.field = FIELD_UNIFORM;
+    e->initial.velocity[0] = U;
+    struct sph *s = sph_case_start(&c, NULL);
+    assert_true(sph_case_run(&c, 500, 10.0));
+    for (int i = 0; i < s->p.n; i++)
+        sum += state_row(&s->p, s->p.y, i)[1] / s->p.n;
+    DROP(c.s);
+    return sum;
+}
+
+/* Water that a stream carries is water at rest from another point of view: it is to be shifted as
+ * little, and not to sink by more. */
+TEST(a_level_stream_is_shifted_as_water_at_rest)
+{
+    const double rest = height_in_stream(0.0), carried = height_in_stream(0.5);
+    print_message("mean height %.6f m at rest, %.6f m in a stream\n", rest, carried);
+    assert_true(fabs(carried - rest) < 0.001 * 0.05);
+}
