@@ -181,10 +181,18 @@ static void make_side(struct fv *s, struct bc *bc, const struct scene_wall *wall
 /* The axis whose walls slide fastest comes last, so that their ghosts go on through the corners.
  * Cut off there by the ghosts of another wall (4 V beside a fluid at rest) they are a jet of no
  * width between two cells, and the product term of convection drives the corners with it. turn[a]
- * is the rank of axis a by the speed of its sliding walls, ties in the order of axes. */
+ * is the rank of axis a by the speed of its sliding walls, before them those with openings, or
+ * the friction beside a uniform inflow would be 0.4 % different along y; ties in the order of axes.
+ */
 static void set_turns(const struct scene *scene, int dim, int turn[3])
 {
     double speed[3] = {0.0, 0.0, 0.0};
+    for (int k = 0; k < scene->nwalls; k++) {
+        const struct scene_wall *w = scene->walls + k;
+        const int a = (w->side - SIDE_X_MIN) / 2;
+        if (w->side != SIDE_NONE && a < dim && w->kind != WALL_SLIP && w->kind != WALL_NO_SLIP)
+            speed[a] = -1.0;
+    }
     for (int k = 0; k < scene->nwalls; k++) {
         const struct scene_wall *w = scene->walls + k;
         const int a = (w->side - SIDE_X_MIN) / 2;

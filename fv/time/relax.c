@@ -19,6 +19,7 @@ struct zone_cell {
 
 /* Those of this rank, sorted: cells above each other are neighbours. */
 struct zone_cells {
+    bool known;
     int64_t n;
     struct zone_cell *of; /* owned */
 };
@@ -38,6 +39,7 @@ static void find_cells(const struct fv *s, struct zone_cells *z)
 {
     const int up = scene_still_axis(&s->run->scene), first = up == 0 ? 1 : 0,
               second = 3 - up - first;
+    z->known = true;
     z->n = 0;
     FLOW_ROWS (s, at, n)
         for (int64_t i = at; i < at + n; i++) {
@@ -121,7 +123,7 @@ bool relax_zones(struct fv *s, double dt)
     timer_start(&s->run->timers, "waves");
     if (!s->zone_cells)
         s->zone_cells = mem_own(s, NEW(struct zone_cells, 1));
-    if (s->zone_cells->n == 0 || grid_moves(&s->grid))
+    if (!s->zone_cells->known || grid_moves(&s->grid))
         find_cells(s, s->zone_cells);
     if (w->zone_power && grid_moves(&s->grid))
         memset(w->zone_power, 0, (size_t)s->size * sizeof *w->zone_power);
