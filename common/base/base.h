@@ -18,6 +18,7 @@
 #include "digits.h"
 #include "exit.h"
 #include "fit.h"
+#include "inline.h"
 #include "key_text.h"
 #include "lanes.h"
 #include "log.h"

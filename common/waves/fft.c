@@ -55,8 +55,7 @@ struct butterfly {
 
 /* One block of `batch' values: radix r is a constant of each caller. Complex products in real
  * numbers, since those of C look for NaN. */
-static inline __attribute__((always_inline)) void sum_terms(const struct butterfly *of, const int r,
-                                                            int at, int batch)
+INLINE void sum_terms(const struct butterfly *of, const int r, int at, int batch)
 {
     for (int k = 0; k < r; k++) {
         double *restrict y = of->y[k] + at;
@@ -76,8 +75,7 @@ static inline __attribute__((always_inline)) void sum_terms(const struct butterf
 }
 
 /* Radices 2 and 4 need no products but those of their results. */
-static inline __attribute__((always_inline)) void sum_two(const struct butterfly *of, int at,
-                                                          int batch)
+INLINE void sum_two(const struct butterfly *of, int at, int batch)
 {
     double *restrict y0 = of->y[0] + at, *restrict y1 = of->y[1] + at;
     const double *x0 = of->x[0] + at, *x1 = of->x[1] + at, tr = of->turn[1][0], ti = of->turn[1][1];
@@ -91,8 +89,7 @@ static inline __attribute__((always_inline)) void sum_two(const struct butterfly
 }
 
 /* One butterfly of radix 4, with its turns. */
-static inline __attribute__((always_inline)) void sum_four(const struct butterfly *of, double sign,
-                                                           int at, int batch)
+INLINE void sum_four(const struct butterfly *of, double sign, int at, int batch)
 {
     const double *x0 = of->x[0] + at, *x1 = of->x[1] + at, *x2 = of->x[2] + at, *x3 = of->x[3] + at;
     double *restrict y0 = of->y[0] + at, *restrict y1 = of->y[1] + at, *restrict y2 = of->y[2] + at,

@@ -156,10 +156,8 @@ static int nodes_about(const struct wave_table *t, double top, double z, double 
 }
 
 /* parts is a constant of each caller. */
-static inline __attribute__((always_inline)) void sum_nodes(const struct wave_table *t,
-                                                            const struct about *at, int node,
-                                                            const double along[4], const int parts,
-                                                            double *u)
+INLINE void sum_nodes(const struct wave_table *t, const struct about *at, int node,
+                      const double along[4], const int parts, double *u)
 {
     for (int k = 0; k < at->n; k++) {
         const double *q =

@@ -138,9 +138,8 @@ static void cubic(double s, double *w, double *d)
 
 /* Sums along the first index, then the second, then the third: x and dx of a point. dim is a
  * constant in both callers. */
-static inline __attribute__((always_inline)) void sum_up(const struct mesh_block *b, const int dim,
-                                                         const int *from, double w[3][4],
-                                                         double d[3][4], double *x, double dx[3][3])
+INLINE void sum_up(const struct mesh_block *b, const int dim, const int *from, double w[3][4],
+                   double d[3][4], double *x, double dx[3][3])
 {
     const int n2 = dim == 3 ? 4 : 1;
     for (int k = 0; k < n2; k++) {

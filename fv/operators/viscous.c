@@ -176,12 +176,11 @@ static double step_of(const struct fv *s, int q, const struct helmholtz_course *
     return sum;
 }
 
-/* The same without the sum, L x included: w has c nu/12 h^2 along each axis. */
-static inline __attribute__((always_inline)) void
-/* own, bx, ax: all constants of a step are folded into the stencil's weights, one pass over
- * memory. */
-whole_row(const double *restrict x, const double *restrict r, const int64_t *stride,
-          const double *w, double alpha, double beta, const int dim, int64_t n, double *restrict y)
+/* The same without the sum, L x included: w has c nu/12 h^2 along each axis. own, bx, ax: all
+ * constants of a step are folded into the stencil's weights, one pass over memory. */
+INLINE void whole_row(const double *restrict x, const double *restrict r, const int64_t *stride,
+                      const double *w, double alpha, double beta, const int dim, int64_t n,
+                      double *restrict y)
 {
     const int64_t sy = stride[1], sz = dim == 3 ? stride[2] : 0;
     const double ax = alpha * w[0], ay = alpha * w[1], az = dim == 3 ? alpha * w[2] : 0.0,

@@ -34,15 +34,15 @@ static struct cg begin(const struct helmholtz *h)
 }
 
 /* w times the fourth-order second difference along one axis, 12 h^2 of it. */
-static inline __attribute__((always_inline)) float second(const float *p, int64_t d, float w)
+INLINE float second(const float *p, int64_t d, float w)
 {
     return w * (16.0F * ((p[-d] - *p) + (p[d] - *p)) - ((p[-2 * d] - *p) + (p[2 * d] - *p)));
 }
 
 /* out = A p for a row of n cells. By differences to the cell's own value: a sum of weights would
  * round to other than 1, alike in all cells, which the longest waves would feel. */
-static inline __attribute__((always_inline)) void
-product(const float *restrict p, const struct cg *g, const int dim, int64_t n, float *restrict out)
+INLINE void product(const float *restrict p, const struct cg *g, const int dim, int64_t n,
+                    float *restrict out)
 {
     const int64_t y = g->s->b.stride[1], z = dim == 3 ? g->s->b.stride[2] : 0;
     const float wx = g->w[0], wy = g->w[1], wz = g->w[2];

@@ -287,10 +287,8 @@ void halving_set_matrix(struct halving *h)
 #define AROUND_TOO(i) (wz[i] * x[i - sz] + wz[i + sz] * x[i + sz])
 
 /* y = x + share D^-1 (b - A x), or, share < 0, b - A x. */
-static inline __attribute__((always_inline)) void relax_body(const struct halved *l, const int dim,
-                                                             const double *restrict b,
-                                                             const double *restrict x, double share,
-                                                             double *restrict y)
+INLINE void relax_body(const struct halved *l, const int dim, const double *restrict b,
+                       const double *restrict x, double share, double *restrict y)
 {
     const double *restrict per = l->per, *restrict diagonal = l->diagonal,
                            *restrict wx = l->through[0], *restrict wy = l->through[1],

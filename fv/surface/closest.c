@@ -105,8 +105,7 @@ static int64_t corner_of(const struct around *w, const struct cubic *q)
 }
 
 /* Sum of the product of weights of n[a] centres along each axis, and its gradient. */
-static inline __attribute__((always_inline)) double
-product(const struct around *w, const struct cubic q[3], const int n[3], double *g)
+INLINE double product(const struct around *w, const struct cubic q[3], const int n[3], double *g)
 {
     const double *corner = w->phi + corner_of(w, q);
     double sum = 0.0, slope[3] = {0.0, 0.0, 0.0};

@@ -75,9 +75,8 @@ static void list_air(struct fv *s)
 
 /* Chebyshev's step of all cells at once, so that none comes first and mirrored scenes stay
  * mirrored: before is the potential of the step before now, and becomes the next one. */
-static inline __attribute__((always_inline)) void relax_body(const struct fraction *f,
-                                                             const int dim, const double *now,
-                                                             double *before, double weight)
+INLINE void relax_body(const struct fraction *f, const int dim, const double *now, double *before,
+                       double weight)
 {
     for (const struct air_cell *x = f->air; x < f->air + f->nair; x++) {
         const double *const q = now + x->cell;

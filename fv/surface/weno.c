@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "weno.h"
 
-#define INLINE static inline __attribute__((always_inline))
+#include "../../common/base/base.h"
 
 INLINE double square(double x) { return x * x; }
 

@@ -48,9 +48,8 @@ int newton_precond_setup(N_Vector q, N_Vector uscale, N_Vector f, N_Vector fscal
 
 /* One Gauss-Seidel sweep over a row of cells, all components at once, for they wait for the cell
  * before; its term comes last. */
-static inline __attribute__((always_inline)) void
-sweep_row(const struct fv *s, const struct part *p, double *const r[3], double *const x[3],
-          int64_t c, const int dim, const bool down)
+INLINE void sweep_row(const struct fv *s, const struct part *p, double *const r[3],
+                      double *const x[3], int64_t c, const int dim, const bool down)
 {
     double *const *A = s->newton->A;
     const int64_t y = p->stride[1], z = p->stride[2], back = down ? 1 : -1;

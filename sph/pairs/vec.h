@@ -4,8 +4,7 @@
 #ifndef SPH_VEC_H
 #define SPH_VEC_H
 
-#include <math.h>
-#include <stddef.h>
+#include "../../common/base/base.h"
 
 /* Four on machines with registers for eight, too: transposes of eight lines, packing and sums of
  * rows take more than wider arithmetic gives (Taylor-Green 0.72, dam breaks 0.84 and 0.88 of the
@@ -20,9 +19,6 @@ typedef double vec __attribute__((vector_size(8 * LANES), may_alias));
 typedef long long vec_bits __attribute__((vector_size(8 * LANES)));
 typedef double vec2 __attribute__((vector_size(16), may_alias));
 typedef double vec4 __attribute__((vector_size(32), may_alias));
-
-/* Loops over pairs are compiled into each caller, where dimension and scheme are constants. */
-#define INLINE static inline __attribute__((always_inline))
 
 /* The vector whose lanes all hold a. */
 INLINE vec vec_all(double a)

@@ -174,8 +174,7 @@ void particles_set(struct sph *s, int i, const double *x, const double *u, doubl
 
 /* The packed record q of a state: velocity momentum/mass, density mass/volume; in 2D, where room is
  * left in the 64 bytes, the false divergence as well. */
-static inline __attribute__((always_inline)) void line(const double *y, double false_divergence,
-                                                       double *q, const int dim)
+INLINE void line(const double *y, double false_divergence, double *q, const int dim)
 {
     const double w = y[at_volume(dim)], m = y[at_mass(dim)], rho = m / w, to_u = 1.0 / m;
     for (int a = 0; a < dim; a++) {
@@ -188,7 +187,7 @@ static inline __attribute__((always_inline)) void line(const double *y, double f
         q[PRIM_FALSE] = false_divergence;
 }
 
-static inline __attribute__((always_inline)) void lines(struct sph *s, const int dim)
+INLINE void lines(struct sph *s, const int dim)
 {
     for (int i = 0; i < s->p.n; i++)
         line(s->p.y + (size_t)s->p.nstate * i, s->p.false_divergence[i], prim_line(&s->p, i), dim);
@@ -196,8 +195,7 @@ static inline __attribute__((always_inline)) void lines(struct sph *s, const int
 
 /* Packs states interpolated linearly between y0 and y, part 0 .. 1: levels with steps of their own
  * need each other's fields at times within a step. */
-static inline __attribute__((always_inline)) void lines_between(struct sph *s, double part,
-                                                                const int dim)
+INLINE void lines_between(struct sph *s, double part, const int dim)
 {
     for (int i = 0; i < s->p.n; i++) {
         const double *y0 = state_row(&s->p, s->p.y0, i), *y1 = state_row(&s->p, s->p.y, i);

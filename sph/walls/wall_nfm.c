@@ -21,8 +21,6 @@
 #include "wall_list.h"
 #include "wall_rims.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 enum { RATIOS = 64 };
 
 static const double least_gamma = 0.2; /* of corners below 72 degrees: 15 ran away with 0.1 */
