@@ -21,32 +21,6 @@ def image(path):
             html.escape(os.path.basename(path)), kind, base64.b64encode(f.read()).decode())
 
 
-def value_of(summary, name):
-    """A number of the summary by its path, "error.velocity_l2"; names may hold points and spaces themselves."""
-    if name in summary:
-        return summary[name]
-    for k, v in summary.items():
-        if isinstance(v, dict) and name.startswith(k + '.'):
-            found = value_of(v, name[len(k) + 1:])
-            if found is not None:
-                return found
-    return None
-
-
-def criteria(run):
-    """(name, measured, allowed) of what the case itself wants."""
-    summary = run.summary
-    for row in run.case.get('accept', []):
-        name = row['what']
-        if row.get('reference'):
-            name = 'compare.%s_%s' % (name.replace(' ', '_'), row.get('measure', 'rms'))
-        value = next((v for v in (value_of(summary, n) for n in (name, 'error.' + name)) if v is not None), None)
-        program, _, own = name.partition('.')
-        if value is None and program in run.programs:
-            value = value_of(run[program].summary, own)
-        yield name, value, row.get('tolerance')
-
-
 def rows(table):
     return '\n'.join('<tr>' + ''.join('<td%s>%s' % c if isinstance(c, tuple) else '<td>' + html.escape(str(c)) for c in r)
                      for r in table)
@@ -58,7 +32,7 @@ def short(v):
 
 def verdict(run):
     to = []
-    for name, value, allowed in criteria(run):
+    for name, value, allowed in reading.criteria(run):
         met = isinstance(value, (int, float)) and allowed is not None and abs(value) <= allowed
         to.append((name, short(value), short(allowed), (' class=met', 'met') if met else (' class=missed', 'missed')))
     return '<table><tr><th>criterion<th>measured<th>allowed<th></tr>%s</table>' % rows(to) if to else '<p>The case has no criteria.'

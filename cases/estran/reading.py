@@ -262,3 +262,29 @@ class Run:
 def read(folder):
     """The run of a folder."""
     return Run(folder)
+
+
+def value_of(summary, name):
+    """A number of the summary by its path, "error.velocity_l2"; names may hold points and spaces themselves."""
+    if name in summary:
+        return summary[name]
+    for k, v in summary.items():
+        if isinstance(v, dict) and name.startswith(k + '.'):
+            found = value_of(v, name[len(k) + 1:])
+            if found is not None:
+                return found
+    return None
+
+
+def criteria(run):
+    """(name, measured, allowed) of what the case itself wants."""
+    summary = run.summary
+    for row in run.case.get('accept', []):
+        name = row['what']
+        if row.get('reference'):
+            name = 'compare.%s_%s' % (name.replace(' ', '_'), row.get('measure', 'rms'))
+        value = next((v for v in (value_of(summary, n) for n in (name, 'error.' + name)) if v is not None), None)
+        program, _, own = name.partition('.')
+        if value is None and program in run.programs:
+            value = value_of(run[program].summary, own)
+        yield name, value, row.get('tolerance')

@@ -8,7 +8,7 @@ import subprocess
 
 import numpy as np
 
-from . import page, reading
+from . import reading
 
 launcher = os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), 'run')
 
@@ -87,7 +87,7 @@ def run(case, folder, settings, more=()):
 def figures(of):
     """Errors, criteria and drifts of a run, by name."""
     found, s = {}, of.summary
-    for name, value, _ in page.criteria(of):
+    for name, value, _ in reading.criteria(of):
         found[name] = value
     for group in ('error', 'compare', 'drift'):
         for k, v in s.get(group, {}).items():
