@@ -101,7 +101,7 @@ void body_place(const struct body *b, const double *from, double *to);
 /* Where corner i of its outline, in 3D vertex i of its mesh, is now, m. */
 void body_corner(const struct body *b, int i, double *to);
 int body_corners(const struct body *b);
-/* Velocity of its material point at `at' now, m/s; it is rigid. */
+/* Velocity of its material point at `at' now, m/s; of one that bends on its outline. */
 void body_velocity(const struct body *b, const double *at, double *u);
 /* Largest speed of any of its points now, m/s. */
 double body_speed(const struct body *b);

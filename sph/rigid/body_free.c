@@ -294,8 +294,15 @@ void body_corner(const struct body *b, int i, double *to)
         body_place(b, b->mesh ? b->mesh->x[i] : b->is->points.x[i], to);
 }
 
+/* Of a body that bends that of the point of its outline next to the place. */
 void body_velocity(const struct body *b, const double *at, double *u)
 {
+    if (b->bend) {
+        const struct line l = {b->bend->n, (const double(*)[2])b->bend->x, true};
+        const struct line_foot foot = line_foot(&l, at);
+        body_bend_velocity(b->bend, foot.segment, foot.part, u, NULL);
+        return;
+    }
     double d[3] = {0.0, 0.0, 0.0}, v[3];
     for (int a = 0; a < b->dim; a++)
         d[a] = at[a] - b->centre[a] - b->now.x[a];

@@ -477,6 +477,10 @@ TEST(bent_square)
     assert_close(u[1], 0.5, 1e-14);
     body_bend_velocity(b.bend, 1, 0.25, u, NULL);
     assert_close(u[1], 1.5, 1e-14);
+    /* what touches it there meets it at that: contact knows who comes, and rubs */
+    body_velocity(&b, (const double[2]){-0.5, -0.5 + 0.25 * 1.1}, u);
+    assert_close(u[0], 0.0, 1e-14);
+    assert_close(u[1], 0.5, 1e-14);
     body_bend_load(b.bend, x, f, BEND_STAGE);
     for (int i = 0; i < 4; i++)
         for (int a = 0; a < 2; a++)
