@@ -251,6 +251,17 @@ shapes: ( { box = ((0, 0.4), (0.5, 0.5)); } ); probes: ( %s ); sph: { dx = 0.02;
 for gauge in 'abcd':
     near('ledge: level at ' + gauge, column('ledge', gauge + ' [')[0], 0.5, 0.1 * 0.02, 'ledge.txt')
 
+# The corner of a block in 3D: beside it and over it, before and beyond a period (0.558 and 0.526 m when 8 x 8 places told how much
+# of the section it leaves)
+for block, x, z in ((0.3, 0.1, 0.5, 0.3), 0.51, 0.31), ((0.6, 0.3, 0.8, 0.5), 0.01, 0.01):
+    run_case('corner', scene(0.01, '''fluid: { gravity = (0, -9.81, 0); };
+    domain: { dim = 3; max = (0.8, 0.8, 0.5); periodic = (true, false, true); }; walls: ( { side = "y_min"; } );
+    bodies: ( { name = "b"; box = ((%g, 0, %g), (%g, 0.3, %g)); } ); shapes: ( { box = ((0, 0, 0), (0.8, 0.5, 0.5)); } );
+    probes: ( %s ); sph: { dx = 0.05; };
+    ''' % (*block, probes('level', 'beside %g, 0.1, %g' % (x, z), 'over %g, 0.4, %g' % (x, z)))))
+    for gauge in 'beside', 'over':
+        near('corner: level ' + gauge, column('corner', gauge)[0], 0.5, 0.2 * 0.05, 'corner.txt')
+
 # Water on a deck does not count for the level below it where air is left between; it does where the deck is drowned (at
 # first it always did: 0.26 m for 0.16 m). In fv, too, where what stands on the deck stood on the floor (0.36 and 0.36 m).
 SOLVERS = ('sph', 'sph: { dx = %g; };'), ('fv', 'fv: { cells = (%d, %d); };')
