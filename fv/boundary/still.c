@@ -68,11 +68,15 @@ double fv_still_in_exact(const struct fv *s, const double *x)
 }
 
 /* rk3's pressure belongs to t - dt/6, with a surface to the middle of the step: carried on along
- * the last step's change, if the cell had a pressure then. Without the hydrostatic part. */
+ * the last step's change, if the cell had a pressure then. In the first step of a coupled job the
+ * partner's water begins to move, which no pressure of the start knows. Without the hydrostatic
+ * part. */
 double fv_pressure(const struct fv *s, int64_t c)
 {
     double on = s->prm.integrator == INTEGRATOR_RK3 && s->step.dt > 0.0 ? 1.0 / 6.0 : 0.0;
-    if (s->surface && on > 0.0)
-        on = s->p_before[c] == 0.0 ? 0.0 : 0.5;
+    if (s->surface && on > 0.0) {
+        const bool begins = s->run->coupled && !(s->step.dt_old > 0.0);
+        on = begins || s->p_before[c] == 0.0 ? 0.0 : 0.5;
+    }
     return s->run->scene.fluid.rho * (s->p[c] + on * (s->p[c] - s->p_before[c]));
 }

@@ -182,17 +182,6 @@ void fv_project_start(struct fv *s)
         set_limit(s);
 }
 
-/* Water at rest is not in balance where its surface is not level: p of the start is that which sets
- * it in motion. A partner and walls that move give velocities later. */
-static void meet_surface(struct fv *s)
-{
-    if (!s->surface || s->run->coupled || s->moving || fv_fastest(s) > 0.0)
-        return;
-    levels_keep(s);
-    pressure_start(s);
-    levels_back(s);
-}
-
 /* Heights were checked: some fit. */
 static void make_rows(struct fv *s)
 {
@@ -285,7 +274,8 @@ struct fv *fv_create(struct run *r, struct h5 *f)
             push_start(s);
         s->totals.start_iterations += s->totals.iterations;
         s->totals.iterations = 0;
-        meet_surface(s);
+        if (!s->run->coupled) /* a partner gives its cells later: coupling_first */
+            pressure_meet_surface(s);
     }
     s->watches->sum_before = s->max.u[0] + s->max.u[1] + s->max.u[2];
     s->speed.reference = fmax(s->speed.reference, fv_fastest(s));

@@ -497,6 +497,7 @@ void coupling_first(void *state)
             start_forced(s, before);
         if (s->partners.past[0][0])
             start_past(s, before);
+        pressure_meet_surface(s);
         course_start(s, k->course, before);
     }
 }

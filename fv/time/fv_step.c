@@ -171,6 +171,16 @@ void pressure_start(struct fv *s)
     s->totals.iterations = s->totals.viscous_iterations = 0;
 }
 
+/* Walls that move give velocities later. */
+void pressure_meet_surface(struct fv *s)
+{
+    if (!s->surface || s->moving || fv_fastest(s) > 0.0)
+        return;
+    levels_keep(s);
+    pressure_start(s);
+    levels_back(s);
+}
+
 /* Cells of water would lose or gain what the divergence says. In so short a time gravity does
  * nothing. What a field's averages lack is no push. What comes next is a first step: the velocity
  * of the step before says nothing about accelerations. */

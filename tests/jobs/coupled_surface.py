@@ -3,7 +3,7 @@ any number of ranks, restart, what is refused. SPDX-License-Identifier: BSD-3-Cl
 import glob
 
 import lib
-from lib import bad, below, close, column, last, near, number, refused_by, restarted, root, says, start, told, varied
+from lib import alone, bad, below, close, column, last, near, number, refused_by, restarted, root, says, start, told, varied
 
 lib.scratch()
 
@@ -56,6 +56,24 @@ for folder in 'right', 'strip', 'off', 'thick':
     at_rest(folder)
     # the partner's pressures are its particles': no odd-even waves of fv's (0.215, a warning, where they were counted)
     below(folder + ': odd-even waves of pressure in water at rest', number(folder, 'odd_even_pressure'), 0.1)
+
+# two levels side by side in fv's part: from its first row on its pressure is that which sets them in motion, as in fv alone
+# (3793 Pa, not 4905 of water at rest); without the particles, whose own pressures move it by more once they are there
+levels = '''format = 1;
+time:    { end = 0.01; };
+fluid:   { gravity = (0, -9.81); };
+domain:  { dim = 2; max = (4, 1); };
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+shapes:  ( { box = ((0, 0), (1, 0.6)); }, { box = ((1, 0), (4, 0.4)); } );
+probes:  ( { name = "high"; at = (0.9, 0.1); }, { name = "low"; at = (1.3, 0.1); } );
+output:  { every = 0.01; series = 1; snapshots = false; };
+fv:      { cells = (80, 20); };
+'''
+alone('fv', 'levels_fv', levels)
+job('levels', levels + 'sph: { dx = 0.04; box = ((2.2, 0), (4, 1)); };\n')
+for name in 'high', 'low':
+    close('pressure under two levels at the start: ' + name, column('levels/fv-series.csv', name + ' [Pa]')[0],
+          column('levels_fv/series.csv', name + ' [Pa]')[0], 0.005)
 
 # a level gauge in the zones of the box, whose particles are packed unevenly in waves, is told with where they are free
 lib.write('zone.cfg', varied(water, 'output:', gauges.replace('(3, 0)', '(2.2, 0)') + 'output:'))
