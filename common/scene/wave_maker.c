@@ -18,13 +18,15 @@ bool scene_has_wave_maker(const struct scene *s)
 }
 
 /* Height over stroke at the still level (Biesel 1951), l the height of a flap's axis over the
- * floor, < 0: a piston. kh is bounded, for sinh overflows where the ratio is its limit 2. */
+ * floor, < 0: a piston. kh is bounded, for sinh overflows where the floor no longer counts; the
+ * axis of a flap stays as far below the surface as it is. */
 double wave_maker_ratio(double k, double h, double l)
 {
     const double kh = fmin(k * h, 300.0), below = sinh(2.0 * kh) + 2.0 * kh;
     if (l < 0.0)
         return 4.0 * sinh(kh) * sinh(kh) / below;
-    return 4.0 * sinh(kh) * (sinh(kh) + (cosh(k * l) - cosh(kh)) / (k * (h - l))) / below;
+    const double down = k * (h - l);
+    return 4.0 * sinh(kh) * (sinh(kh) + (cosh(fmax(kh - down, 0.0)) - cosh(kh)) / down) / below;
 }
 
 /* Second order of a piston over its first; 0 where it does not hold. */

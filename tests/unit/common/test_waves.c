@@ -420,7 +420,8 @@ TEST(zones_ask_for_no_more_than_the_waves)
     FREE(is);
 }
 
-/* Biesel's transfer functions of pistons and of flaps hinged on the floor, kh 0.3, 1, 3. */
+/* Biesel's transfer functions of pistons and of flaps hinged on the floor, kh 0.3, 1, 3; of flaps
+ * close to the surface of deep water. */
 TEST(paddles_have_biesels_ratios)
 {
     static const double kh[] = {0.3, 1.0, 3.0}, piston[] = {0.2999, 0.9818, 1.9326},
@@ -428,5 +429,10 @@ TEST(paddles_have_biesels_ratios)
     for (int i = 0; i < 3; i++) {
         near(wave_maker_ratio(2.0 * kh[i], 0.5, -1.0), piston[i], 1e-4);
         near(wave_maker_ratio(2.0 * kh[i], 0.5, 0.0), flap[i], 1e-4);
+    }
+    /* over deep water 2 (1 - (1 - e^-q)/q), q = k times the depth of the flap's axis */
+    for (int i = 0; i < 3; i++) {
+        const double k = 10.0 * pow(10.0, i), q = 0.04 * k;
+        near(wave_maker_ratio(k, 5.0, 4.96), 2.0 * (1.0 + expm1(-q) / q), 1e-9);
     }
 }
