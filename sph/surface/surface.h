@@ -54,4 +54,9 @@ void surface_calm(struct sph *s);
  * 0 on a surface, along it near it, and bounded in size [2.113]. */
 void transport_finish(struct sph *s);
 
+/* Square of the speed of a particle at the velocity u[dim], m^2/s^2. Where one stream carries all
+ * water alike (struct sph_step, carried) that is relative to the stream: what rests in it counts as
+ * water at rest. */
+double transport_speed2(const struct sph *s, const double *u);
+
 #endif

@@ -34,9 +34,7 @@ static void along_surface(const struct free_surface *f, int i, double *delta, in
         delta[a] = f->is[i] == SURFACE_ON ? 0.0 : delta[a] - across * N[a];
 }
 
-/* Square of the speed of a particle at u. Where one stream carries all water alike that is relative
- * to the stream, for what rests in it is to be shifted as little as water at rest. */
-static double speed2(const struct sph *s, const double *u)
+double transport_speed2(const struct sph *s, const double *u)
 {
     double u2 = 0.0;
     for (int a = 0; a < s->dim; a++) {
@@ -52,7 +50,7 @@ static double speed2(const struct sph *s, const double *u)
 static double inner_speed(const struct sph *s, int i)
 {
     const bool beside = s->walls && s->walls->beside && s->walls->beside[i];
-    const double u2 = speed2(s, prim_line(&s->p, i) + s->dim);
+    const double u2 = transport_speed2(s, prim_line(&s->p, i) + s->dim);
     const double share = beside ? fmax(0.0, 1.0 - u2 / pow(0.001 * s->c0, 2.0)) : 1.0;
     return s->surface->is[i] == SURFACE_INNER ? share * sqrt(u2) : 0.0;
 }
@@ -168,7 +166,7 @@ void transport_finish(struct sph *s)
         for (int a = 0; a < dim; a++)
             size2 += delta[a] * delta[a];
         const double whole = scheme_shift_speed(s, i), U = bounded ? fmin(whole, now) : whole;
-        const double u2 = by_own ? speed2(s, u) : U * U, most2 = 0.0625 * u2;
+        const double u2 = by_own ? transport_speed2(s, u) : U * U, most2 = 0.0625 * u2;
         const double bounded_share = size2 > most2 ? sqrt(most2 / size2) : 1.0;
         const double factor = bounded_share * (by_own ? share_with_levels(s, u2) : 1.0);
         for (int a = 0; a < dim; a++)

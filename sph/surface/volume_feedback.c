@@ -13,7 +13,8 @@
  * keeps to div u, and with levels so does what is nearly at rest, for it is hardly shifted there. A
  * block that goes through water at 0.25 m/s lost 10 % of its lift with levels, 18 % after it had
  * gone over an edge; now 2 %. If all followed all the time: 4 to 9 % too much after the edge, and a
- * tank of 20 x 10 particles, half refined, at 2e-3 c0 after 3e4 steps.
+ * tank of 20 x 10 particles, half refined, at 2e-3 c0 after 3e4 steps. At rest is what rests in a
+ * stream that carries all alike, too.
  * Not for ALE, where it does not happen; nor with zones, whose sums are made up of others'
  * particles; nor without shift: a lattice cut by an inclined wall stays uneven, 0.7e-3 c0 instead
  * of 0.2e-3. SPDX-License-Identifier: BSD-3-Clause */
@@ -76,12 +77,9 @@ void volume_feedback_find(struct sph *s)
 /* How much of the law holds for particle i, 0 to 1; see the head of this file. */
 static double share_of(const struct sph *s, int i)
 {
-    const double *u = prim_line(&s->p, i) + s->dim;
-    double u2 = 0.0;
     if (!s->coarser && !s->finer)
         return 1.0;
-    for (int a = 0; a < s->dim; a++)
-        u2 += u[a] * u[a];
+    const double u2 = transport_speed2(s, prim_line(&s->p, i) + s->dim);
     return s->p.role[i] & (ROLE_GUARD | ROLE_EDGE) ? 0.0 : fmin(1.0, u2 / pow(rest * s->c0, 2.0));
 }
 

@@ -275,8 +275,9 @@ static bool has_fallen(struct sph *s, int i)
     int over = -1;
     bool falls = false;
     for (int side = 0; side < 2 * s->dim && !falls; side++) {
-        if (!(side % 2 ? y[side / 2] > s->hi[side / 2] : y[side / 2] < s->lo[side / 2]))
-            continue;
+        const int a = side / 2;
+        if (s->periodic[a] || !(side % 2 ? y[a] > s->hi[a] : y[a] < s->lo[a]))
+            continue; /* across a period it is not out, it is only not yet brought back */
         const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
         falls = w && w->kind == WALL_FALLS;
         over = falls || !w ? side : over;
