@@ -217,8 +217,7 @@ def outlines(program, part, view):
             segments = grids.cut(x, corners, view.across, view.where)
             chains = grids.loops(segments[:, :, view.axes], float(np.max(view.high - view.low)))
             (bodies if name in names and not holds_water(x, corners) else lines).extend(chains)
-    for box in program.case.get('blocked', []):
-        a, b = ((list(box[k]) + [0, 0])[:3] for k in ('min', 'max'))
+    for a, b in program.boxes():
         if view.dim == 2 or a[view.across] <= view.where <= b[view.across]:
             i, j = view.axes
             bodies.append(np.array([(a[i], a[j]), (b[i], a[j]), (b[i], b[j]), (a[i], b[j])]))

@@ -186,6 +186,17 @@ class Program:
                              f[n][...].reshape(-1, 3).astype(int)) for n in f if n.startswith('triangles_')}
 
 
+    def boxes(self):
+        """Corners, (2, 3), of the boxes that are cut out of cells: of the group blocked, and bodies where fv runs alone."""
+        given = [(b['min'], b['max']) for b in self.case.get('blocked', [])]
+        for b in self.case.get('bodies', []) if list(self.run.programs) == ['fv'] else []:
+            corners = b.get('box') or (b.get('points') if self.dim == 2 else None)
+            if corners:
+                x = np.array([(list(p) + [0.0])[:3] for p in corners], float)
+                given.append((x.min(0), x.max(0)) + np.array((list(b.get('translate', [])) + [0.0] * 3)[:3]))
+        return [np.array([(list(x) + [0.0, 0.0])[:3] for x in pair], float) for pair in given]
+
+
 class Snapshot(dict):
     """The parts of all programs at one time, by program."""
 

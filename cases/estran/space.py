@@ -104,8 +104,8 @@ def add_solids(scene, program, part):
         x = part.meshes.get(name, x)
         if x is not None and name in names and not drawing.holds_water(x, corners):  # a tank would hide what is in it
             scene.add_faces(x[corners], np.tile(grey, (len(corners), 1)))
-    for box in program.case.get('blocked', []):
-        faces = sides(np.array(box['min'], float), np.array(box['max'], float))
+    for box in program.boxes():
+        faces = sides(*box)
         scene.add_faces(faces, np.tile(grey, (6, 1)))
 
 

@@ -250,6 +250,15 @@ def boxes_of(case):  # corners of boxes that are cut out of the cells
     for group in re.findall(r'^blocked: \((.*?)^\);', case, re.M | re.S):
         ends = [re.findall(k + r' = \(([^)]*)\)', group) for k in ('min', 'max')]
         found += [[[float(v) for v in c.split(',')] for c in pair] for pair in zip(*ends)]
+    for group in re.findall(r'^bodies: \((.*?)^\);', case, re.M | re.S) if list(text) == ['fv'] else []:  # they are boxes, too
+        for body in re.split(r'^  (?:, )?\{$', group, flags=re.M)[1:]:
+            given = re.search(r'^  (?:%s) = \((.*)\);' % ('box|points' if dim == 2 else 'box'), body, re.M)
+            moved = re.search(r'^  translate = \((.*)\);', body, re.M)
+            off = [float(v) for v in moved.group(1).split(',')] if moved else [0.0] * 3
+            points = re.findall(r'\(([^()]*)\)', given.group(1)) if given else []
+            x = list(zip(*([float(v) for v in p.split(',')] + [0.0] for p in points)))[:3]
+            if x:
+                found.append([[float(f(v)) + o for v, o in zip(x, off)] for f in (np.min, np.max)])
     return found
 
 

@@ -3,6 +3,7 @@
 import ast
 import glob
 import os
+import re
 import sys
 import types
 
@@ -44,6 +45,32 @@ for name in ('vtkmodules', 'vtkmodules.util', 'vtkmodules.util.numpy_support', '
 script = text.split("centres = '''")[1].split("'''")[0]
 own = {}
 exec(script[:script.index('for k, block')], own)
+
+# boxes that are cut out of the cells: those of `blocked`, and bodies where fv runs alone
+find = {'re': re, 'np': np, 'dim': 2, 'text': {'fv': ''}}
+exec(text[text.index('def boxes_of'):text.index('def show_cells')], find)
+case = '''blocked: (
+  {
+  min = (0, 0, 0);
+  max = (0.5, 0.2, 0);
+  }
+);
+bodies: (
+  {
+  name = "b";
+  # points = ();
+  box = ((1, 0.2, 0), (1.5, 0, 0));
+  # translate = (0, 0, 0);
+  }
+  , {
+  points = ((0, 0), (0, 0.5), (0.25, 0.5), (0.25, 0));
+  translate = (2, 0, 0);
+  }
+);
+'''
+assert find['boxes_of'](case) == [[[0, 0, 0], [0.5, 0.2, 0]], [[1, 0, 0], [1.5, 0.2, 0]], [[2, 0, 0], [2.25, 0.5, 0]]], find['boxes_of'](case)
+find['text']['sph'] = ''
+assert len(find['boxes_of'](case)) == 1
 
 # vertices of a skewed plane: centres are means of four, the rim lies on it, corners stay
 i, j = np.meshgrid(np.arange(5), np.arange(4))
