@@ -192,7 +192,9 @@ class Program:
         for b in self.case.get('bodies', []) if list(self.run.programs) == ['fv'] else []:
             corners = b.get('box') or (b.get('points') if self.dim == 2 else None)
             if corners:
-                x = np.array([(list(p) + [0.0])[:3] for p in corners], float)
+                x = np.array([(list(p) + [0.0])[:3] for p in corners], float) * b.get('scale', 1.0)
+                turn = np.radians((list(b.get('rotate', [])) + [0.0] * 3)[2])  # boxes turn by right angles about z alone
+                x[:, :2] = x[:, :2] @ np.round([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]], 12)
                 given.append((x.min(0), x.max(0)) + np.array((list(b.get('translate', [])) + [0.0] * 3)[:3]))
         return [np.array([(list(x) + [0.0, 0.0])[:3] for x in pair], float) for pair in given]
 

@@ -255,7 +255,8 @@ def boxes_of(case):  # corners of boxes that are cut out of the cells
             given = re.search(r'^  (?:%s) = \((.*)\);' % ('box|points' if dim == 2 else 'box'), body, re.M)
             moved = re.search(r'^  translate = \((.*)\);', body, re.M)
             off = [float(v) for v in moved.group(1).split(',')] if moved else [0.0] * 3
-            points = re.findall(r'\(([^()]*)\)', given.group(1)) if given else []
+            plain = given and not re.search(r'^  (?:scale|rotate) = ', body, re.M)
+            points = re.findall(r'\(([^()]*)\)', given.group(1)) if plain else []
             x = list(zip(*([float(v) for v in p.split(',')] + [0.0] for p in points)))[:3]
             if x:
                 found.append([[float(f(v)) + o for v, o in zip(x, off)] for f in (np.min, np.max)])

@@ -116,8 +116,8 @@ assert (pixel(1.2, 0.8) == 255).all(), 'air is white'
 assert abs(pixel(0.25, 0.1) - pixel(0.25, 0.4)).max() > 60, 'pressure grows with depth'
 # bodies of fv alone are boxes of its cells, which pictures showed as air
 fv_alone = SimpleNamespace(name='fv', dim=2, run=SimpleNamespace(programs={'fv': None}), case={'blocked': [{'min': [0, 0], 'max': [1, 2]}], 'bodies': [
-    {'box': [[1, 0.2], [1.5, 0]]}, {'points': [[0, 0], [0, 1], [1, 1], [1, 0]], 'translate': [2, 0, 0]}]})
-assert [b.tolist() for b in estran.reading.Program.boxes(fv_alone)] == [[[0, 0, 0], [1, 2, 0]], [[1, 0, 0], [1.5, 0.2, 0]], [[2, 0, 0], [3, 1, 0]]]
+    {'box': [[1, 0.2], [1.5, 0]]}, {'points': [[0, 0], [0, 1], [2, 1], [2, 0]], 'scale': 0.5, 'rotate': [0, 0, 90], 'translate': [2.5, 0, 0]}]})
+assert [b.tolist() for b in estran.reading.Program.boxes(fv_alone)] == [[[0, 0, 0], [1, 2, 0]], [[1, 0, 0], [1.5, 0.2, 0]], [[2, 0, 0], [2.5, 1, 0]]]
 lines, bodies = drawing.outlines(tank.programs['fv'], tank.at()['fv'], drawing.View(tank, None))
 assert len(lines) == 4 and not bodies, 'a tank of cells has its four walls'
 near(max(line[:, 0].max() for line in lines), 0.5 + 0.1, 1e-9)  # where it has moved to
