@@ -47,8 +47,8 @@ level('still', 0.2, 3, 4)
 # eight rows, what is in them: 160 kg and g h^2/(2 c0^2) for the weight of the water (-1.7 % where the pressure outside was
 # hydrostatic up to the surface, which particles exceed there)
 close('shallow: kg', mean('shallow', 'mass [', 3, 5), 160.31, 0.01, 'shallow.txt')
-close('level: kg that came in', number('level', 'x_min'), 350, 0.02)
-close('level: kg through the outlet', number('level', 'x_max'), -350, 0.02)
+close('level: kg that came in', number('level', 'through.x_min'), 350, 0.02)
+close('level: kg through the outlet', number('level', 'through.x_max'), -350, 0.02)
 for gauge in 'flow', 'slant':  # the same through any section, upright or not
     close('level: m^2/s at ' + gauge, mean('level', gauge, 3, 5), 0.07, 0.02)
 near('level: mass lost or made', number('level', 'budget'), 0, 0.02)
