@@ -6,10 +6,8 @@
 #include "../base/base.h"
 #include "h5.h"
 
-/* Writes the samples, which are the same on all ranks, as the dataset "signal"; none: nothing.
- * first: whether this is rank 0. Collective. */
-void fit_save(const struct fit *samples, struct h5 *f, bool first);
-/* Adds those of the file, if it has any, on all ranks; they belong to `owner'. Collective. */
-void fit_load(void *owner, struct fit *samples, struct h5 *f);
+/* Writes the samples, which are the same on all ranks, as the dataset "signal" (none: nothing), or
+ * adds those of the file, if it has any, on all ranks; they belong to `owner'. Collective. */
+void fit_restart(void *owner, struct fit *samples, struct h5 *f);
 
 #endif

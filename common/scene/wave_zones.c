@@ -103,17 +103,12 @@ static struct wave_field *field_of(const struct wave_zones *z)
     return field;
 }
 
-void wave_zones_save(const struct wave_zones *z, struct h5 *f, bool writes)
-{
-    const struct wave_field *field = field_of(z);
-    if (field)
-        wave_field_save(field, f, writes);
-}
-
-void wave_zones_load(struct wave_zones *z, struct h5 *f)
+void wave_zones_restart(struct wave_zones *z, struct h5 *f)
 {
     struct wave_field *field = field_of(z);
-    if (field)
+    if (field && h5_writes(f))
+        wave_field_save(field, f);
+    else if (field)
         wave_field_load(field, f);
 }
 

@@ -21,11 +21,9 @@ bool wave_zones_hold(const struct wave_zones *z, const double *x);
  * velocities u_w, m/s. Several times as fast for tens of them. */
 enum { WAVE_COLUMN = 64 };
 double wave_zones_column(const struct wave_zones *z, int n, double (*x)[3], double (*u_w)[3]);
-/* Writes the state of waves that evolve nonlinearly to a restart file; collective over the file's
- * communicator, `writes' being true on one rank. */
-void wave_zones_save(const struct wave_zones *z, struct h5 *f, bool writes);
-/* Reads it back; collective. */
-void wave_zones_load(struct wave_zones *z, struct h5 *f);
+/* Writes the state of waves that evolve nonlinearly to a restart file, or reads it back; collective
+ * over the file's communicator. */
+void wave_zones_restart(struct wave_zones *z, struct h5 *f);
 /* Whether some zone makes waves, i.e. does work on the water. */
 bool wave_zones_drive(const struct wave_zones *z);
 

@@ -12,8 +12,8 @@ static double mark_of(const struct wave_field *f)
 }
 
 /* The oldest of the states kept: the frames about the present time, which the cubics need, reach
- * back before the last step. All ranks call it; `writes' is true on one. */
-void wave_field_save(const struct wave_field *f, struct h5 *file, bool writes)
+ * back before the last step. */
+void wave_field_save(const struct wave_field *f, struct h5 *file)
 {
     int oldest = -1;
     for (int k = 0; k < WAVE_FIELD_KEPT; k++)
@@ -21,8 +21,7 @@ void wave_field_save(const struct wave_field *f, struct h5 *file, bool writes)
             oldest = k;
     if (oldest < 0)
         return;
-    h5_write_real(file, "waves_modes", "m, m^2/s", writes ? f->of->grid->cells : 0, 2,
-                  f->states[oldest], false);
+    (void)h5_keep_rows(file, "waves_modes", "m, m^2/s", f->of->grid->cells, 2, f->states[oldest]);
     h5_attribute_int(file, "waves_step", f->kept[oldest]);
     h5_attribute_real(file, "waves_energy", f->energy);
     h5_attribute_real(file, "waves_mark", mark_of(f));

@@ -6,8 +6,8 @@
 #include "../files/files.h"
 #include "wave_field.h"
 
-/* Writes the state; `writes' is true on one rank, for all hold the same. */
-void wave_field_save(const struct wave_field *f, struct h5 *file, bool writes);
+/* Writes the state, which all ranks hold. */
+void wave_field_save(const struct wave_field *f, struct h5 *file);
 /* Continues from the state in the file. If the file has none, the field evolves anew from its start
  * and reaches the same bits. */
 void wave_field_load(struct wave_field *f, struct h5 *file);

@@ -18,21 +18,15 @@ static double *forced_at(const struct forcing *f, int m, int a)
     return m == 0 ? f->v[a] : m == 1 ? f->v_next[a] : f->v_old[a];
 }
 
-/* The clock, t0, t1, t_old and the number of known levels, is the same on all ranks. */
-void forced_save(const struct fv *s, struct h5 *f)
+static void save_numbers(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
-    const double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
     const int64_t n = c->npartner + c->nrim;
     int64_t *number = NEW(int64_t, n);
     for (int64_t i = 0; i < n; i++)
         number[i] = grid_number(&s->grid, c->partner[i]);
     h5_write_int(f, "forced_cells", n, number);
     mem_free(number);
-    h5_write_real(f, "forced_levels", "-", 4, 1, clock, false);
-    for (int m = 0; m < 3; m++)
-        for (int a = 0; a < s->dim; a++)
-            h5_write_real(f, forced_names[m][a], "m/s", n, 1, forced_at(c, m, a), false);
 }
 
 struct numbered {
@@ -88,25 +82,31 @@ static bool gather_forced(const struct fv *s, struct h5 *f)
 }
 
 /* On the same ranks the lists are the same, so rows are in order. */
-static bool load_forced(const struct fv *s, struct h5 *f)
+static bool keep_forced(const struct fv *s, struct h5 *f)
 {
     const struct forcing *c = s->forcing;
+    const int64_t n = c->npartner + c->nrim;
     bool good = true;
-    if (!layout_same_ranks(f, s->run->size))
+    if (!h5_writes(f) && !layout_same_ranks(f, s->run->size))
         return gather_forced(s, f);
     for (int m = 0; m < 3; m++)
         for (int a = 0; a < s->dim; a++)
-            good = good && h5_read_real(f, forced_names[m][a], c->npartner + c->nrim, 1,
-                                        forced_at(c, m, a));
+            if (h5_writes(f))
+                h5_write_real(f, forced_names[m][a], "m/s", n, 1, forced_at(c, m, a), false);
+            else
+                good = good && h5_read_real(f, forced_names[m][a], n, 1, forced_at(c, m, a));
     return good;
 }
 
-/* The clock goes with the levels: without it they would be of other times. */
-bool forced_load(const struct fv *s, struct h5 *f)
+/* The clock, t0, t1, t_old and the number of known levels, is the same on all ranks; it goes with
+ * the levels, which without it would be of other times. */
+bool forced_restart(const struct fv *s, struct h5 *f)
 {
     struct forcing *c = s->forcing;
-    double clock[4] = {0.0};
-    const bool good = h5_read_same(f, "forced_levels", 4, clock) && load_forced(s, f);
+    double clock[4] = {c->t0, c->t1, c->t_old, c->levels};
+    if (h5_writes(f))
+        save_numbers(s, f);
+    const bool good = h5_keep_same(f, "forced_levels", "-", 4, clock) && keep_forced(s, f);
     c->t0 = clock[0];
     c->t1 = clock[1];
     c->t_old = clock[2];

@@ -5,8 +5,7 @@
 
 #include "../fv.h"
 
-/* Of s->forcing. Collective. */
-void forced_save(const struct fv *s, struct h5 *f);
-bool forced_load(const struct fv *s, struct h5 *f);
+/* Of s->forcing, both ways. Collective. false: the file has none that fit. */
+bool forced_restart(const struct fv *s, struct h5 *f);
 
 #endif

@@ -723,37 +723,19 @@ void fv_coupling_window_end(void *state, double t1)
         water_budget_close(s, &s->link->of_water, t1 - s->forcing->t0);
 }
 
-/* What coupling_load wants, in its order. */
-void coupling_save(const struct fv *s, struct h5 *f)
+bool coupling_restart(struct fv *s, struct h5 *f)
 {
-    const struct forcing *c = s->forcing;
-    course_save(s, s->link->course, f);
-    h5_attribute_real(f, "datum", s->partners.pressure);
-    (void)h5_keep(f, "unmapped_worst", &s->link->unmapped.worst);
-    if (s->partners.past[0][0])
-        save_ways(s->link, f);
-    if (s->surface) {
-        (void)water_budget_restart(&s->link->of_water, f);
-        h5_attribute_real(f, "inflow", c->inflow);
-    }
-    if (c)
-        forced_save(s, f);
-}
-
-bool coupling_load(struct fv *s, struct h5 *f)
-{
-    struct forcing *c = s->forcing;
-    bool good = course_load(s, s->link->course, f) &&
-                h5_read_attribute_real(f, "datum", &s->partners.pressure) &&
-                h5_keep(f, "unmapped_worst", &s->link->unmapped.worst);
-    if (!c || !good)
+    struct link *k = s->link;
+    bool good = course_restart(s, k->course, f) && h5_keep(f, "datum", &s->partners.pressure) &&
+                h5_keep(f, "unmapped_worst", &k->unmapped.worst);
+    if (h5_writes(f) && s->partners.past[0][0])
+        save_ways(k, f);
+    if (!s->forcing || !good)
         return good;
-    good = forced_load(s, f);
-    if (!s->surface)
-        return good;
-    good = good && water_budget_restart(&s->link->of_water, f) &&
-           h5_read_attribute_real(f, "inflow", &c->inflow);
-    if (good && !isnan(s->link->of_water.start)) /* watches compare with all water at once */
-        s->surface->whole = s->link->of_water.start;
+    if (s->surface)
+        good = water_budget_restart(&k->of_water, f) && h5_keep(f, "inflow", &s->forcing->inflow);
+    good = good && forced_restart(s, f);
+    if (good && s->surface && !h5_writes(f) && !isnan(k->of_water.start))
+        s->surface->whole = k->of_water.start; /* watches compare with all water at once */
     return good;
 }

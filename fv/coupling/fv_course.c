@@ -286,59 +286,48 @@ int course_pressure(struct course *c)
 
 static const char *const names[] = {"level0", "level1", "level2"};
 
-/* Levels, clock and trends; the patch's box tells other ranks which cells they are. */
-void course_save(const struct fv *s, const struct course *c, struct h5 *f)
-{
-    const double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
-    (void)s;
-    layout_save(f, "course", 1, &c->patch->of);
-    for (int m = 0; m < COURSE_LEVELS; m++)
-        h5_write_real(f, names[m], "-", c->n, c->width, c->q[m], false);
-    h5_write_real(f, "levels", "-", COURSE_LEVELS + 1, 1, clock, false);
-    if (c->rate)
-        h5_write_real(f, "rate", "Pa/s", c->n, 1, c->rate, false);
-    if (c->scatter)
-        h5_write_real(f, "scatter", "Pa", c->n, 1, c->scatter, false);
-}
-
 /* l: of another number of ranks. */
-static bool load(const struct fv *s, const struct course *c, struct h5 *f, const struct layout *l,
-                 const char *name, int ncomp, double *to)
+static bool keep(const struct course *c, struct h5 *f, const struct layout *l, const char *name,
+                 const char *unit, int ncomp, double *v)
 {
-    (void)s;
-    return l ? layout_read(l, f, name, ncomp, &c->patch->of, c->patch->periodic, to)
-             : h5_read_real(f, name, c->n, ncomp, to);
+    if (h5_writes(f))
+        h5_write_real(f, name, unit, c->n, ncomp, v, false);
+    return h5_writes(f) || (l ? layout_read(l, f, name, ncomp, &c->patch->of, c->patch->periodic, v)
+                              : h5_read_real(f, name, c->n, ncomp, v));
 }
 
 /* Trends of a run that smooths; those of one that did not, for its coupling steps were others, are
  * the last change of the pressure. */
-static bool load_trends(const struct fv *s, struct course *c, struct h5 *f, const struct layout *l)
+static bool keep_trends(struct course *c, struct h5 *f, const struct layout *l)
 {
-    const bool smoothed = h5_share(f, "rate") >= 0;
+    const bool smoothed = h5_writes(f) || h5_share(f, "rate") >= 0;
     for (int64_t i = 0; i < c->n && !smoothed && c->levels > 1; i++) {
         const int64_t at = i * c->width + c->dim;
         c->rate[i] = (c->q[0][at] - c->q[1][at]) / (c->t[0] - c->t[1]);
     }
-    return !smoothed || (load(s, c, f, l, "rate", 1, c->rate) &&
-                         (!c->scatter || load(s, c, f, l, "scatter", 1, c->scatter)));
+    return !smoothed || (keep(c, f, l, "rate", "Pa/s", 1, c->rate) &&
+                         (!c->scatter || keep(c, f, l, "scatter", "Pa", 1, c->scatter)));
 }
 
-/* A trial is never saved: the next coupling step begins with one. */
-bool course_load(const struct fv *s, struct course *c, struct h5 *f)
+/* Levels, clock and trends; the patch's box tells other ranks which cells they are. A trial is
+ * never saved: the next coupling step begins with one. */
+bool course_restart(const struct fv *s, struct course *c, struct h5 *f)
 {
-    const bool same = layout_same_ranks(f, s->run->size);
+    const bool same = h5_writes(f) || layout_same_ranks(f, s->run->size);
     struct layout *l = same ? NULL : layout_load(f, "course");
-    double clock[COURSE_LEVELS + 1];
-    bool good = (same || l) && h5_read_same(f, "levels", COURSE_LEVELS + 1, clock);
-    for (int m = 0; good && m < COURSE_LEVELS; m++) {
-        good = load(s, c, f, l, names[m], c->width, c->q[m]);
-        c->t[m] = clock[m];
-    }
-    if (good) {
+    double clock[COURSE_LEVELS + 1] = {c->t[0], c->t[1], c->t[2], c->levels};
+    bool good = same || l;
+    if (h5_writes(f))
+        layout_save(f, "course", 1, &c->patch->of);
+    for (int m = 0; good && m < COURSE_LEVELS; m++)
+        good = keep(c, f, l, names[m], "-", c->width, c->q[m]);
+    good = good && h5_keep_same(f, "levels", "-", COURSE_LEVELS + 1, clock);
+    if (good && !h5_writes(f)) {
+        memcpy(c->t, clock, sizeof c->t);
         c->levels = (int)clock[COURSE_LEVELS];
         c->t_tried = -INFINITY;
-        good = !c->rate || load_trends(s, c, f, l);
     }
+    good = good && (!c->rate || keep_trends(c, f, l));
     FREE(l);
     return good;
 }

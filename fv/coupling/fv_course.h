@@ -46,7 +46,7 @@ void course_try(struct fv *s, struct course *c, double t1);
 int course_velocity(struct course *c);
 int course_pressure(struct course *c);
 int course_surface(struct course *c); /* phi */
-void course_save(const struct fv *s, const struct course *c, struct h5 *f);
-bool course_load(const struct fv *s, struct course *c, struct h5 *f);
+/* Restart files, both ways. Collective. false: the file has no course of this patch. */
+bool course_restart(const struct fv *s, struct course *c, struct h5 *f);
 
 #endif

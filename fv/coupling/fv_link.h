@@ -41,9 +41,8 @@ void fv_coupling_window_end(void *s, double t1);
 /* Before the fields of a restart file are read: puts boxes that move where they stood. false: the
  * file does not have them. */
 bool coupling_stand(struct fv *s, struct h5 *f);
-/* Writes what the exchange needs from coupling step to coupling step to a restart file. */
-void coupling_save(const struct fv *s, struct h5 *f);
-/* Reads it back; false: the file does not have it. */
-bool coupling_load(struct fv *s, struct h5 *f);
+/* Writes what the exchange needs from coupling step to coupling step to a restart file, or reads it
+ * back; false: the file does not have it. */
+bool coupling_restart(struct fv *s, struct h5 *f);
 
 #endif

@@ -65,25 +65,16 @@ static int boxes_of(const struct fv *s, struct layout_box *of)
 }
 
 /* What the summary of the whole run needs of its past: the surface's oscillation, and forces on
- * blocks in each row of the series. */
-static void save_samples(const struct fv *s, struct h5 *f)
-{
-    const struct fv_output *o = s->output;
-    const bool first = s->run->rank == 0;
-    if (s->surface)
-        fit_save(&s->surface->oscillation, f, first);
-    if (o && o->nhistory > 0)
-        h5_write_real(f, "forces", "s, N, N", first ? o->nhistory : 0, 3, o->history[0], false);
-}
-
-/* Files of before have none: then the summary is that of the rest of the run. */
-static void load_samples(struct fv *s, struct h5 *f)
+ * blocks in each row of the series. A file that has none gives a summary of the rest of the run. */
+static void keep_samples(struct fv *s, struct h5 *f)
 {
     struct fv_output *o = s->output;
-    int64_t n;
-    double *rows = o ? h5_read_all_real(f, "forces", 3, &n) : NULL;
     if (s->surface)
-        fit_load(s->surface, &s->surface->oscillation, f);
+        fit_restart(s->surface, &s->surface->oscillation, f);
+    if (o && o->nhistory > 0 && h5_writes(f))
+        (void)h5_keep_rows(f, "forces", "s, N, N", o->nhistory, 3, o->history[0]);
+    int64_t n;
+    double *rows = o && !h5_writes(f) ? h5_read_all_real(f, "forces", 3, &n) : NULL;
     if (!rows)
         return;
     ROOM_IN(o, o->history, n);
@@ -106,11 +97,11 @@ void fv_checkpoint(void *state, struct h5 *f)
     save_numbers(s, f);
     watches_restart(s->watches, f);
     moving_save(s, f);
-    save_samples(s, f);
+    keep_samples(s, f);
     if (s->wave_zones)
-        wave_zones_save(s->wave_zones, f, s->run->rank == 0);
+        wave_zones_restart(s->wave_zones, f);
     if (s->link)
-        coupling_save(s, f);
+        (void)coupling_restart(s, f);
 }
 
 /* A field of all grids; ghosts behind sides of blocks are those that were beside the same cells. to
@@ -174,8 +165,8 @@ bool fv_restore(struct fv *s, struct h5 *f)
     }
     outflow_restore(s);
     watches_restart(s->watches, f);
-    load_samples(s, f);
+    keep_samples(s, f);
     if (s->wave_zones)
-        wave_zones_load(s->wave_zones, f);
-    return there(!s->link || coupling_load(s, f), "past of the coupling");
+        wave_zones_restart(s->wave_zones, f);
+    return there(!s->link || coupling_restart(s, f), "past of the coupling");
 }

@@ -14,14 +14,6 @@ struct eos {
 
 static double gravity_of(const struct sph *s) { return vec3_length(s->run->scene.fluid.gravity); }
 
-void restart_eos_save(const struct sph *s, struct h5 *f)
-{
-    h5_attribute_real(f, "rho0", s->rho0);
-    h5_attribute_real(f, "c0", s->c0);
-    h5_attribute_real(f, "gamma", s->gamma);
-    h5_attribute_real(f, "gravity", gravity_of(s));
-}
-
 /* Masses of one level; sums[0] and [1]: before and after, kg, this rank. */
 static void restate(struct sph *s, const struct eos *then, double sums[2])
 {
@@ -59,17 +51,16 @@ static void scale_start(struct sph *s, double factor)
     s->watch.budget.n = 0; /* energies of the last steps are those of other masses */
 }
 
-void restart_eos_load(struct sph *s, struct h5 *f)
+void restart_eos(struct sph *s, struct h5 *f)
 {
-    struct eos then;
-    if (!h5_read_attribute_real(f, "rho0", &then.rho0) ||
-        !h5_read_attribute_real(f, "c0", &then.c0) ||
-        !h5_read_attribute_real(f, "gamma", &then.gamma) ||
-        !h5_read_attribute_real(f, "gravity", &then.gravity))
+    const struct eos now = {s->rho0, s->c0, s->gamma, gravity_of(s)};
+    struct eos then = now;
+    if (!h5_keep(f, "rho0", &then.rho0) || !h5_keep(f, "c0", &then.c0) ||
+        !h5_keep(f, "gamma", &then.gamma) || !h5_keep(f, "gravity", &then.gravity))
         return;
-    if (then.rho0 == s->rho0 && then.c0 == s->c0 && then.gamma == s->gamma &&
-        then.gravity == gravity_of(s))
-        return;
+    if (then.rho0 == now.rho0 && then.c0 == now.c0 && then.gamma == now.gamma &&
+        then.gravity == now.gravity)
+        return; /* and so it is where the file is written */
     double all[2] = {0.0, 0.0};
     for (struct sph *q = s; q; q = q->finer) {
         double sums[2] = {0.0, 0.0};

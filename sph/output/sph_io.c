@@ -333,11 +333,11 @@ void sph_checkpoint(void *state, struct h5 *f)
     h5_write_real(f, "put_back", "-", 1, 1, &back, false);
     if (s->refinement)
         save_levels(s, f);
-    fit_save(&s->total.signal_fit, f, s->run->rank == 0);
+    fit_restart(s, &s->total.signal_fit, f);
     for (int k = 0; k < NUMBERS; k++)
         (void)h5_keep(f, numbers[k].name, number(s, k));
     write_region(s, f);
-    restart_eos_save(s, f);
+    restart_eos(s, f);
     wall_files_save(s, f);
     sph_watch_save(s, f);
     domain_save(s, f);
@@ -346,7 +346,7 @@ void sph_checkpoint(void *state, struct h5 *f)
     if (s->zones && s->zones->watched)
         overlap_restart(s->zones->watched, f);
     if (s->wave_zones)
-        wave_zones_save(s->wave_zones, f, s->run->rank == 0);
+        wave_zones_restart(s->wave_zones, f);
     if (s->walls)
         forces_save(s, f);
     shut_waters_save(s, f);
@@ -479,7 +479,7 @@ static const char *missing(struct sph *s, struct h5 *f)
     if (s->zones && !zones_restart(s, f))
         return "open sides";
     if (s->wave_zones)
-        wave_zones_load(s->wave_zones, f);
+        wave_zones_restart(s->wave_zones, f);
     if (s->walls && !forces_load(s, f))
         return "forces on walls";
     if (!shut_waters_load(s, f))
@@ -504,7 +504,7 @@ bool sph_restore(struct sph *s, struct h5 *f)
     else if (lacks)
         log_say("the restart file has no %s that fit this case", lacks);
     else
-        restart_eos_load(s, f);
+        restart_eos(s, f);
     for (struct sph *q = s; q; q = q->finer) {
         if (q->surface)
             read_surface(q, f);
@@ -512,6 +512,6 @@ bool sph_restore(struct sph *s, struct h5 *f)
             walls_expect_speed(q);
         q->lists.ready = false;
     }
-    fit_load(s, &s->total.signal_fit, f);
+    fit_restart(s, &s->total.signal_fit, f);
     return !lacks;
 }
