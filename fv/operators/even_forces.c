@@ -2,15 +2,9 @@
  * cells or layers, and the work that comes in through one of a side.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../boundary/fv_boundary.h"
-#include "../surface/fv_surface.h"
 #include "face_share.h"
 #include "operators.h"
 
-/* Whether the cell holds no water. */
-static bool is_dry(const struct fv *s, int64_t c)
-{
-    return s->surface && s->surface->layer[c] != 0;
-}
 /* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are those of
  * the quadratic behind a no-slip wall, mirrored behind a slip wall (forcing_fixes.c). */
 static double wall_pressure(const double p[3], bool slip)
@@ -88,12 +82,12 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
         return;
     part_index(f->part, c, at);
     const double share = wet_share(s, f, at, xi, edge), area = share * f->flow_area;
-    if (is_dry(s, c) && share > 0.0 && share < 1.0)
+    if (face_is_dry(s, c) && share > 0.0 && share < 1.0)
         sum[f->a] += out * area * (still_at(s, f, at, xi) - still_at(s, f, at, edge));
-    if (is_dry(s, c))
+    if (face_is_dry(s, c))
         return;
     for (int n = 1; n < 4; n++)
-        deep = deep && !is_dry(s, c + n * in) && !(f->body && is_blocked(s, c + n * in));
+        deep = deep && !face_is_dry(s, c + n * in) && !(f->body && is_blocked(s, c + n * in));
     for (int n = 0; n < 3; n++)
         p[n] = fv_pressure(s, deep ? c + n * in : c);
     sum[f->a] +=

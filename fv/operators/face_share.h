@@ -3,8 +3,14 @@
 #ifndef FV_FACE_SHARE_H
 #define FV_FACE_SHARE_H
 
-#include <math.h>
-#include <stdbool.h>
+#include "../fv.h"
+#include "../surface/fv_surface.h"
+
+/* Whether the cell c beside a face holds no water. */
+static inline bool face_is_dry(const struct fv *s, int64_t c)
+{
+    return s->surface && s->surface->layer[c] != 0;
+}
 
 /* Share of a face across axis a where phi < 0, straight between its ends: phi is `middle' in its
  * centre and changes by slope[t] over the face along t. xi: middle of that share, edge: where it

@@ -3,7 +3,6 @@
 
 #include "../boundary/fv_boundary.h"
 #include "../grid/fv_grid.h"
-#include "../surface/fv_surface.h"
 #include "face_share.h"
 #include "mesh_ops.h"
 
@@ -40,18 +39,12 @@ static void place_on(const struct fv *s, const struct side_face *d, double xi[3]
     mesh_map_point(s->m->block + d->part->block, s->m->dim, at, xi, x, dx);
 }
 
-/* Whether the cell holds no water. */
-static bool is_dry(const struct fv *s, int64_t c)
-{
-    return s->surface && s->surface->layer[c] != 0;
-}
-
 /* Average of the pressure over the face of the cell t further along the side, Pa. Beside a film the
  * cell's own: cells of air have none, and ghosts come of three cells. */
 static double face_pressure(const struct fv *s, const struct side_face *d, int64_t t)
 {
     const int64_t c = d->cell + t, in = d->in;
-    if (is_dry(s, c + in) || is_dry(s, c + 2 * in))
+    if (face_is_dry(s, c + in) || face_is_dry(s, c + 2 * in))
         return fv_pressure(s, c);
     return (7.0 * (fv_pressure(s, c - in) + fv_pressure(s, c)) -
             (fv_pressure(s, c - 2 * in) + fv_pressure(s, c + in))) /
@@ -134,7 +127,7 @@ static double still_at(const struct fv *s, const struct side_face *d, double xi[
 static double whole_pressure(const struct fv *s, const struct side_face *d, double share, double p,
                              double xi[3], double edge[3])
 {
-    if (!is_dry(s, d->cell))
+    if (!face_is_dry(s, d->cell))
         return p + still_at(s, d, xi);
     return share < 1.0 ? still_at(s, d, xi) - still_at(s, d, edge) : 0.0;
 }
@@ -142,7 +135,7 @@ static double whole_pressure(const struct fv *s, const struct side_face *d, doub
 /* What the turning of the wall along tangent t adds to p S, from the cells beside. */
 static double pressure_slope(const struct fv *s, const struct side_face *d, int64_t t)
 {
-    return is_dry(s, d->cell) || is_dry(s, d->cell + t) || is_dry(s, d->cell - t)
+    return face_is_dry(s, d->cell) || face_is_dry(s, d->cell + t) || face_is_dry(s, d->cell - t)
                ? 0.0
                : face_pressure(s, d, t) - face_pressure(s, d, -t);
 }
