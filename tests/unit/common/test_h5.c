@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include "../../../common/base/mem.h"
+#include "../../../common/base/ranks.h"
 #include "../../../common/files/h5.h"
 
 enum { MOST = 16 };
@@ -26,11 +27,7 @@ static int64_t rows(int64_t *first)
 }
 
 /* The same answer on all ranks: true if it is true on every one. */
-static bool all(bool good)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_C_BOOL, MPI_LAND, MPI_COMM_WORLD);
-    return good;
-}
+static bool all(bool good) { return ranks_all(MPI_COMM_WORLD, good); }
 
 static void write_rows(struct h5 *f, int ncomp, bool single)
 {

@@ -6,17 +6,14 @@
 #include <hdf5.h>
 #include <unistd.h>
 
+#include "../../../common/base/ranks.h"
 #include "../../../common/files/h5.h"
 
 static const char *path;
 static char part[520];
 static int rank, size;
 
-static bool all(bool good)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_C_BOOL, MPI_LAND, MPI_COMM_WORLD);
-    return good;
-}
+static bool all(bool good) { return ranks_all(MPI_COMM_WORLD, good); }
 
 /* Cells 5 x 4 (x 3), two components: the ranks but the last have slabs in y, the last of several
  * none. Read back as rows by rank 0 alone. */

@@ -44,20 +44,13 @@ static double area(const struct outline *is)
     return sum;
 }
 
-static void near(double a, double b, double within)
-{
-    if (fabs(a - b) > within)
-        print_message("%.9g, not %.9g\n", a, b);
-    assert_true(fabs(a - b) <= within);
-}
-
 TEST(rows_are_corners)
 {
     struct outline is;
     assert_true(read_text("a.csv", "", "# bed\nx, y\n0, 1\n2;1\n4 1\n\n4,3\n", 400, &is));
     assert_int_equal(is.n, 3); /* the one between two others is left out */
     assert_false(is.closed);
-    near(is.x[2][1], 3.0, 0.0);
+    assert_close(is.x[2][1], 3.0, 0.0);
     mem_free(is.x);
     assert_true(read_text("b.csv", "", "0,0\n1,0\n1,1\n0,0\n", 400, &is));
     assert_int_equal(is.n, 3);
@@ -77,12 +70,12 @@ TEST(drawings_stand_upright)
     assert_true(read_path("M 1 8 H 4 V 6 L 1,6 Z", &is));
     assert_true(is.closed);
     assert_int_equal(is.n, 4);
-    near(is.x[0][1], 0.0, 1e-12);
-    near(is.x[2][1], 2.0, 1e-12);
-    near(fabs(area(&is)), 6.0, 1e-12);
+    assert_close(is.x[0][1], 0.0, 1e-12);
+    assert_close(is.x[2][1], 2.0, 1e-12);
+    assert_close(fabs(area(&is)), 6.0, 1e-12);
     mem_free(is.x);
     assert_true(read_path("m1 8h3v-2l-3,0z", &is));
-    near(fabs(area(&is)), 6.0, 1e-12);
+    assert_close(fabs(area(&is)), 6.0, 1e-12);
     mem_free(is.x);
 }
 
@@ -91,19 +84,19 @@ TEST(curves_are_followed)
 {
     struct outline is;
     assert_true(read_path("M 7 4 A 2 2 0 1 1 3 4 A 2 2 0 1 1 7 4 Z", &is));
-    near(fabs(area(&is)), 4.0 * M_PI, 0.03);
+    assert_close(fabs(area(&is)), 4.0 * M_PI, 0.03);
     assert_true(is.n > 20 && is.n < 120);
     mem_free(is.x);
     /* flags without blanks, and an arc to where the pen stands, which is none */
     assert_true(read_path("M7 4a2 2 0 11-4 0a2 2 0 0 0 0 0a2 2 0 114 0z", &is));
-    near(fabs(area(&is)), 4.0 * M_PI, 0.03);
+    assert_close(fabs(area(&is)), 4.0 * M_PI, 0.03);
     mem_free(is.x);
     assert_true(
         read_path("M7 4c0 1.1046-0.8954 2-2 2s-2-0.8954-2-2s0.8954-2 2-2s2 0.8954 2 2z", &is));
-    near(fabs(area(&is)), 4.0 * M_PI, 0.04);
+    assert_close(fabs(area(&is)), 4.0 * M_PI, 0.04);
     mem_free(is.x);
     assert_true(read_path("M 0 0 Q 2 4 4 0 T 8 0 L 8 8 L 0 8 Z", &is)); /* hump and hollow */
-    near(fabs(area(&is)), 64.0, 0.1);
+    assert_close(fabs(area(&is)), 64.0, 0.1);
     mem_free(is.x);
 }
 
@@ -117,7 +110,7 @@ TEST(many_corners_become_few)
                               sin(M_PI * k / 1000.0));
     assert_true(read_text("many.csv", "", text, 100, &is));
     assert_true(is.n <= 100 && is.n > 50);
-    near(area(&is), M_PI, 0.01);
+    assert_close(area(&is), M_PI, 0.01);
     mem_free(is.x);
 }
 

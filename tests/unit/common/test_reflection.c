@@ -16,13 +16,6 @@
 enum { N = 2000, GAUGES = 3 };
 static const double places[GAUGES] = {0.0, 0.1, 0.27}; /* wave lengths */
 
-static void near(double a, double b, double within)
-{
-    if (fabs(a - b) > within)
-        print_message("%.9g, not %.9g\n", a, b);
-    assert_true(fabs(a - b) <= within);
-}
-
 /* Gauge g of a wave of 1 and one of R back, T = 1, over n periods with uneven steps, noise. */
 static double complex measured(int g, double R, int periods, double noise, double second)
 {
@@ -51,9 +44,9 @@ static double ratio(int n, double R, double k_off, double noise)
 
 TEST(waves_are_told_apart)
 {
-    near(ratio(3, 0.3, 0.0, 0.0), 0.3, 1e-9);
-    near(ratio(2, 0.05, 0.0, 0.0), 0.05, 1e-9);
-    near(ratio(3, 0.05, 0.0, 0.01), 0.05, 0.003);
+    assert_close(ratio(3, 0.3, 0.0, 0.0), 0.3, 1e-9);
+    assert_close(ratio(2, 0.05, 0.0, 0.0), 0.05, 1e-9);
+    assert_close(ratio(3, 0.05, 0.0, 0.01), 0.05, 0.003);
     const double wrong = ratio(3, 0.0, 0.01, 0.0); /* 0.006 of the incident wave */
     assert_true(wrong > 0.003 && wrong < 0.009);
 }
@@ -66,11 +59,11 @@ TEST(two_gauges_are_goda_and_suzukis)
     const struct reflection r = reflection_separate(2, x, A, k);
     const double complex onward = (A[0] * cexp(I * d) - A[1]) / (2.0 * I * sin(d)),
                          back = (A[1] - A[0] * cexp(-I * d)) / (2.0 * I * sin(d));
-    near(cabs(r.onward), cabs(onward), 1e-13);
-    near(cabs(r.back), cabs(back), 1e-13);
-    near(r.rest, 0.0, 1e-13);
+    assert_close(cabs(r.onward), cabs(onward), 1e-13);
+    assert_close(cabs(r.back), cabs(back), 1e-13);
+    assert_close(r.rest, 0.0, 1e-13);
     const double half[2] = {0.0, 0.5};
-    near(reflection_separate(2, half, A, k).condition, 0.0, 1e-12);
+    assert_close(reflection_separate(2, half, A, k).condition, 0.0, 1e-12);
 }
 
 TEST(wave_numbers_are_found)
@@ -79,7 +72,7 @@ TEST(wave_numbers_are_found)
     double complex A[4];
     for (int g = 0; g < 4; g++)
         A[g] = cexp(-I * (k * x[g])) + 0.1 * cexp(I * (k * x[g] + 1.0));
-    near(reflection_fit_number(4, x, A, 1.02 * k, 0.05), k, 1e-6);
+    assert_close(reflection_fit_number(4, x, A, 1.02 * k, 0.05), k, 1e-6);
 }
 
 enum { LINES = 29 }; /* 12/20 to 40/20 Hz */
@@ -143,8 +136,8 @@ static double of_sea(double R)
 
 TEST(seas_are_told_apart_by_their_lines)
 {
-    near(of_sea(0.0), 0.0, 0.01);
-    near(of_sea(0.05), 0.05, 0.01);
+    assert_close(of_sea(0.0), 0.0, 0.01);
+    assert_close(of_sea(0.05), 0.05, 0.01);
 }
 
 /* Heights of a sum of two waves of 1 and 1.2 Hz: their beats; a sine has one height. The spectrum
@@ -159,16 +152,16 @@ TEST(heights_and_spectra)
     }
     const struct wave_heights h = wave_heights_of(N, t, v);
     assert_true(h.n == 19);
-    near(h.mean, 0.2, 1e-4);
-    near(h.significant, 0.2, 1e-4);
-    near(h.period, 1.0, 1e-4);
-    near(h.spectral, 0.2 * sqrt(2.0), 1e-4); /* 4 a/sqrt(2) */
+    assert_close(h.mean, 0.2, 1e-4);
+    assert_close(h.significant, 0.2, 1e-4);
+    assert_close(h.period, 1.0, 1e-4);
+    assert_close(h.spectral, 0.2 * sqrt(2.0), 1e-4); /* 4 a/sqrt(2) */
     wave_spectrum(N, t, v, 3, f, S);
     int peak = 0;
     for (int j = 0; j < SPECTRUM_BINS; j++) {
         sum += S[j] * f[0];
         peak = S[j] > S[peak] ? j : peak;
     }
-    near(sum, 0.005, 1e-4);
-    near(f[peak], 1.0, 0.06);
+    assert_close(sum, 0.005, 1e-4);
+    assert_close(f[peak], 1.0, 0.06);
 }

@@ -23,8 +23,7 @@ static inline int64_t fv_case_differences(const struct fv *one, const struct fv 
             differ += one->p[i] != two->p[i];
             differ += one->surface && one->surface->phi[i] != two->surface->phi[i];
         }
-    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
-    return differ;
+    return ranks_count(MPI_COMM_WORLD, differ);
 }
 
 /* A flow of so many steps, its restart file, and as many more steps of both: values that differ;

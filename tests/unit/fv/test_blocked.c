@@ -176,8 +176,7 @@ TEST(thin_wall_parts_basins)
 static double level_at(const struct fv *s, double x)
 {
     double level = surface_level(s, (const double[]){x, 0, 0});
-    MPI_Allreduce(MPI_IN_PLACE, &level, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return level;
+    return ranks_sum(MPI_COMM_WORLD, level);
 }
 
 /* Two shafts round a core: each has the level of its own shape, whatever box lies between, and the
@@ -410,8 +409,7 @@ static double discharge(const struct fv *s, const double *open)
             const double y = b->origin[1] + (b->lo[1] + j + 0.5) * b->h[1];
             sum += y > open[0] && y < open[1] ? area * s->U[0][block_at(b, i, j, k)] : 0.0;
         }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* An inflow that starts at once through an orifice: the flow of the start and that of each step

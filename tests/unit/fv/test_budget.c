@@ -103,8 +103,7 @@ static double largest_divergence(struct fv *s)
     FLOW_ROWS (s, at, n)
         for (int64_t i = at; i < at + n; i++)
             div = fmax(div, fabs(s->flux[i]) * 32.0);
-    MPI_Allreduce(MPI_IN_PLACE, &div, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return div;
+    return ranks_max(s->comm, div);
 }
 
 #define UNEVEN "mapping = \"stretched\"; stretch = (-1.0, -1.0); "

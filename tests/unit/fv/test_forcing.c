@@ -40,8 +40,7 @@ static double largest_error(const struct fv *s)
             exact_face(&s->exact, x, b->h, a, 0.0, u);
             most = fmax(most, fabs(s->U[a][c] - u[a]));
         }
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    return most;
+    return ranks_max(MPI_COMM_WORLD, most);
 }
 
 static double error_with(const char *const *overrides)

@@ -90,8 +90,7 @@ static double dot(const struct water *w, const double *x, const double *y)
     double sum = 0.0;
     BLOCK_CELLS (&w->b, i, j, k, c)
         sum += x[c] * y[c];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, w->b.cart);
-    return sum;
+    return ranks_sum(w->b.cart, sum);
 }
 
 /* Noise in wet cells. */

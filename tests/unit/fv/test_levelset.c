@@ -39,12 +39,6 @@ static void set(struct fv *s, double *field, function f)
             }
 }
 
-static double most_of(double v)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    return v;
-}
-
 /* Share of the step d behind which the cubic through q[-d] .. q[2 d] is 0, by bisection. */
 static double crossing_at(const double *q, int64_t d)
 {
@@ -76,7 +70,7 @@ static double off_circle(const struct fv *s, double x0, double y0, double radius
                 x[a] += crossing_at(phi + c, d) * b->h[a];
                 most = fmax(most, fabs(hypot(x[0] - x0, x[1] - y0) - radius));
             }
-    return most_of(most);
+    return ranks_max(MPI_COMM_WORLD, most);
 }
 
 /* Once around the middle of the box; *lost: share of the volume. */
@@ -180,7 +174,7 @@ static double moved_at_once(int n)
         worst = fmax(worst, fabs(d - r));
         known++;
     }
-    worst = most_of(worst);
+    worst = ranks_max(MPI_COMM_WORLD, worst);
     MPI_Allreduce(MPI_IN_PLACE, &known, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     print_message("closest points, %d cells: %.3g h off (%.3g before), %d of them\n", n, worst / h,
                   before / h, known);
@@ -247,7 +241,7 @@ static double off_solution(int n)
         }
     FREE(psi, div);
     fv_free(&c.s);
-    return most_of(most);
+    return ranks_max(MPI_COMM_WORLD, most);
 }
 
 TEST(pressure_is_second_order)
@@ -278,7 +272,7 @@ TEST(walls_are_no_surface)
             most = fmax(most, fabs(surface_distance(s, x) - far));
             (void)at;
         }
-        assert_close(most_of(most), 0.0, 1e-12);
+        assert_close(ranks_max(MPI_COMM_WORLD, most), 0.0, 1e-12);
         fv_free(&c.s);
     }
 }
@@ -550,7 +544,7 @@ TEST(ranks_agree)
             const double e = fabs(alone[k] - shared[k]) / fmax(1e-3, fabs(alone[k]));
             most = e <= most ? most : e;
         }
-        most = most_of(most);
+        most = ranks_max(MPI_COMM_WORLD, most);
         print_message("flow %d: %.3g\n", flow, most);
         assert_close(most, 0.0, 1e-9);
     }
@@ -617,7 +611,7 @@ TEST(rough_water_is_carried_on_within_bounds)
             most[l] = fmax(most[l], hypot(s->u[0][at], s->u[1][at]));
     }
     for (int l = 0; l < 3; l++)
-        most[l] = most_of(most[l]);
+        most[l] = ranks_max(MPI_COMM_WORLD, most[l]);
     print_message("rough water: %.3g, carried on %.3g and %.3g m/s\n", most[0], most[1], most[2]);
     fv_free(&c.s);
     assert_true(most[1] > 0.0 && most[1] <= 1.2501 * most[0]);
@@ -684,7 +678,7 @@ static void collapse(int dim, int way, double *most)
                          &column, WALL_SLIP);
     assert_true(fv_case_run(&c, 5, 10.0));
     for (int a = 0; a < count; a++)
-        most[a] = most_of(s->max.u[(a + way) % count]);
+        most[a] = ranks_max(MPI_COMM_WORLD, s->max.u[(a + way) % count]);
     fv_free(&c.s);
 }
 

@@ -18,8 +18,7 @@ static double distance_from_uniform(const struct fv *s)
     for (int64_t i = 0; i < s->size; i++)
         for (int a = 0; a < s->dim && s->free[i] > 0.0; a++)
             worst = fmax(worst, fabs(s->u[a][i] - s->run->scene.initial.velocity[a]));
-    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return worst;
+    return ranks_max(s->comm, worst);
 }
 
 /* Geometric conservation: blocks that swing and turn leave a uniform flow alone, to rounding. */

@@ -188,8 +188,7 @@ static double energy(const struct fv *s)
         for (int64_t i = c; i < c + n; i++)
             sum += s->free[i] * s->m->V[i] *
                    ((s->u[0][i] - 1.0) * (s->u[0][i] - 1.0) + s->u[1][i] * s->u[1][i]);
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 TEST(ranks_agree_and_a_restart_is_exact)
@@ -217,8 +216,7 @@ TEST(ranks_agree_and_a_restart_is_exact)
     FLOW_ROWS (y, c, n)
         for (int64_t i = c; i < c + n; i++)
             differ += y->u[0][i] != z->u[0][i] || y->p[i] != z->p[i];
-    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
-    assert_int_equal(differ, 0);
+    assert_int_equal(ranks_count(MPI_COMM_WORLD, differ), 0);
     mesh_case_end(&one, &s);
     mesh_case_end(&all, &z);
     mesh_case_end(&again, &y);

@@ -192,8 +192,7 @@ static double farthest(const struct fv *s, double U)
         for (int64_t i = c; i < c + n; i++)
             if (s->surface->layer[i] == 0 && !(s->m && s->free[i] == 0.0))
                 most = fmax(most, hypot(s->u[0][i] - U, s->u[1][i]));
-    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, s->comm);
-    return most;
+    return ranks_max(s->comm, most);
 }
 
 static const char over[] = "{ name = \"back\"; cells = (40, 24); max = (2.0, 1.0); }, { name = "

@@ -163,8 +163,7 @@ static double moment(const struct fv *s)
     FLOW_ROWS_AT (s, part, j, c, n)
         for (int64_t i = c; i < c + n; i++)
             sum += surface_cell_volume(s, i, j) * surface_share(s, i) * s->surface->mesh->x[0][i];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, s->comm);
-    return sum;
+    return ranks_sum(s->comm, sum);
 }
 
 /* Between walls at 45 degrees a plane surface swings as a plane, w^2 = g/h: potential x y

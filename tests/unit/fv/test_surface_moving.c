@@ -90,8 +90,7 @@ static double room(const struct fv *s)
     double sum = 0.0;
     for (int64_t i = 0; i < s->size; i++)
         sum += s->surface->mesh->count[i];
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return sum;
+    return ranks_sum(MPI_COMM_WORLD, sum);
 }
 
 /* Whatever a block without walls does in it, to rounding; and all cells together keep what they

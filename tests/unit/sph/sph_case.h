@@ -123,10 +123,11 @@ static inline double *sph_case_gammas(struct sph *s)
     return gamma;
 }
 
-static inline double max_anywhere(double v)
+static inline double max_anywhere(double v) { return ranks_max(MPI_COMM_WORLD, v); }
+/* Particles of all ranks. */
+static inline int64_t sph_case_count(const struct sph *s)
 {
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-    return v;
+    return ranks_count(MPI_COMM_WORLD, s->p.n);
 }
 
 /* State rows of the n particles of all ranks in the order of their ids, on all ranks; mem_free. */

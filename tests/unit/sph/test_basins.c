@@ -53,13 +53,6 @@ static double worst(const struct sph *s, double (*head)(const double *x, double 
     return max_anywhere(most);
 }
 
-static long count(const struct sph *s)
-{
-    long n = s->p.n;
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_LONG, MPI_SUM, MPI_COMM_WORLD);
-    return n;
-}
-
 static double wet_bed(const double *x, double L) { return (x[0] < 0.5 * L ? 0.6 : 0.1) * L - x[1]; }
 
 TEST(a_dam_and_its_wet_bed_have_their_own_heads)
@@ -72,7 +65,7 @@ TEST(a_dam_and_its_wet_bed_have_their_own_heads)
         add_box(s, 0.0, 0.0, 0.5 * L, 0.6 * L);
         add_box(s, 0.5 * L, 0.0, 2.0 * L, 0.1 * L);
         sph_case_start(&c, NULL);
-        assert_int_equal(count(c.s), 20 * 24 + 60 * 4);
+        assert_int_equal(sph_case_count(c.s), 20 * 24 + 60 * 4);
         assert_close(worst(c.s, wet_bed, L), 0.0, 1e-4 * L);
         DROP(c.s);
     }
@@ -93,7 +86,7 @@ TEST(basins_do_not_know_of_each_other)
     add_body(s, 0.5, 0.0, 0.6, 0.9);
     add_body(s, 1.2, 0.0, 1.3, 0.9);
     sph_case_start(&c, NULL);
-    assert_int_equal(count(c.s), 20 * 24 + 24 * 8 + 28 * 32);
+    assert_int_equal(sph_case_count(c.s), 20 * 24 + 24 * 8 + 28 * 32);
     assert_close(worst(c.s, three, 1.0), 0.0, 1e-4);
     DROP(c.s);
 }
@@ -115,7 +108,7 @@ TEST(a_duct_leads_from_one_level_to_the_other)
     add_box(s, 1.5, 0.0, 2.0, 0.4);
     add_body(s, 0.5, 0.1, 1.5, 0.9);
     sph_case_start(&c, NULL);
-    assert_int_equal(count(c.s), 20 * 32 + 40 * 4 + 20 * 16);
+    assert_int_equal(sph_case_count(c.s), 20 * 32 + 40 * 4 + 20 * 16);
     assert_close(worst(c.s, u_tube, 1.0), 0.0, 0.4 / 40); /* a cell at the ends */
     DROP(c.s);
 }
@@ -227,7 +220,7 @@ TEST(heads_know_no_axes)
             const double p = eos_p(y[2 * dim + 1] / y[2 * dim], rho, c.s->c0, c.s->gamma);
             most = fmax(most, fabs(p / (rho * g) - depth));
         }
-        assert_int_equal(count(c.s), (dim == 2 ? 1 : 20) * 10 * (12 + 4));
+        assert_int_equal(sph_case_count(c.s), (dim == 2 ? 1 : 20) * 10 * (12 + 4));
         assert_close(max_anywhere(most), 0.0, 1e-4);
         DROP(c.s);
     }
@@ -307,6 +300,6 @@ TEST(pockets_are_dropped)
         bad += y[0] > 0.5 && y[0] < 0.75 && y[1] < 0.3;
     }
     assert_true(none_anywhere(bad));
-    assert_int_equal(count(c.s), 80 * 20 - 10 * 12);
+    assert_int_equal(sph_case_count(c.s), 80 * 20 - 10 * 12);
     DROP(c.s);
 }

@@ -151,8 +151,7 @@ static double kinetic_energy(const struct sph *s)
         const double *y = state_row(&s->p, s->p.y, i);
         sum += 0.5 * (y[2] * y[2] + y[3] * y[3]) / y[at_mass(2)];
     }
-    MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return sum;
+    return ranks_sum(MPI_COMM_WORLD, sum);
 }
 
 /* Shifting evens particles out: lattices whose columns are not alike would start a flow. */

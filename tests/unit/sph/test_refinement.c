@@ -31,8 +31,7 @@ static double flowing(const struct sph *q)
     double n = 0.0;
     for (int i = 0; i < q->p.n; i++)
         n += !particles_is_guard(&q->p, i);
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_DOUBLE, MPI_SUM, q->run->comm);
-    return n;
+    return ranks_sum(q->run->comm, n);
 }
 
 /* Particles of all levels set in motion. */
@@ -294,8 +293,7 @@ static double guards_of(const struct sph *q)
     double n = 0.0;
     for (int i = 0; i < q->p.n; i++)
         n += particles_is_guard(&q->p, i);
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_DOUBLE, MPI_SUM, q->run->comm);
-    return n;
+    return ranks_sum(q->run->comm, n);
 }
 
 /* Where guards of the edge have been lost others are born, then no more; nothing flows for it. */

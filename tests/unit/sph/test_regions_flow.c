@@ -29,8 +29,7 @@ static double particles(const struct sph *s, bool flowing)
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++)
             n += !flowing || !particles_is_guard(&q->p, i);
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return n;
+    return ranks_sum(MPI_COMM_WORLD, n);
 }
 
 /* Whoever lies on the surface, and R of the coarser level around it, is in the region. */

@@ -54,13 +54,6 @@ static void finish(struct sph_case *c)
     scene_meshes_free(&c->run.scene);
 }
 
-static long count(const struct sph *s)
-{
-    long n = s->p.n;
-    MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_LONG, MPI_SUM, MPI_COMM_WORLD);
-    return n;
-}
-
 /* Lattice cells that `in' says are fluid, and particles that are none of them. */
 typedef bool inside(const double *x);
 
@@ -112,7 +105,7 @@ TEST(a_tank_without_lid_holds_its_water)
     struct scene *s = basin(&c, 20, 0.61);
     add_wall(s, open_box(tank_lo, tank_hi), FLUID_INSIDE);
     sph_case_start(&c, NULL);
-    assert_int_equal(count(c.s), wanted(20, in_tank));
+    assert_int_equal(sph_case_count(c.s), wanted(20, in_tank));
     assert_true(none_anywhere(strangers(c.s, in_tank)));
     assert_close(worst_head(c.s, 0.61, in_tank), 0.0, 1e-5);
     finish(&c);
@@ -138,8 +131,8 @@ TEST(an_obstacle_stays_dry)
         s->walls[s->nwalls++].side = SIDE_X_MIN + k;
     add_wall(s, m, FLUID_OUTSIDE);
     sph_case_start(&c, NULL);
-    assert_true(count(c.s) <= wanted(20, round_the_ball));
-    assert_true(count(c.s) >= wanted(20, off_the_ball));
+    assert_true(sph_case_count(c.s) <= wanted(20, round_the_ball));
+    assert_true(sph_case_count(c.s) >= wanted(20, off_the_ball));
     assert_true(none_anywhere(strangers(c.s, round_the_ball)));
     finish(&c);
 }
@@ -178,7 +171,7 @@ TEST(a_sheet_has_water_on_one_side)
         s->walls[s->nwalls++].side = SIDE_X_MIN + k;
     add_wall(s, sheet(), FLUID_SHEET);
     sph_case_start(&c, NULL);
-    const long n = count(c.s), want = wanted(20, over_the_bed);
+    const long n = sph_case_count(c.s), want = wanted(20, over_the_bed);
     assert_true(n <= want && n > 0.97 * (double)want);
     assert_true(none_anywhere(strangers(c.s, over_the_bed)));
     finish(&c);
@@ -213,7 +206,7 @@ TEST(each_tank_has_its_level_and_seeds_choose)
             s->initial.seed = (struct param_places){.n = 1, .x = {{0.71, 0.52, 0.31}}};
         sph_case_start(&c, NULL);
         inside *in = seeded ? right_tank : both_tanks;
-        assert_int_equal(count(c.s), wanted(25, in));
+        assert_int_equal(sph_case_count(c.s), wanted(25, in));
         assert_true(none_anywhere(strangers(c.s, in)));
         assert_true(worst_head(c.s, 0.4, right_tank) < 1e-5);
         assert_true(worst_head(c.s, 0.8, left_tank) < 1e-5);
@@ -244,7 +237,7 @@ TEST(a_thin_plate_has_water_on_both_sides)
     s->walls[s->nwalls].thin = true;
     add_wall(s, m, FLUID_SHEET);
     sph_case_start(&c, NULL);
-    assert_int_equal(count(c.s), wanted(20, below_level));
+    assert_int_equal(sph_case_count(c.s), wanted(20, below_level));
     finish(&c);
 }
 

@@ -176,11 +176,6 @@ static void choose(struct sph *s, int scheme, int limiter, int viscosity, double
     particles_lines(s);
 }
 
-static void small_toy(struct toy *t, int dim)
-{
-    toy_create(t, dim, dim == 2 ? 13 : 6, dim == 2 ? 3.4 : 2.3, 0.25);
-}
-
 /* Slopes of all signs and sizes, so that every branch of the limiters is met. */
 static void shake_slopes(struct toy *t)
 {
@@ -192,7 +187,7 @@ TEST(rates_are_the_double_loop)
 {
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
-        small_toy(&t, dim);
+        toy_small(&t, dim);
         toy_prepare(&t);
         t.s.passes.gradients(&t.s);
         shake_slopes(&t);
@@ -209,7 +204,7 @@ TEST(positions_move_with_u0)
 {
     for (int transport = TRANSPORT_TVS; transport <= TRANSPORT_EULERIAN; transport++) {
         struct toy t;
-        small_toy(&t, 3);
+        toy_small(&t, 3);
         t.s.prm.transport = transport;
         toy_prepare(&t);
         t.s.passes.gradients(&t.s);
@@ -330,7 +325,7 @@ TEST(mass_and_momentum_are_kept)
 TEST(gravity_acts_on_the_mass)
 {
     struct toy t;
-    small_toy(&t, 2);
+    toy_small(&t, 2);
     toy_prepare(&t);
     t.s.passes.gradients(&t.s);
     t.s.passes.rates(&t.s);
@@ -402,7 +397,7 @@ TEST(transport_is_the_plain_sum)
 {
     for (int v = 0; v < 4; v++) {
         struct toy t;
-        small_toy(&t, 2 + v % 2);
+        toy_small(&t, 2 + v % 2);
         t.s.prm.transport = v / 2 ? TRANSPORT_TVO : TRANSPORT_TVS;
         toy_prepare(&t);
         t.s.passes.gradients(&t.s);

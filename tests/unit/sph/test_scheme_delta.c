@@ -135,18 +135,13 @@ static void evaluate(struct toy *t)
     t->s.scheme->rates(&t->s);
 }
 
-static void small_toy(struct toy *t, int dim)
-{
-    toy_create(t, dim, dim == 2 ? 13 : 6, dim == 2 ? 3.4 : 2.3, 0.25);
-}
-
 TEST(rates_are_the_double_loop)
 {
     static const int transports[3] = {TRANSPORT_TVS, TRANSPORT_NONE, TRANSPORT_XSPH};
     for (int dim = 2; dim <= 3; dim++)
         for (int v = 0; v < 2 * 3 * 3 * 2 * 2; v++) {
             struct toy t;
-            small_toy(&t, dim);
+            toy_small(&t, dim);
             set(&t, v % 2 ? SCHEME_DELTA : SCHEME_STANDARD, transports[v / 2 % 3], v / 6 % 3,
                 v / 18 % 2 ? 1.0 : 7.0);
             t.s.prm.delta *= v / 36;
@@ -161,7 +156,7 @@ TEST(lean_gradients_are_those_of_the_full_pass)
 {
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
-        small_toy(&t, dim);
+        toy_small(&t, dim);
         set(&t, SCHEME_DELTA, TRANSPORT_NONE, OFF, 7.0);
         evaluate(&t);
         struct sph *s = &t.s;
@@ -184,7 +179,7 @@ TEST(positions_move_with_u)
 {
     for (int v = 0; v < 2; v++) {
         struct toy t;
-        small_toy(&t, 3);
+        toy_small(&t, 3);
         set(&t, v ? SCHEME_DELTA : SCHEME_STANDARD, TRANSPORT_NONE, OFF, 7.0);
         evaluate(&t);
         assert_true((t.s.scheme->gradients != NULL) == (v == 1));
@@ -202,7 +197,7 @@ TEST(xsph_is_the_plain_sum)
 {
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
-        small_toy(&t, dim);
+        toy_small(&t, dim);
         set(&t, dim == 2 ? SCHEME_STANDARD : SCHEME_RIEMANN_ALE, TRANSPORT_XSPH, OFF, 7.0);
         evaluate(&t);
         const struct sph *s = &t.s;
@@ -248,7 +243,7 @@ TEST(gradient_and_divergence_are_adjoint)
     for (int v = 0; v < 4; v++) {
         struct toy t;
         const int dim = 2 + v % 2;
-        small_toy(&t, dim);
+        toy_small(&t, dim);
         set(&t, v / 2 ? SCHEME_DELTA : SCHEME_STANDARD, TRANSPORT_NONE, OFF, 7.0);
         t.s.prm.alpha = t.s.prm.delta = 0.0;
         evaluate(&t);
@@ -283,7 +278,7 @@ static void effect(int dim, int scheme, double alpha, double delta, double *powe
     double before[2] = {0.0, 0.0};
     for (int on = 0; on <= 1; on++) {
         struct toy t;
-        small_toy(&t, dim);
+        toy_small(&t, dim);
         set(&t, scheme, TRANSPORT_NONE, OFF, 7.0);
         t.s.prm.alpha = on * alpha;
         t.s.prm.delta = on * delta;
@@ -318,7 +313,7 @@ TEST(diffusion_moves_density_only)
 {
     for (int dim = 2; dim <= 3; dim++) {
         struct toy t;
-        small_toy(&t, dim);
+        toy_small(&t, dim);
         for (int i = 0; i < t.s.p.n; i++) /* at rest: diffusion alone */
             memset(t.s.p.y + t.s.p.nstate * i + dim, 0, (size_t)dim * sizeof(double));
         set(&t, SCHEME_DELTA, TRANSPORT_NONE, OFF, 7.0);
@@ -339,7 +334,7 @@ TEST(background_lifts_all_pressures)
 {
     for (int scheme = SCHEME_RIEMANN_ALE; scheme <= SCHEME_STANDARD; scheme++) {
         struct toy t;
-        small_toy(&t, 2);
+        toy_small(&t, 2);
         t.run.comm = MPI_COMM_WORLD;
         set(&t, scheme, TRANSPORT_NONE, OFF, 7.0);
         evaluate(&t);

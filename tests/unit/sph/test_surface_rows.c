@@ -78,11 +78,7 @@ static void finish(struct sph_case *c)
     apr_given = (struct apr_params){0};
 }
 
-static double sum_anywhere(double v)
-{
-    MPI_Allreduce(MPI_IN_PLACE, &v, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
-    return v;
-}
+static double sum_anywhere(double v) { return ranks_sum(MPI_COMM_WORLD, v); }
 
 /* Sum of w f over the particles of a level, f = 1, or the cube of x from the middle. */
 static double volume(const struct sph *q)
