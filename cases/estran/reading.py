@@ -185,18 +185,20 @@ class Program:
             return {n[10:]: (f['vertices_' + n[10:]][...] if 'vertices_' + n[10:] in f else None,
                              f[n][...].reshape(-1, 3).astype(int)) for n in f if n.startswith('triangles_')}
 
-
     def boxes(self):
         """Corners, (2, 3), of the boxes that are cut out of cells: of the group blocked, and bodies where fv runs alone."""
-        given = [(b['min'], b['max']) for b in self.case.get('blocked', [])]
+        def three(x):
+            return (list(x) + [0.0] * 3)[:3]
+
+        found = [np.array([three(b['min']), three(b['max'])], float) for b in self.case.get('blocked', [])]
         for b in self.case.get('bodies', []) if list(self.run.programs) == ['fv'] else []:
             corners = b.get('box') or (b.get('points') if self.dim == 2 else None)
             if corners:
-                x = np.array([(list(p) + [0.0])[:3] for p in corners], float) * b.get('scale', 1.0)
-                turn = np.radians((list(b.get('rotate', [])) + [0.0] * 3)[2])  # boxes turn by right angles about z alone
+                x = np.array([three(p) for p in corners], float) * b.get('scale', 1.0)
+                turn = np.radians(three(b.get('rotate', []))[2])  # boxes turn by right angles about z alone
                 x[:, :2] = x[:, :2] @ np.round([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]], 12)
-                given.append((x.min(0), x.max(0)) + np.array((list(b.get('translate', [])) + [0.0] * 3)[:3]))
-        return [np.array([(list(x) + [0.0, 0.0])[:3] for x in pair], float) for pair in given]
+                found.append(np.array([x.min(0), x.max(0)]) + three(b.get('translate', [])))
+        return found
 
 
 class Snapshot(dict):

@@ -190,7 +190,7 @@ static void set_turns(const struct scene *scene, int dim, int turn[3])
     for (int k = 0; k < scene->nwalls; k++) {
         const struct scene_wall *w = scene->walls + k;
         const int a = (w->side - SIDE_X_MIN) / 2;
-        if (w->side != SIDE_NONE && a < dim && w->kind != WALL_SLIP && w->kind != WALL_NO_SLIP)
+        if (w->side != SIDE_NONE && a < dim && scene_wall_opens(w))
             speed[a] = -1.0;
     }
     for (int k = 0; k < scene->nwalls; k++) {

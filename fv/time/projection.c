@@ -271,7 +271,7 @@ static bool (*const integrators[])(struct fv *s, double dt) = {step_rk3, step_bd
 static void smooth_small(struct fv *s, double dt)
 {
     const double cfl = s->max.rate * fmax(dt, s->step.dt), share = 1.0 - 4.0 * cfl;
-    if (s->surface && s->blocked && !s->m && share > 0.0)
+    if (s->surface && s->blocked && share > 0.0)
         smooth_wet(s, share, s->p, s->faces[0]);
 }
 

@@ -25,9 +25,8 @@ struct pair {
  * `out' is the normal there. */
 void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
               double depth, bool mine);
-/* Signed distance, m, of x to the surface of a body (-1: walls at rest), its images across periods
- * among it, within reach, with the unit
- * normal out of it; INFINITY: nothing is within reach. */
+/* Signed distance, m, of x to the surface of a body (-1: walls at rest) or of its images across
+ * periods within reach, with the unit normal out of it; INFINITY: nothing is within reach. */
 double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,
                       double out[3]);
 /* Faces of bodies that stand on or beside each other may be flush, as in a pile: a corner that is

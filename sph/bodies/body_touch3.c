@@ -76,8 +76,7 @@ static void find_vertices(const struct walls *w, struct pair *p, double gap, boo
     for (int i = 0; i < w->nmeshes; i++) {
         const struct wall_mesh *m = w->meshes + i;
         for (int k = 0; m->body == of && !m->image && k < m->mesh.nvertices; k++) {
-            double x[3];
-            double y[3];
+            double x[3], y[3]; /* beside a and b */
             wall_mesh_to_world(m, m->mesh.x[k], x);
             vec3_add(x, mine ? 0.0 : 1.0, p->shift);
             pair_beside(p, x, y, 3);

@@ -170,7 +170,7 @@ void wet_faces_water(struct sph *s, double water[2])
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i), f = counted_share(s, y);
-            const double share = q->places ? q->places->share(q, y) : 1.0;
+            const double share = particles_share(q, y);
             if (share > 0.0)
                 water[0] += share * f * y[at_mass(s->dim)] / s->rho0;
             if (f < 1.0 && z->surface && q == s)

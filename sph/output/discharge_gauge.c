@@ -126,7 +126,7 @@ static double flow_of(const struct sph *s, const struct gauge_section *c)
             continue;
         for (int k = 0; k < c->is.n && part > 0.0; k++)
             part *= share_between(s, c, k, project(c->is.along[k], q, c->at, s->dim), q, d);
-        part *= part > 0.0 && s->places ? s->places->share(s, q) : 1.0;
+        part *= part > 0.0 ? particles_share(s, q) : 1.0;
         sum += part * q[at_volume(s->dim)] * project(c->is.across, q + s->dim, NULL, s->dim);
     }
     return sum;

@@ -15,7 +15,7 @@ static void fill_columns(const struct sph *s, double lo, double dx, int n, doubl
 {
     for (int i = 0; i < s->p.n; i++) {
         const double *q = prim_line(&s->p, i), at = (q[0] - lo) / dx,
-                     w = q[at_volume(s->dim)] * (s->places ? s->places->share(s, q) : 1.0);
+                     w = q[at_volume(s->dim)] * particles_share(s, q);
         const int first = (int)fmax(ceil(at - half), 0.0);
         for (int k = first; k < n && k < at + half; k++) {
             const double part = w * (1.0 - fabs(at - k) / half);

@@ -172,6 +172,11 @@ void particles_set(struct sph *s, int i, const double *x, const double *u, doubl
     y[at_mass(dim)] = rho * w;
 }
 
+double particles_share(const struct sph *s, const double *x)
+{
+    return s->places ? s->places->share(s, x) : 1.0;
+}
+
 /* The packed record q of a state: velocity momentum/mass, density mass/volume; in 2D, where room is
  * left in the 64 bytes, the false divergence as well. */
 INLINE void line(const double *y, double false_divergence, double *q, const int dim)

@@ -135,6 +135,9 @@ void particles_copy(struct particles *p, int to, int from);
 void particles_permute(struct particles *p, int n, const int *order, bool slopes);
 /* Sets the state of local i from position, m, velocity, m/s, volume, m^dim, and density, kg/m^3. */
 void particles_set(struct sph *s, int i, const double *x, const double *u, double w, double rho);
+/* What a particle at x, m, counts in sums over the fluid of all levels, 0 to 1: less than 1 where
+ * two of them meet. */
+double particles_share(const struct sph *s, const double *x);
 /* Computes prim of all locals from y (u = q/m, rho = m/w; in 2D also p and c). */
 void particles_lines(struct sph *s);
 /* The same for the state y0 + part (y - y0). */

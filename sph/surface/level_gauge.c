@@ -39,7 +39,7 @@ struct column {
     double roof;          /* m: mean underside of solids above the place; NAN: none */
     struct above over;    /* the place; height 0: none */
     int nabove;
-    struct above above[SAMPLES_CUT * SAMPLES_CUT];
+    struct above *above; /* SAMPLES_CUT^2 of them, of the caller */
 };
 
 /* Lines, meshes or bodies: sides alone leave the floor even and columns upright. */
@@ -153,7 +153,9 @@ static void sound_by(const struct sph *s, struct column *c, int n)
 {
     const int m = s->dim == 2 ? 1 : n;
     double sums[4] = {0.0}, unused[4] = {0.0}, all = 0.0;
-    struct column highest = {.ground = -INFINITY, .crest = -INFINITY}, just = highest;
+    struct above one;
+    struct column highest = {.ground = -INFINITY, .crest = -INFINITY, .above = c->above},
+                  just = {.above = &one};
     const double at = height_of(c, c->at);
     c->cliff = at + free_height(s, c, c->at, c->bottom - at) - c->half;
     sound(s, c, (double[3]){0.0}, 1.0, unused, &just);
@@ -179,12 +181,10 @@ static void sound_by(const struct sph *s, struct column *c, int n)
     c->ground = highest.ground;
     c->crest = highest.crest;
     c->roof = sums[3] / sums[2]; /* NAN: none */
-    c->over = just.nabove > 0 ? just.above[0] : c->over;
+    c->over = just.nabove > 0 ? one : c->over;
     c->nabove = highest.nabove;
-    for (int k = 0; k < highest.nabove; k++) {
-        c->above[k] = highest.above[k];
+    for (int k = 0; k < c->nabove; k++)
         c->above[k].share /= sums[0];
-    }
 }
 
 /* 16 places in 2D and 8 x 8 in 3D, more where an edge runs through the section: beside the corner
@@ -192,14 +192,13 @@ static void sound_by(const struct sph *s, struct column *c, int n)
  * and row of the series). */
 static void sound_all(const struct sph *s, struct column *c)
 {
-    struct column by = *c;
-    sound_by(s, &by, s->dim == 2 ? SAMPLES_2D : SAMPLES_3D);
-    const bool steps = by.ground > by.floor + 0.5 * s->dx || (by.nabove > 0 && !by.covered);
-    if (s->dim == 3 && (by.cut || steps)) {
-        by = *c;
-        sound_by(s, &by, SAMPLES_CUT);
+    const double section = c->section;
+    sound_by(s, c, s->dim == 2 ? SAMPLES_2D : SAMPLES_3D);
+    const bool steps = c->ground > c->floor + 0.5 * s->dx || (c->nabove > 0 && !c->covered);
+    if (s->dim == 3 && (c->cut || steps)) {
+        c->section = section;
+        sound_by(s, c, SAMPLES_CUT);
     }
-    *c = by;
 }
 
 /* Sets which axis points upwards, with its sign, and the heights of the domain's two ends along
@@ -217,10 +216,13 @@ static void set_axis(const struct sph *s, struct column *c)
 /* The column of the gauge at `at': a hat function of half width 2 dx across, cut off at walls and
  * at ends of the domain, 3 dx inside open sides (in the rows behind an inflow 0.1 m were read where
  * 0.4 m stood). Without walls inside, floor and section follow from the domain alone. */
-static struct column column_at(const struct sph *s, const double *at)
+static struct column column_at(const struct sph *s, const double *at, struct above *above)
 {
-    struct column c = {
-        .half = 2.0 * s->dx, .section = 1.0, .roof = NAN, .walled = has_walls_inside(s)};
+    struct column c = {.half = 2.0 * s->dx,
+                       .section = 1.0,
+                       .roof = NAN,
+                       .walled = has_walls_inside(s),
+                       .above = above};
     set_axis(s, &c);
     c.floor = c.ground = c.bottom;
     for (int a = 0; a < s->dim; a++)
@@ -286,7 +288,7 @@ static void add_level(const struct sph *s, const struct column *c, const struct 
                 across[a] = remainder(across[a], s->hi[a] - s->lo[a]);
             weight *= share_across(s, c, a, across[a]);
         }
-        weight *= weight > 0.0 && s->places ? s->places->share(s, q) : 1.0;
+        weight *= weight > 0.0 ? particles_share(s, q) : 1.0;
         if (!(weight > 0.0) ||
             (c->walled && is_hidden(s, c, across, c->sign * (q[c->up] - c->at[c->up]))))
             continue;
@@ -365,7 +367,8 @@ static bool is_disturbed(const struct sph *s, const struct column *c, double zon
  * level, from which the window follows. */
 double level_gauge(struct sph *s, const double *at)
 {
-    const struct column c = column_at(s, at);
+    struct above above[SAMPLES_CUT * SAMPLES_CUT];
+    const struct column c = column_at(s, at, above);
     const struct level_window none = level_window(INFINITY, INFINITY, s->dx);
     double all[COLUMN] = {0.0}, sums[COLUMN] = {0.0};
     sum_column(s, &c, &none, all);
