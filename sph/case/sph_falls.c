@@ -187,7 +187,10 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used)
     if ((double)lost > few * (double)flown)
         log_warn("nothing catches %.0f %% of the water: gravity (%g, %g, %g) m/s^2 and its own "
                  "velocity take it out of the domain, most by the side %s, which is open, and it "
-                 "is lost. If that is not meant give this side a wall, or turn fluid.gravity",
+                 "is lost. If that is not meant give this side a wall, or turn fluid.gravity%s",
                  100.0 * (double)lost / (double)flown, c->fluid.gravity[0], c->fluid.gravity[1],
-                 c->fluid.gravity[2], scene_side_names[most]);
+                 c->fluid.gravity[2], scene_side_names[most],
+                 c->nwalls == 0 && c->nbodies > 0
+                     ? "; a body is a tank if all water of the shapes is inside it"
+                     : "");
 }
