@@ -346,20 +346,21 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
         drift += (i->u[a] - i->u0[a]) * t->n[a];
     }
     const double m = ale ? i->rho * drift : 0.0;
-    const bool film = i->film && wall_air_runs_along(s, i->u, uw, t->n, dim);
+    const double square = i->film || i->in_air ? wall_air_square(i->u, uw, t->n, dim) : 0.0;
+    const bool film = i->film && wall_air_runs_along(s, square);
     const double near = wave * share_of_wave(s, t, i->streams, false),
                  held = wave * share_of_wave(s, t, i->streams, film);
     double P = i->p + wall_pressure(s, i, t->is.e, near, held, uw, t->n, dim) - 2.0 * i->damped;
     /* What walls do not hold: a drop under a roof falls, air comes between. */
-    if (i->in_air && !wall_air_runs_along(s, i->u, uw, t->n, dim)) {
+    if (i->in_air && !wall_air_runs_along(s, square)) {
         P = fmax(P, 0.0);
         across = i->p > 0.0 ? across : fmin(across, 0.0);
-    } else if (i->film && !film) {
+    } else if (i->film) {
         /* Nor does what parts from an edge follow the wall: stretched by it, the water beside it
          * had -10 kPa for 2 (dam break against a box four particles high). */
         if (i->edge > 0.0 && across > 0.0)
-            across *= 1.0 - i->edge * wall_air_parted(s, 0.5 * P - s->background);
-        P = wall_air_tension(s, t->n, P, i->edge, dim);
+            across *= 1.0 - i->edge * wall_air_parted(s, 0.5 * P - s->background, square);
+        P = wall_air_tension(s, t->n, P, i->edge, square, dim);
     }
     struct given to = {.w = W * across, .m = -W * m};
     for (int a = 0; a < dim; a++)
