@@ -81,29 +81,22 @@ static void find_far(const struct sph *s, struct seal_point *of, int n)
     }
 }
 
-int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n)
+/* The points of a body that face others with which it is sealed (walls->sealed), of two bodies
+ * those of the first alone, into *of, owned by the caller; returns their number. */
+static int lay_points(const struct sph *s, int body, struct seal_point **of)
 {
     struct nodes nodes = body_nodes_lay(s, body);
-    struct seal_point *to = *of;
-    const int first = n;
-    GROW(to, n, n + nodes.n);
+    struct seal_point *to = NEW(struct seal_point, nodes.n);
+    int n = 0;
     for (int k = 0; k < nodes.n; k++) {
         to[n] = (struct seal_point){.is = nodes.node[k], .body = body};
         to[n].is.around = true;
         n += measure(s, body, false, to + n);
     }
-    find_far(s, to + first, n - first);
+    find_far(s, to, n);
     mem_free(nodes.node);
     *of = to;
     return n;
-}
-
-bool seal_points_hold(const struct sph *s, const struct seal_point *of, int n)
-{
-    bool hold = true;
-    for (int k = 0; k < n && s->finer && hold; k++)
-        hold = level_at(s, of[k].is.x)->level == of[k].level;
-    return hold;
 }
 
 /* Share of the water at a point that particles are there for, 0 to 1. */
@@ -234,8 +227,9 @@ static struct seep *find_water(const struct sph *s, const struct seal_point *of,
     return is;
 }
 
-/* Collective; rank 0 alone reports forces, for points are the same on all ranks. */
-void seal_points_press(struct sph *s, const struct seal_point *of, int n)
+/* Presses the points [n] of one body, and their others with the opposite. Collective; rank 0 alone
+ * reports forces, for points are the same on all ranks. */
+static void press_points(struct sph *s, const struct seal_point *of, int n)
 {
     struct nodes at;
     struct seep *is = find_water(s, of, n, &at);
@@ -286,52 +280,62 @@ bool seals_mark(struct walls *w, int body)
     return any;
 }
 
-/* The points of a free body, measured where all bodies were `at' the time, m: three material points
- * of each. */
-struct seal_rest {
-    double at[BODIES_MAX][3][3];
-    int n;
-    struct seal_point of[];
-};
+/* Whether body k, or its image across a period, may be within R of the other. */
+static bool is_near(const struct sph *s, int body, int k)
+{
+    const struct body *b = s->walls->bodies + body, *c = s->walls->bodies + k;
+    double e[3] = {0.0, 0.0, 0.0};
+    for (int a = 0; a < s->dim; a++) {
+        e[a] = body_centre(c, a) - body_centre(b, a);
+        e[a] = s->periodic[a] ? remainder(e[a], s->hi[a] - s->lo[a]) : e[a];
+    }
+    return c->bend || vec3_length(e) < b->reach + c->reach + s->R;
+}
 
 /* Along each axis at the distance of the body's reach: no rotation leaves all three where they
  * were. */
-static void find_places(const struct walls *w, double (*at)[3][3])
+static void find_places(const struct sph *s, int body, struct seal_rest *to)
 {
-    for (int k = 0; k < w->nbodies; k++)
+    for (int k = 0; k < s->walls->nbodies; k++) {
+        const struct body *b = s->walls->bodies + k;
+        to->near[k] = is_near(s, body, k);
         for (int a = 0; a < 3; a++) {
-            const struct body *b = w->bodies + k;
             double x[3] = {b->centre[0], b->centre[1], b->centre[2]};
             x[a] += a < b->dim ? b->reach : 0.0;
-            at[k][a][2] = 0.0;
-            body_place(b, x, at[k][a]);
+            to->at[k][a][2] = 0.0;
+            body_place(b, x, to->at[k][a]);
         }
+    }
 }
 
-/* Whether nothing has moved since by more than 0.02 dx. In 2D measuring is cheap, and a run that
- * begins at a restart file has the same bits. */
-static bool is_as_measured(const struct sph *s, const struct seal_rest *rest)
+/* Whether none of those near has moved since, in 3D by more than 0.02 dx. In 2D measuring is cheap,
+ * and a run that begins at a restart file has the same bits. */
+static bool is_as_measured(const struct sph *s, int body, const struct seal_rest *rest)
 {
-    double now[BODIES_MAX][3][3], e[3], most = 0.0;
-    find_places(s->walls, now);
+    struct seal_rest now;
+    double e[3], most = 0.0;
+    find_places(s, body, &now);
     for (int k = 0; k < s->walls->nbodies; k++)
-        for (int a = 0; a < 3; a++) {
-            vec3_from(rest->at[k][a], now[k][a], e);
-            most = fmax(most, vec3_length(e));
+        for (int a = 0; a < 3 && (now.near[k] || rest->near[k]); a++) {
+            vec3_from(rest->at[k][a], now.at[k][a], e);
+            most = fmax(most, s->walls->bodies[k].bend ? INFINITY : vec3_length(e));
         }
-    return s->dim == 3 && most < 0.02 * s->dx && seal_points_hold(s, rest->of, rest->n);
+    bool same = most <= (s->dim == 3 ? 0.02 * s->dx : 0.0);
+    for (int k = 0; k < rest->n && s->finer && same; k++)
+        same = level_at(s, rest->of[k].is.x)->level == rest->of[k].level;
+    return same;
 }
 
 static const struct seal_rest *rest_of(const struct sph *s, int body)
 {
     struct walls *w = s->walls;
-    struct seal_point *of = NULL;
-    if (w->rest[body] && is_as_measured(s, w->rest[body]))
+    struct seal_point *of;
+    if (w->rest[body] && is_as_measured(s, body, w->rest[body]))
         return w->rest[body];
     mem_free(w->rest[body]);
-    const int n = seal_points_add(s, body, &of, 0);
+    const int n = lay_points(s, body, &of);
     struct seal_rest *to = mem_new_in(w, 1, sizeof *to + (size_t)n * sizeof *of);
-    find_places(w, to->at);
+    find_places(s, body, to);
     to->n = n;
     if (n > 0)
         memcpy(to->of, of, (size_t)n * sizeof *of);
@@ -339,14 +343,15 @@ static const struct seal_rest *rest_of(const struct sph *s, int body)
     return w->rest[body] = to;
 }
 
+/* A body's points are pressed once, whether it is sealed with one that is free, or with what stays
+ * where it is, or both. */
 void body_seals_add(struct sph *s)
 {
     struct walls *w = s->walls;
-    for (int k = 0; w && w->any_free && k < w->nbodies; k++) {
-        const struct seal_rest *rest = seals_mark(w, k) ? rest_of(s, k) : NULL;
+    for (int k = 0; w && k < w->nbodies; k++) {
+        const bool sealed = w->any_free && seals_mark(w, k);
+        const struct seal_rest *rest = sealed || w->wedged[k] ? rest_of(s, k) : NULL;
         if (rest && rest->n > 0)
-            seal_points_press(s, rest->of, rest->n);
+            press_points(s, rest->of, rest->n);
     }
-    if (w)
-        body_wedges_add(s);
 }

@@ -19,23 +19,21 @@ struct seal_point {
     double weight[3]; /* m^2/s^2: wall_share_weight */
 };
 
+/* The points of a body, measured where all bodies were `at' the time, m: three material points of
+ * each; what they have in common with those that came `near' it goes by where these were. */
+struct seal_rest {
+    double at[BODIES_MAX][3][3];
+    bool near[BODIES_MAX];
+    int n;
+    struct seal_point of[];
+};
+
 /* Marks what free bodies rest on since the start as sealed; returns whether that is anything of
  * this body. */
 bool seals_mark(struct walls *w, int body);
-/* The points of a body that face others with which it is sealed (walls->sealed), of two bodies
- * those of the first alone; appended to *of[n], owned by the caller; returns the new n. */
-int seal_points_add(const struct sph *s, int body, struct seal_point **of, int n);
-/* Whether the levels of refinement that flow at the points [n] are those they are measured with. */
-bool seal_points_hold(const struct sph *s, const struct seal_point *of, int n);
-/* Presses the points [n] of one body, and their others with the opposite. Collective. */
-void seal_points_press(struct sph *s, const struct seal_point *of, int n);
 
 /* Gives the asked points of a body the pressure of the water that seeps in between it and what it
  * is sealed with, where no particle comes; none where they lie on each other. Collective. */
 void seal_nodes_fill(const struct sph *s, int body, struct nodes *nodes);
-
-/* body_wedge.c: what body_seals_add has to add in a stage for bodies that stay where they are.
- * Needs prim. Collective. */
-void body_wedges_add(struct sph *s);
 
 #endif

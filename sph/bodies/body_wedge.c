@@ -1,6 +1,7 @@
 /* body_wedge.c - wedges and slits between bodies and walls that stay where they are, two of a pair
- * of bodies once: a diamond that stands on its corner, a disc on the floor. Found at the start; a
- * scene without such places has none to ask. SPDX-License-Identifier: BSD-3-Clause */
+ * of bodies once: a diamond that stands on its corner, a disc on the floor. Found at the start, for
+ * body_seal.c; a scene without such places has none to ask. SPDX-License-Identifier: BSD-3-Clause
+ */
 #include "bodies.h"
 #include "body_seal.h"
 #include "body_touch.h"
@@ -40,10 +41,8 @@ static bool seal_body(const struct sph *s, int body)
     return any;
 }
 
-/* Pairs that have been in contact since the start are marked first: what they exchange is left to
- * the seals of free bodies. The coarsest level's marks serve all levels. Their points are laid when
- * they are asked for, with the finest spacing and the R of the level that flows at each, for there
- * is no finer level yet. */
+/* Pairs that have been in contact since the start are marked first: what they exchange goes on only
+ * until they part. The coarsest level's marks serve all levels. */
 void body_wedges_find(struct sph *s)
 {
     struct walls *w = s->walls;
@@ -51,34 +50,4 @@ void body_wedges_find(struct sph *s)
         seals_mark(w, k);
     for (int k = 0; k < w->nbodies && !s->coarser; k++)
         w->wedged[k] = stays(w, k) && seal_body(s, k);
-}
-
-/* Anew when a region has come there, or has left. */
-static void lay_points(const struct sph *s)
-{
-    struct walls *w = s->walls;
-    if (w->laid && seal_points_hold(s, w->wedge, w->nwedges))
-        return;
-    struct seal_point *to = NULL;
-    int n = 0;
-    for (int k = 0; k < w->nbodies; k++)
-        if (w->wedged[k])
-            n = seal_points_add(s, k, &to, n);
-    mem_free(w->wedge);
-    w->nwedges = n;
-    w->wedge = mem_own(w, to);
-    w->laid = true;
-}
-
-/* Points of one body stand together, and each body's are pressed at once, for they find the water
- * around by each other. */
-void body_wedges_add(struct sph *s)
-{
-    const struct walls *w = s->walls;
-    lay_points(s);
-    for (int k = 0, n; k < w->nwedges; k += n) {
-        for (n = 1; k + n < w->nwedges && w->wedge[k + n].body == w->wedge[k].body;)
-            n++;
-        seal_points_press(s, w->wedge + k, n);
-    }
 }

@@ -109,7 +109,6 @@ struct wall_forces {
     bool credited, known;                 /* the model reports forces; a step has been completed */
 };
 
-struct seal_point;
 struct seal_rest;
 struct shut_water;
 enum { SHUT_WATERS_MAX = 16 };
@@ -151,10 +150,7 @@ struct walls {
     bool sealed[BODIES_MAX + 1][BODIES_MAX + 1];
     const struct wall_joints *joints; /* of the present list of the model; NULL: it has none */
     bool wedged[BODIES_MAX]; /* whether a body that stays stands too close to another for water */
-    bool laid;               /* the places of these, for the levels that flow there */
-    int nwedges;
-    struct seal_point *wedge;           /* body_wedge.c: where that is */
-    struct seal_rest *rest[BODIES_MAX]; /* body_seal.c: the same of free bodies, as last measured */
+    struct seal_rest *rest[BODIES_MAX]; /* body_seal.c: where solids are sealed, as last measured */
     int nshut;
     struct shut_water *shut[SHUT_WATERS_MAX]; /* bodies/shut_water.h; owned */
     struct wall_forces forces;

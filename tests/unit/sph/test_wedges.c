@@ -1,5 +1,6 @@
 /* test_wedges.c - what bodies at rest get where no particle fits before a wall: which have such
- * places, and that the wall gets the opposite. SPDX-License-Identifier: BSD-3-Clause */
+ * places, that the wall gets the opposite, and what bodies beside them change.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../sph/bodies/bodies.h"
@@ -14,7 +15,7 @@ static const double depth = 0.8, radius = 0.2;
 
 /* A tank of 1 m, dx 0.05 m, and a disc whose lowest corner is `low', m, above the floor, or a block
  * on it. */
-static struct sph *tank_of(struct sph_case *c, int cells, double low, bool block, int packing)
+static struct scene *scene_of(struct sph_case *c, int cells, double low, bool block, int packing)
 {
     static const double box[4][2] = {{0.3, 0.0}, {0.3, 0.4}, {0.7, 0.4}, {0.7, 0.0}};
     struct scene *e = sph_case_tank(c, cells, 9.81, 3);
@@ -32,6 +33,12 @@ static struct sph *tank_of(struct sph_case *c, int cells, double low, bool block
     c->prm.surface = true;
     c->prm.c0 = 40.0;
     c->prm.packing = packing;
+    return e;
+}
+
+static struct sph *tank_of(struct sph_case *c, int cells, double low, bool block, int packing)
+{
+    scene_of(c, cells, low, block, packing);
     return sph_case_start(c, NULL);
 }
 
@@ -59,7 +66,7 @@ TEST(disc_on_the_floor_is_borne)
     struct sph *s = tank(&c, 0.0, false);
     const double gap = 3.0 / CELLS, width = 2.0 * sqrt(gap * (2.0 * radius - gap));
     press(s, on, back);
-    assert_true(s->walls->nwedges > 0);
+    assert_true(s->walls->rest[0]->n > 0);
     assert_true(on[1] > 0.0 && on[1] < 9.81 * depth * width);
     assert_close(on[0] + back[0], 0.0, 1e-12);
     assert_close(on[1] + back[1], 0.0, 1e-12);
@@ -70,10 +77,62 @@ TEST(disc_on_the_floor_is_borne)
 TEST(others_have_none)
 {
     struct sph_case c;
-    assert_int_equal(tank(&c, 0.0, true)->walls->nwedges, 0);
+    assert_false(tank(&c, 0.0, true)->walls->wedged[0]);
     DROP(c.s);
-    assert_int_equal(tank(&c, 4.0 / CELLS, false)->walls->nwedges, 0);
+    assert_false(tank(&c, 4.0 / CELLS, false)->walls->wedged[0]);
     DROP(c.s);
+}
+
+static void set_box(struct scene_body *b, double x0, double y0, double x1, double y1)
+{
+    const double at[4][2] = {{x0, y0}, {x0, y1}, {x1, y1}, {x1, y0}};
+    b->points.n = 4;
+    for (int k = 0; k < 4; k++)
+        memcpy(b->points.x[k], at[k], sizeof at[k]);
+}
+
+/* A box stands beside the disc, its face in the wedge below it, and goes away: what the disc has
+ * in common with the water is then what it is without the box. */
+TEST(what_leaves_a_wedge_gives_way)
+{
+    struct sph_case c, alone;
+    double on[2], back[2];
+    struct scene *e = scene_of(&c, CELLS, 0.0, false, 0);
+    set_box(&e->bodies[e->nbodies++], 0.73, 0.08, 0.9, 0.25);
+    e->bodies[1].velocity[1] = 0.4;
+    struct sph *s = sph_case_start(&c, NULL), *free = tank(&alone, 0.0, false);
+    press(free, on, back);
+    const struct seal_rest *of = free->walls->rest[0];
+    for (int part = 0; part < 3; part++) {
+        double less = 0.0;
+        walls_move(s, part * 1.0);
+        press(s, on, back);
+        const struct seal_rest *now = s->walls->rest[0];
+        assert_int_equal(now->n, of->n);
+        for (int k = 0; k < of->n; k++)
+            less = fmax(less, of->of[k].room - now->of[k].room);
+        assert_true(part == 0 ? less > 0.05 : less < 1e-12);
+    }
+    DROP(c.s);
+    DROP(alone.s);
+}
+
+/* A block stands on the disc. While nothing moves it is the same whether the block is free: places
+ * that are sealed for both reasons are pressed once. */
+TEST(stack_on_the_floor_is_pressed_once)
+{
+    double on[2][2], back[2];
+    for (int free = 0; free < 2; free++) {
+        struct sph_case c;
+        struct scene *e = scene_of(&c, CELLS, 0.0, false, 0);
+        set_box(&e->bodies[e->nbodies++], 0.3, 0.4, 0.7, 0.6);
+        e->bodies[1].free = free;
+        e->bodies[1].density = 2.0;
+        press(sph_case_start(&c, NULL), on[free], back);
+        DROP(c.s);
+    }
+    assert_true(on[0][1] > 0.0);
+    assert_close(on[1][1], on[0][1], 1e-3 * on[0][1]); /* a free one is moved off by 0.002 dx */
 }
 
 static int flowing(const struct sph *s)
@@ -101,10 +160,11 @@ TEST(finer_levels_know_wedges)
     assert_int_equal(flowing(s), 0);
     assert_close(flowing(s->finer), fine, 0.015 * fine); /* 2 % less with empty wedges */
     assert_true(s->dt > 0.0 && s->finer->dt == s->dt);
-    assert_true(s->walls->nwedges > 0);
-    for (int k = 0; k < s->walls->nwedges; k++) {
-        assert_int_equal(s->walls->wedge[k].level, 1);
-        assert_true(s->walls->wedge[k].is.area <= 0.26 * c.prm.dx);
+    const struct seal_rest *rest = s->walls->rest[0];
+    assert_true(rest->n > 0);
+    for (int k = 0; k < rest->n; k++) {
+        assert_int_equal(rest->of[k].level, 1);
+        assert_true(rest->of[k].is.area <= 0.26 * c.prm.dx);
     }
     DROP(c.s);
 }
