@@ -328,6 +328,18 @@ static void check_parted(const struct run *r, const struct sph_params *prm, stru
     }
 }
 
+/* Adds a fault for each side of the box beyond which fv's water has no surface. */
+static void check_roofed(const struct run *r, const struct sph_params *prm, struct faults *f)
+{
+    for (int side = 0; side < 2 * r->scene.domain.dim; side++)
+        if (isinf(windows_roofed(r, prm, side)))
+            params_fault(r->params, f, box_key(r),
+                         "beyond its %s end along %c fv's water stands up to the roof as far as "
+                         "the wall, so no surface gives its pressure: let the box reach that wall, "
+                         "or leave air there",
+                         side % 2 ? "upper" : "lower", axes[side / 2]);
+}
+
 /* Level gauges whose column stands in the zones of a box at rest: particles that come in there are
  * packed unevenly, and in waves their level rose by a third of dx. */
 static void warn_gauges(const struct run *r, const struct sph_params *prm)
@@ -366,6 +378,7 @@ void coupling_check(const struct run *r, const struct sph_params *prm, struct fa
     if (!check_cells(r, prm, &w, f))
         return;
     check_parted(r, prm, f);
+    check_roofed(r, prm, f);
     if (f->n == 0)
         check_water(r, &w, f);
     coupling_check_bodies(r, prm, f);

@@ -103,6 +103,42 @@ static double lateral(const struct run *r, const struct sph_params *prm, const b
     return k;
 }
 
+/* Whether air stands at the start over the water below or above x, whose height is anything. */
+static bool has_air(const struct scene *c, const struct exact *e, int up, double dx, double *x)
+{
+    const struct scene_domain *d = &c->domain;
+    const int n = (int)ceil((d->max[up] - d->min[up]) / dx);
+    const double upper = c->fluid.gravity[up] < 0.0 ? 1.0 - 1e-6 : 1e-6; /* end of each layer */
+    bool air = false;
+    for (int i = 0; i < n && !air; i++) {
+        x[up] = d->min[up] + (i + upper) * (d->max[up] - d->min[up]) / n;
+        air = scene_is_room(c, x) && !scene_is_fluid(c, e, x, NULL);
+    }
+    return air;
+}
+
+double windows_roofed(const struct run *r, const struct sph_params *prm, int side)
+{
+    const struct scene *c = &r->scene;
+    const int a = side / 2, up = scene_still_axis(c);
+    const double from = prm->box[side % 2][a], to = side % 2 ? c->domain.max[a] : c->domain.min[a];
+    const int n = (int)ceil(fabs(to - from) / prm->dx);
+    const struct exact e = exact_create(c);
+    double x[3] = {0.0};
+    if (!r->crossed || a == up)
+        return 0.0;
+    for (int b = 0; b < c->domain.dim; b++)
+        x[b] = 0.5 * (prm->box[0][b] + prm->box[1][b]);
+    for (int i = 0; i < n; i++) {
+        x[a] = from + (i + 0.5) * (to - from) / n;
+        if (has_air(c, &e, up, prm->dx, x))
+            return i * fabs(to - from) / n;
+    }
+    const struct scene_wall *w = scene_wall_of(c, (enum scene_side)(SIDE_X_MIN + side));
+    const bool shut = w && (w->kind == WALL_SLIP || w->kind == WALL_NO_SLIP);
+    return shut && c->domain.dim == 2 ? INFINITY : fabs(to - from);
+}
+
 /* Added mass that acts on SPH at one side, of the partner's region between its forced cells and a
  * wall d behind them, by potential theory: coth(k d)/k there, cosh along the overlap D. m: per area
  * and density. Along the overlap D the motion decays as cosh or exp. */
@@ -112,9 +148,11 @@ static double mass_at(const struct run *r, const struct sph_params *prm, const b
     const struct scene_domain *d = &r->scene.domain;
     const int a = side / 2;
     const double k = lateral(r, prm, open, a);
-    if (r->crossed) { /* a surface bounds it: Westergaard, decaying over the overlap */
+    if (r->crossed) { /* a surface bounds it: Westergaard, decaying over the overlap; under a roof
+                         all moves as one as far as the surface */
         const double H = crossing_depth(&r->scene, scene_still_axis(&r->scene));
-        return 0.55 * H * exp(-1.6 * D / H);
+        const double roofed = windows_roofed(r, prm, side);
+        return 0.55 * H * exp(-1.6 * D / H) + (isfinite(roofed) ? roofed : 0.0);
     }
     const bool walled = scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + side)) != NULL;
     const double beyond = side % 2 ? d->max[a] - prm->box[1][a] : prm->box[0][a] - d->min[a];

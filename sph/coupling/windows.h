@@ -25,6 +25,10 @@ struct windows {
 
 /* Chooses T from coupling.steps, or automatically. */
 struct windows windows_choose(const struct run *r, const struct sph_params *prm);
+/* m: how far from a side of the box, along its axis, water stands up to the roof of fv's part at
+ * the start, in the middle of the box across it; INFINITY: in 2D, as far as a closed wall, so that
+ * no surface gives the pressure of that part. */
+double windows_roofed(const struct run *r, const struct sph_params *prm, int side);
 /* Factor by which smoothing over `memory' coupling steps reduces an alternation:
  * common/base/fit.h. */
 double windows_smoothed(int memory);
