@@ -122,10 +122,10 @@ double windows_roofed(const struct run *r, const struct sph_params *prm, int sid
     const struct scene *c = &r->scene;
     const int a = side / 2, up = scene_still_axis(c);
     const double from = prm->box[side % 2][a], to = side % 2 ? c->domain.max[a] : c->domain.min[a];
-    const int n = (int)ceil(fabs(to - from) / prm->dx);
+    const int n = (int)ceil(fabs(to - from) / prm->dx - 1e-6);
     const struct exact e = exact_create(c);
     double x[3] = {0.0};
-    if (!r->crossed || a == up)
+    if (!r->crossed || a == up || n == 0)
         return 0.0;
     for (int b = 0; b < c->domain.dim; b++)
         x[b] = 0.5 * (prm->box[0][b] + prm->box[1][b]);

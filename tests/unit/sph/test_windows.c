@@ -57,3 +57,37 @@ TEST(sound_in_a_cup_is_followed)
         assert_true(windows_over(height, 1.5, gravity).T > 1.5 * w.T); /* a side lets it go */
     }
 }
+
+/* What stands up to the roof beside the box, from x = 0.4 m to `end', with the floor at either side
+ * of the domain. */
+TEST(water_under_a_roof_moves_as_one)
+{
+    for (int k = 0; k < 2; k++) {
+        struct sph_case c;
+        sph_case_set(&c, 2, 80);
+        struct scene *s = &c.run.scene;
+        s->fluid.gravity[1] = k ? 9.81 : -9.81;
+        s->domain.max[0] = 2.0;
+        s->domain.periodic[0] = s->domain.periodic[1] = false;
+        s->nwalls = 4;
+        for (int side = 0; side < 4; side++)
+            s->walls[side] = (struct scene_wall){.side = SIDE_X_MIN + side, .kind = WALL_SLIP};
+        s->nshapes = 2;
+        s->shapes[0] =
+            (struct scene_shape){.form = SHAPE_BOX, .box = {{0, 0.6 * k}, {2, 0.4 + 0.6 * k}}};
+        s->shapes[1] = (struct scene_shape){.form = SHAPE_BOX, .box = {{0.4, 0}, {1.5, 1}}};
+        c.run.crossed = true;
+        c.prm.box[0][0] = 0.8;
+        c.prm.box[1][0] = 1.2;
+        assert_close(windows_roofed(&c.run, &c.prm, 0), 0.4, 2.0 * c.prm.dx);
+        assert_close(windows_roofed(&c.run, &c.prm, 1), 0.3, 2.0 * c.prm.dx);
+        assert_close(windows_roofed(&c.run, &c.prm, 2), 0.0, 0.0);
+        s->shapes[1].box[1][0] = 2.0;
+        assert_true(isinf(windows_roofed(&c.run, &c.prm, 1))); /* as far as the wall */
+        s->walls[1].kind = WALL_OUTFLOW;
+        assert_close(windows_roofed(&c.run, &c.prm, 1), 0.8, 2.0 * c.prm.dx);
+        s->walls[1].kind = WALL_SLIP;
+        c.prm.box[1][0] = 2.0; /* the box reaches it */
+        assert_close(windows_roofed(&c.run, &c.prm, 1), 0.0, 0.0);
+    }
+}
