@@ -20,6 +20,10 @@ const char *const overlap_columns[OVERLAP_COLUMNS] = {
  * c0 U, passes through SPH alone and is no fault. */
 static const double several = 10.0;
 
+/* Share of c0 that velocities beside a surface are measured in at least, unless the case gives U:
+ * what particles have there of noise says nothing about a slow stream. */
+static const double noise = 0.03;
+
 /* Counts this rank's particles on a surface in transition and buffer; called in a stage, when the
  * surface has just been detected, once a coupling step. */
 static void find_surface(struct sph *s)
@@ -51,7 +55,8 @@ struct overlap *overlap_create(struct sph *s)
             : "the programs drift apart: start the flow by initial.field, where an inlet would "
               "start it at once, widen coupling.overlap, or move sph.box so that its open sides "
               "lie in calmer flow";
-    o->U = w.U;
+    const bool given = s->run->params && params_given(s->run->params, "initial.U");
+    o->U = s->run->crossed && !given ? fmax(w.U, noise * s->c0) : w.U;
     o->p = s->rho0 * fmax(w.U * w.U, w.weight);
     o->velocity = (struct watch){
         .key = "overlap_velocity",

@@ -51,15 +51,15 @@ static bool is_given(const struct run *r, const char *key)
     return r->params && params_given(r->params, key); /* a test has a scene without a case */
 }
 
-/* Sets U, L, omega and weight. U: of the initial field, of what moves, or of long waves sqrt(g H),
- * 0.1 c0 if nothing else is known; L: the smallest side of the box, or the field's own wave
- * length. */
+/* Sets U, L, omega and weight. U: of the initial field, if that has it, or given; of what carries
+ * or moves, or of long waves sqrt(g H), 0.1 c0 if nothing else is known; L: the smallest side of
+ * the box, or the field's own wave length. */
 static void scales(const struct run *r, const struct sph_params *prm, struct windows *w)
 {
     const struct scene *c = &r->scene;
     const int field = c->initial.field, down = scene_still_axis(c);
     const double carried = vec3_length(c->initial.velocity);
-    const bool own = field != FIELD_REST || is_given(r, "initial.U");
+    const bool own = (field > FIELD_UNIFORM && !scene_has_wave(c)) || is_given(r, "initial.U");
     const bool periodic_field = scene_has_wave(c) || field == FIELD_TAYLOR_GREEN ||
                                 field == FIELD_TWO_MODES || field == FIELD_BELTRAMI;
     w->U = own ? c->initial.U : 0.0;

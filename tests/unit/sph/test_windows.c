@@ -16,7 +16,7 @@ static struct windows windows_over(double height, double width, double gravity)
     s->fluid.nu = 0.0;
     s->fluid.gravity[1] = gravity;
     s->initial.field = FIELD_UNIFORM;
-    s->initial.U = 0.2;
+    s->initial.velocity[0] = 0.2;
     s->initial.level = down ? 0.7 : -0.3;
     s->domain.max[0] = 2.0;
     s->domain.periodic[0] = s->domain.periodic[1] = false;
@@ -90,4 +90,37 @@ TEST(water_under_a_roof_moves_as_one)
         c.prm.box[1][0] = 2.0; /* the box reaches it */
         assert_close(windows_roofed(&c.run, &c.prm, 1), 0.0, 0.0);
     }
+}
+
+/* A stream carried by `velocity' in a channel of 2 m, all of it in units `length' times as long. */
+static struct windows stream(double length, double velocity)
+{
+    struct sph_case c;
+    sph_case_set(&c, 2, 40);
+    struct scene *s = &c.run.scene;
+    s->fluid.nu = 0.0;
+    s->fluid.gravity[1] = -9.81 * length;
+    s->initial.field = FIELD_UNIFORM;
+    s->initial.velocity[0] = velocity * length;
+    s->initial.level = 0.7 * length;
+    s->domain.max[0] = 2.0 * length;
+    s->domain.max[1] = length;
+    s->domain.periodic[0] = s->domain.periodic[1] = false;
+    s->has_fv = s->has_sph = c.run.coupled = c.run.crossed = true;
+    c.prm.dx *= length;
+    c.prm.c0 = 27.0 * length;
+    c.prm.box[0][0] = 0.5 * length;
+    c.prm.box[1][0] = 1.5 * length;
+    c.prm.box[1][1] = length;
+    c.prm.outer = OUTER_PARTNER;
+    return windows_choose(&c.run, &c.prm);
+}
+
+TEST(coupling_steps_know_no_unit)
+{
+    const struct windows w = stream(1.0, 0.4), small = stream(1.0 / 128.0, 0.4);
+    assert_close(w.U, 0.4, 1e-12);
+    assert_int_equal(small.steps, w.steps);
+    assert_close(small.T, w.T, 1e-12 * w.T);
+    assert_close(small.U, w.U / 128.0, 1e-15);
 }
