@@ -354,6 +354,24 @@ void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u)
     fill_zero(s->bc, &s->b, k, q, &d, u);
 }
 
+/* Sides that mirror the velocity along them mirror what the projection has made of it; it corrects
+ * faces between cells alone, and a uniform stream would not stay so beside them. */
+void bc_face_ghosts(const struct fv *s, double *const U[3])
+{
+    for (int k = 0; s->bc && k < 2 * s->b.dim; k++)
+        for (int a = 0; a < s->b.dim && s->bc->n[k] > 0; a++) {
+            const bool mirrors = s->bc->kind[k] == MESH_OUTFLOW || s->bc->kind[k] == MESH_SLIP;
+            struct bc_side d = side_of(s->bc, &s->b, k, false);
+            if (a == d.a || !mirrors)
+                continue;
+            d.hi[d.t[0] == a ? 0 : 1]++; /* the upper face */
+            SIDE_PLACES (&s->b, d, i, j, m, c) {
+                U[a][c - d.in] = U[a][c];
+                (void)m;
+            }
+        }
+}
+
 /* U of the faces whose velocity is given; outflows keep what the projection makes. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3])
 {

@@ -63,6 +63,9 @@ void bc_slab_ghosts(const struct fv *s, int q, int j, double *u);
 void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 /* Sets U on walls and inflows; outflows are left as they are. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
+/* Sets U of the first faces along the tangents behind slip sides and outflows, for products of face
+ * values. */
+void bc_face_ghosts(const struct fv *s, double *const U[3]);
 /* Calls visit for each face of these sides, as sides_visit does. */
 void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void *with), void *with);
 /* Keeps tau grad psi along the walls, for BC_AHEAD. */

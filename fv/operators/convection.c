@@ -123,6 +123,7 @@ static void add_divergence(const double *restrict F, int64_t along, double per_h
 void convection(struct fv *s, double *const N[3])
 {
     const struct block *b = &s->b;
+    bc_face_ghosts(s, s->U);
     for (int a = 0; a < b->dim; a++)
         convection_beside_walls(s, a, s->U[a]);
     for (int q = 0; q < b->dim; q++)

@@ -71,6 +71,27 @@ TEST(steady_channels_are_exact)
     fv_free(&c.s);
 }
 
+/* A stream between slip walls that starts at once has no velocity across. */
+TEST(slip_walls_leave_a_stream_uniform)
+{
+    struct fv_case c;
+    double most = 0.0;
+    fv_case_set(&c, MPI_COMM_SELF,
+                (const char *const[]){"initial.field=\"rest\"", CLOSED, "fv.cells=(20,16)",
+                                      "fv.tol_pressure=1e-12", NULL});
+    wall_add(&c, SIDE_X_MIN, WALL_INFLOW, 5.0);
+    wall_add(&c, SIDE_X_MAX, WALL_OUTFLOW, 0.0);
+    wall_add(&c, SIDE_Y_MIN, WALL_SLIP, 0.0);
+    wall_add(&c, SIDE_Y_MAX, WALL_SLIP, 0.0);
+    fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, 5, 1e9));
+    BLOCK_CELLS (&c.s->b, i, j, k, at)
+        most = fmax(most, fabs(c.s->u[1][at]));
+    print_message("across %.3g m/s\n", most);
+    assert_true(most < 1e-9);
+    fv_free(&c.s);
+}
+
 TEST(channels_start_as_they_should)
 {
     struct fv_case c;
