@@ -110,6 +110,16 @@ static double reach_on_blocks(const struct fv *s, int a)
     return ranks_max(s->comm, most);
 }
 
+/* The way `end' along axis a from the centre of the cell at c, at most that to a box there. */
+static double up_to_box(const struct fv *s, int64_t c, int a, double end)
+{
+    const int64_t d = s->b.stride[a];
+    for (int m = 2; m >= 1; m--)
+        if (is_blocked(s, c + m * d))
+            end = fmin(end, (m - 0.5) * s->b.h[a]);
+    return end;
+}
+
 /* The same of uniform cells and layers; those with water next to them in that direction are
  * skipped. */
 static double reach_on_cells(const struct fv *s, int a)
@@ -120,14 +130,15 @@ static double reach_on_cells(const struct fv *s, int a)
     int at[3];
     BLOCK_NEAR (s, 0, row, n)
         for (int64_t c = row; c < row + n; c++) {
-            if (!(phi[c] < 0.0))
+            const int64_t beyond = c + b->stride[a];
+            const double next = phi[beyond];
+            if (!(phi[c] < 0.0) || is_blocked(s, c))
                 continue;
             grid_part(&s->grid, c, at);
-            if (at[a] + 1 < b->n[a] && phi[c + b->stride[a]] < 0.0)
+            if (at[a] + 1 < b->n[a] && next < 0.0 && !is_blocked(s, beyond))
                 continue; /* the next one reaches further */
             block_centre(b, at[0], at[1], at[2], x);
-            const double next = phi[c + b->stride[a]];
-            double end = foot_of_water(s, at, c, a);
+            double end = up_to_box(s, c, a, foot_of_water(s, at, c, a));
             if (a == 1 && b->rows)
                 end = (next >= 0.0 ? phi[c] / (phi[c] - next) : 0.5) * block_step(b, a, at[1] + 1);
             most = fmax(most, x[a] + (isfinite(end) ? end : 0.5 * b->h[a]));
