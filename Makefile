@@ -1,4 +1,4 @@
-# Estran. The commands: make demo | check | test-fast | properties | all | report | stability | bench | deps | install | deb | clean
+# Estran. The commands: make demo | check | check-long | test-fast | properties | all | report | stability | bench | deps | install | deb | clean
 # SPDX-License-Identifier: BSD-3-Clause
 SHELL = /bin/sh
 CC = mpicc
@@ -135,6 +135,8 @@ check: deps
 	@$(MAKE) --no-print-directory -j2 tests
 	@$(MAKE) --no-print-directory -j2 asan
 	@tests/run $(B)
+check-long: # the same with all random scenes and finer ones
+	@LONG=1 $(MAKE) --no-print-directory check
 test-fast: # units alone, for development
 	@$(MAKE) --no-print-directory -j2 tests
 	@FAST=1 tests/run $(B)
@@ -197,4 +199,4 @@ deb: all
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .SECONDARY:
-.PHONY: examples install uninstall deb all tests units asan deps demo check test-fast properties report stability bench clean
+.PHONY: examples install uninstall deb all tests units asan deps demo check check-long test-fast properties report stability bench clean

@@ -19,6 +19,7 @@ import stl
 build = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else 'build')
 root = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..'))
 name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
+long = 'LONG' in os.environ  # make check-long: what is finer, too
 os.environ.update(ESTRAN_BUILD=build, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1')
 mpi = 'mpirun --quiet --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 --mca btl_vader_single_copy_mechanism none'.split()
 failed = 0
