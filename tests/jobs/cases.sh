@@ -45,7 +45,7 @@ small poiseuille_sph "error.velocity_l2 0.01" -p sph.dx=0.0125 -p time.end=0.1
 # Re = 100: extrema of Marchi, Suero & Araki, J. Braz. Soc. Mech. Sci. Eng. 31, 2009; 3 % on 50 x 50 is wanted, of second order 19 % on 20 x 20
 small cavity_sph "error.extrema 0.19" -p sph.dx=0.05 -p time.end=15 -p fluid.nu=0.01 -p 'sph.extrema=(-0.214042,0.179573,-0.253804)'
 # half of what lattices and Morris's term alone gave; the start with most disorder like the others
-small taylor_green_sph "error.velocity_l2 0.0049 error.pressure_offset 0.04" -p sph.dx=0.015625 -p fluid.nu=0.02
+[ -z "$LONG" ] || small taylor_green_sph "error.velocity_l2 0.0049 error.pressure_offset 0.04" -p sph.dx=0.015625 -p fluid.nu=0.02
 small taylor_green_sph "error.velocity_l2 0.0049 error.pressure_offset 0.04" -p sph.dx=0.015625 -p fluid.nu=0.001
 small taylor_green_sph "error.velocity_l2 0.03 error.pressure_offset 0.04" -p sph.dx=0.04
 small taylor_green_sph "error.velocity_l2 0.003 error.pressure_offset 0.04" -p sph.noise=0.5
@@ -53,7 +53,7 @@ small taylor_green_sph "error.velocity_l2 0.003 error.pressure_offset 0.04" -p s
 small apr_translation "error.velocity_linf 1e-10" -p time.end=0.25
 small apr_vortices "error.velocity_l2 0.0042 drift.mass 3e-3" -p sph.dx=0.025 -p time.end=0.4
 small poiseuille_sph "error.velocity_l2 0.0063 particles_lost 0" -p time.end=3 -p sph.noise=0.3
-small still_water_3d "max_mach_late 1e-3 particles_lost 0" -p sph.dx=0.1
+small still_water_3d "max_mach_late 1e-3 particles_lost 0" -p sph.dx=0.1 -p time.end=4
 small dam_break_3d "particles_lost 0 drift.energy 0.2" -p sph.dx=0.1 -p time.end=0.7
 small dam_break_complex "particles_lost 0 drift.energy 0.6" -p sph.dx=0.125 -p time.end=5
 [ $failed = 0 ]
