@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """No key is passed over in silence: in small scenes of every kind each key of the table is set to another value; the run is
 refused (exit code 2), or what it writes differs. A key of sph --params that has no value below is a failure, too.
-usage: tests/jobs/unused.py [BUILD] [MODE...]; by default some modes, "all" for each. SPDX-License-Identifier: BSD-3-Clause"""
+usage: tests/jobs/unused.py [BUILD] [MODE...]; by default some modes, "all", as LONG=1, for each. SPDX-License-Identifier: BSD-3-Clause"""
 import glob
 import os
 import re
@@ -208,11 +208,12 @@ time:    { end = %s; };
 output:  { series = 1; snapshots = false; };
 '''
 ALL = list(SCENES)
-# float has all else of hinge and touch, dam all else of train but waves and walls, train all else of group, so that by
-# default the keys of the groups that differ will do
+# float has all else of hinge and touch, dam all else of channel, mesh, swirls and train, train all else of group, so that by default the
+# keys of the groups that differ will do
 USUAL = 'dam', 'channel', 'float', 'hinge', 'touch', 'mesh', 'train', 'group', 'swirls'
 SHORTER = {'mesh': '0.012', 'swirls': '0.012'}  # s: they are the dearest
-OURS = {'hinge': 'bodies', 'touch': 'bodies', 'train': 'wa', 'group': 'waves'}
+OURS = {'hinge': 'bodies', 'touch': 'bodies', 'train': 'wa', 'group': 'waves', 'channel': ('walls', 'initial', 'sph'),
+        'mesh': ('walls', 'bodies', 'shapes', 'domain'), 'swirls': ('apr', 'sph')}
 WITH_SURFACE = 'dam', 'float', 'hinge', 'cube', 'mesh', 'wave', 'train', 'group', 'drop', 'lines'
 counts = {'refused': 0, 'change': 0, 'neither': 0}
 
@@ -292,7 +293,7 @@ for key in re.findall(r'^\| `(\w+\.[\w.]*)` ', manual, flags=re.M):
 for solid, low, high, without in ('tank', -0.8, 0.8, 'zp'), ('cube', -0.3, 0.1, ''), ('other', -0.5, 0.3, ''), ('water', -1, 0.5, ''):
     lib.box_stl(solid + '.stl', [low] * 3, [high] * 3, without)
 write('other.csv', '0,0\n0.3,0\n0,0.4\n0,0\n')
-modes = sys.argv[2:]
+modes = sys.argv[2:] or ['all'] * lib.long
 for mode in ALL if modes == ['all'] else modes or USUAL:
     attempt_all(mode, '' if modes == ['all'] else OURS.get(mode, ''))
 lib.end('%(refused)d refused, %(change)d change the run, %(neither)d neither' % counts)
