@@ -75,16 +75,13 @@ static void swings(const char *blocks, const char *step, const char *cfl, const 
 /* Five cells of the wave's way a step. */
 TEST(waves_swing_as_on_one_block)
 {
-    static const char *const blocks[3] = {
+    static const char *const blocks[2] = {
         "{ name = \"one\"; cells = (32, 40); max = (4.0, 1.25); " AROUND ENDS "}",
-        "{ name = \"l\"; cells = (16, 40); max = (2.0, 1.25); i_min = \"periodic\"; i_max = "
-        "\"joined\"; " ENDS "}, { name = \"r\"; cells = (16, 40); min = (2.0, 0.0); "
-        "max = (4.0, 1.25); i_min = \"joined\"; i_max = \"periodic\"; " ENDS "}",
         "{ name = \"back\"; cells = (32, 40); max = (4.0, 1.25); " AROUND ENDS
         "}, { name = \"over\"; cells = (18, 40); min = (0.9375, 0.0); max = (3.1875, 1.25); " ENDS
         "}"};
-    double period[3], damping[3];
-    for (int k = SANITIZED ? 2 : 0; k < 3 && is_alone(); k++) {
+    double period[2], damping[2];
+    for (int k = SANITIZED ? 1 : 0; k < 2 && is_alone(); k++) {
         swings(blocks[k], NEWTON, "fv.cfl=1.16", "fluid.nu=2e-3", period + k, damping + k);
         assert_close(period[k], 0.0, 0.002);
         assert_close(damping[k], 0.0, 0.03);
@@ -93,14 +90,14 @@ TEST(waves_swing_as_on_one_block)
     }
     if (!is_alone())
         return;
-    for (int k = SANITIZED ? 2 : 0; k < 3; k += 2) { /* rk3: test_surface_blocks */
+    for (int k = SANITIZED ? 1 : 0; k < 2; k++) { /* rk3: test_surface_blocks */
         swings(blocks[k], BDF2, "fv.cfl=0.5", "fluid.nu=2e-3", period + k, damping + k);
         assert_close(period[k], 0.0, 0.002);
         assert_close(damping[k], 0.0, 0.03);
     }
     /* where one block is off by less than a third of what is wanted signs decide */
-    assert_true(SANITIZED || (period[2] <= fmax(1.2 * period[0], 0.002 / 3.0) &&
-                              damping[2] <= fmax(1.2 * damping[0], 0.0075)));
+    assert_true(SANITIZED || (period[1] <= fmax(1.2 * period[0], 0.002 / 3.0) &&
+                              damping[1] <= fmax(1.2 * damping[0], 0.0075)));
 }
 
 /* s: that of a wave by newton with this speed of sound. */
@@ -137,20 +134,20 @@ TEST(sound_slows_waves_down)
     }
 }
 
-/* nu dt/h^2 = 50, eleven steps a period; cells of aspect 100, eight a length. */
+/* nu dt/h^2 = 20, eleven steps a period; cells of aspect 50, eight a length. */
 TEST(viscosity_and_flat_cells_bound_no_step)
 {
     double T, r;
     if (SANITIZED || !is_alone())
         return;
-    swings("{ name = \"l\"; cells = (8, 64); max = (2.0, 1.25); i_min = \"periodic\"; i_max = "
-           "\"joined\"; " ENDS "}, { name = \"r\"; cells = (8, 64); min = (2.0, 0.0); "
+    swings("{ name = \"l\"; cells = (8, 40); max = (2.0, 1.25); i_min = \"periodic\"; i_max = "
+           "\"joined\"; " ENDS "}, { name = \"r\"; cells = (8, 40); min = (2.0, 0.0); "
            "max = (4.0, 1.25); i_min = \"joined\"; i_max = \"periodic\"; " ENDS "}",
            NEWTON, "fv.cfl=1.5", "fluid.nu=0.05", &T, &r);
     assert_close(T, 0.0, 0.03);
     assert_close(r, 0.0, 0.1);
-    swings("{ name = \"low\"; cells = (8, 128); max = (4.0, 0.625); j_min = \"wall\"; j_max = "
-           "\"joined\"; " AROUND "}, { name = \"high\"; cells = (8, 128); min = (0.0, 0.625); "
+    swings("{ name = \"low\"; cells = (8, 64); max = (4.0, 0.625); j_min = \"wall\"; j_max = "
+           "\"joined\"; " AROUND "}, { name = \"high\"; cells = (8, 64); min = (0.0, 0.625); "
            "max = (4.0, 1.25); j_min = \"joined\"; j_max = \"slip\"; " AROUND "}",
            NEWTON, "fv.cfl=0.7", "fluid.nu=2e-3", &T, &r);
     assert_close(T, 0.0, 0.03);
@@ -251,7 +248,7 @@ TEST(currents_are_carried_out)
     for (int k = 0; k < 12; k++) {
         struct mesh_case c;
         const bool rest = k % 3 == 2;
-        if (rest && (SANITIZED || !is_alone()))
+        if (rest && (SANITIZED || !is_alone() || k / 3 == 1)) /* halves are the uniform grid */
             continue;
         struct fv *s = start_current(&c, blocks[k / 3], steps[k % 3], rest, true);
         assert_true(mesh_case_run(s, 1000, rest ? 5.0 : 0.3));
