@@ -122,7 +122,7 @@ TEST(disc_in_a_vortex)
 
 TEST(sphere_in_a_vortex)
 {
-    const double coarse = vortex(3, 16), fine = SANITIZED ? 0.0 : vortex(3, 32);
+    const double coarse = vortex(3, 12), fine = SANITIZED ? 0.0 : vortex(3, 24);
     print_message("sphere: %.4f, %.4f\n", coarse, fine);
     assert_true(fine < 0.6 * coarse && fine < 0.06);
 }

@@ -631,7 +631,7 @@ TEST(water_survives_impacts)
         fv_case_set(&c, MPI_COMM_WORLD,
                     (const char *const[]){SURFACE, "domain.dim=3", "fluid.nu=1e-6",
                                           "fluid.gravity=(0,-9.81,0)", "domain.max=(1,1,1)",
-                                          k ? "fv.cells=(16,16,16)" : "fv.cells=(24,24,24)", NULL});
+                                          k ? "fv.cells=(16,16,16)" : "fv.cells=(20,20,20)", NULL});
         struct scene *scene = &c.run.scene;
         fv_case_close(&c, WALL_SLIP);
         scene->shapes[scene->nshapes++] = column;

@@ -90,10 +90,10 @@ static void rests_round(int n, const double r[2], double turned)
 {
     struct sph_case c;
     double late = 0.0, lift = 0.0;
-    tank(&c, 32);
+    tank(&c, 24);
     const double area = add_star(&c, n, r, turned);
     struct sph *s = sph_case_start(&c, NULL);
-    assert_true(sph_case_run(&c, SANITIZED ? 10 : 300, 100.0));
+    assert_true(sph_case_run(&c, SANITIZED ? 10 : 200, 100.0));
     for (int k = 0; k < (SANITIZED ? 2 : 100); k++) {
         assert_true(sph_case_run(&c, 1, 100.0));
         late = fmax(late, s->step.max_speed);
