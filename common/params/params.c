@@ -221,12 +221,13 @@ static bool has_row(const struct param_group *g, const char *key)
     return false;
 }
 
-/* The key of a group that an unknown one stands for, and what to say behind it; NULL: no idea. */
+/* The key of a group that an unknown one stands for, and what to say behind it; NULL: none, and the
+ * remark, if there is any, why. */
 static const char *meant_key(const struct param_group *g, const char *key, const char **remark)
 {
     *remark = "";
     for (const struct hint_name *n = hint_name_next(key, NULL); n; n = hint_name_next(key, n))
-        if (has_row(g, n->key)) {
+        if (!n->key || has_row(g, n->key)) {
             *remark = n->remark;
             return n->key;
         }
@@ -246,7 +247,7 @@ static bool is_misspelt(const struct param_group *g, const config_setting_t *gro
         const char *remark, *meant = meant_key(g, name, &remark);
         bool same = meant && strcmp(meant, key) == 0;
         for (const struct hint_name *n = hint_name_next(name, NULL); n; n = hint_name_next(name, n))
-            same = same || strcmp(n->key, key) == 0;
+            same = same || (n->key && strcmp(n->key, key) == 0);
         if (same)
             return true;
     }
@@ -328,8 +329,10 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
         near = meant_key(g, key, &remark);
         if (near)
             params_add_fault(f, place, "unknown key; did you mean `%s'%s?", near, remark);
-        else if (home)
-            params_add_fault(f, place, "unknown key; it is known in group `%s'", home->name);
+        else if (*remark || home)
+            params_add_fault(f, place,
+                             *remark ? "unknown key; %s" : "unknown key; it is known in group `%s'",
+                             *remark ? remark : home->name);
         else
             params_add_fault(f, place, "unknown key; there are %s", keys);
     }
@@ -480,7 +483,11 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
                  *o->key ? "." : "", o->key);
         if (!g && !known_group(p, others, o->group)) {
             const char *near = nearest_group(p, others, o->group);
-            params_add_fault(f, place, near ? "unknown group; did you mean `%s'?" : "unknown group",
+            params_add_fault(f, place,
+                             near ? "unknown group; did you mean `%s'?"
+                             : strchr(o->group, '[')
+                                 ? "elements of a list are walls.[0].kind, with a point"
+                                 : "unknown group",
                              near);
         } else if (g && *o->key && !g->stride && !has_row(g, o->key) && !strstr(o->key, ".[")) {
             const char *remark, *near = meant_key(g, o->key, &remark);

@@ -86,7 +86,7 @@ void hint_nearest_try(struct hint_nearest *n, const char *known)
 const char *hint_nearest_word(const struct hint_nearest *n) { return n->best; }
 
 /* What a newcomer calls a key, from other codes and papers: the first of a word whose key a group
- * has is meant. */
+ * has is meant. A word without a key is of what these programs do not have; the remark says so. */
 static const struct hint_name names[] = {{"density", "rho", ""},
                                          {"rho0", "rho", ""},
                                          {"viscosity", "nu", " (m^2/s)"},
@@ -126,7 +126,31 @@ static const struct hint_name names[] = {{"density", "rho", ""},
                                          {"deltaT", "cfl", ""},
                                          {"dt", "cfl", ""},
                                          {"maxCo", "cfl", ""},
-                                         {"courant", "cfl", ""}};
+                                         {"courant", "cfl", ""},
+                                         {"nx", "cells", " = (nx, ny)"},
+                                         {"ny", "cells", " = (nx, ny)"},
+                                         {"nz", "cells", " = (nx, ny, nz)"},
+                                         {"dt", "steps", ": particles' steps in an exchange"},
+                                         {"window", "steps", ": particles' steps in an exchange"},
+                                         {"dt", "end", ": the programs choose their steps"},
+                                         {"start", "end", ": a run starts at t = 0"},
+                                         {"amplitude", "height", " from trough to crest"},
+                                         {"gamma", "peak", ": JONSWAP's gamma"},
+                                         {"frequency", "period", " = 1/frequency"},
+                                         {"omega", "period", " = 2 pi/omega"},
+                                         {"disc", "radius", ""},
+                                         {"circle", "radius", ""},
+                                         {"diameter", "radius", " = diameter/2"},
+                                         {"depth", "level", ""},
+                                         {"file", "mesh", " (STL, OBJ, PLY), `outline' in 2D"},
+                                         {"fixed", "free", ": without it a body is fixed"},
+                                         {"kernel", NULL,
+                                          "the kernel is Wendland's C2; R_dx is "
+                                          "its support over dx"},
+                                         {"sigma", NULL, "there is no surface tension"},
+                                         {"surface_tension", NULL, "there is no surface tension"},
+                                         {"rho_air", NULL, "air has no density: its pressure is 0"},
+                                         {"turbulence", NULL, "there are no turbulence models"}};
 
 const struct hint_name *hint_name_next(const char *word, const struct hint_name *after)
 {
@@ -137,16 +161,40 @@ const struct hint_name *hint_name_next(const char *word, const struct hint_name 
     return NULL;
 }
 
-/* Likewise of values; the first of a word that a row has is meant. */
+/* Likewise of values; the first of a word that a row has is meant, or a remark tells what is. */
 static const struct hint_name values[] = {
-    {"no_slip", "wall", ""},    {"noslip", "wall", ""},     {"wall", "no_slip", ""},
-    {"solid", "no_slip", ""},   {"inlet", "inflow", ""},    {"outlet", "outflow", ""},
-    {"open", "outflow", ""},    {"free", "outflow", ""},    {"symmetry", "slip", ""},
-    {"left", "x_min", ""},      {"right", "x_max", ""},     {"circle", "disc", ""},
-    {"cylinder", "disc", ""},   {"rectangle", "box", ""},   {"height", "level", ""},
-    {"elevation", "level", ""}, {"flux", "discharge", ""},  {"flow", "discharge", ""},
-    {"p", "pressure", ""},      {"implicit", "newton", ""}, {"rk4", "rk3", ""},
-    {"ring", "annulus", ""}};
+    {"no_slip", "wall", ""},
+    {"noslip", "wall", ""},
+    {"wall", "no_slip", ""},
+    {"solid", "no_slip", ""},
+    {"inlet", "inflow", ""},
+    {"outlet", "outflow", ""},
+    {"open", "outflow", ""},
+    {"free", "outflow", ""},
+    {"symmetry", "slip", ""},
+    {"left", "x_min", ""},
+    {"right", "x_max", ""},
+    {"circle", "disc", ""},
+    {"cylinder", "disc", ""},
+    {"rectangle", "box", ""},
+    {"height", "level", ""},
+    {"elevation", "level", ""},
+    {"flux", "discharge", ""},
+    {"flow", "discharge", ""},
+    {"p", "pressure", ""},
+    {"implicit", "newton", ""},
+    {"rk4", "rk3", ""},
+    {"ring", "annulus", ""},
+    {"atmosphere", "outflow", ""},
+    {"sine", "harmonic", ""},
+    {"csv", "file", ""},
+    {"stokes", "regular", ""},
+    {"airy", "regular", ""},
+    {"linear", "regular", ""},
+    {"jonswap", "sea", ""},
+    {"irregular", "sea", ""},
+    {"periodic", NULL, "a period is domain.periodic"},
+    {"piston", NULL, "a paddle is a body that moves, of motion.kind \"waves\""}};
 
 /* Whether `choices', words between |, has this one. */
 static bool has_choice(const char *choices, const char *word)
@@ -163,12 +211,19 @@ void hint_choice(const char *choices, const char *word, char *text, size_t size)
 {
     const char *best = NULL;
     char one[64];
+    const char *remark = NULL;
     for (size_t k = 0; k < sizeof values / sizeof values[0] && !best; k++)
-        if (strcmp(values[k].word, word) == 0 && has_choice(choices, values[k].key))
+        if (strcmp(values[k].word, word) == 0 && !values[k].key)
+            remark = values[k].remark;
+        else if (strcmp(values[k].word, word) == 0 && has_choice(choices, values[k].key))
             best = values[k].key;
     int least = hint_nearest_start(word).distance;
-    snprintf(text, size, best ? "; did you mean `%s'?" : "", best);
-    for (const char *c = choices; *c && !best; c += strcspn(c, "|"), c += *c == '|') {
+    snprintf(text, size,
+             best     ? "; did you mean `%s'?"
+             : remark ? "; %s"
+                      : "",
+             best ? best : remark);
+    for (const char *c = choices; *c && !best && !remark; c += strcspn(c, "|"), c += *c == '|') {
         struct hint_nearest near = hint_nearest_start(word);
         snprintf(one, sizeof one, "%.*s", (int)strcspn(c, "|"), c);
         hint_nearest_try(&near, one);

@@ -29,7 +29,8 @@ void hint_nearest_try(struct hint_nearest *n, const char *known);
 /* The nearest word tried so far; NULL: none is near. */
 const char *hint_nearest_word(const struct hint_nearest *n);
 
-/* A name that other codes have for a key, and a remark to print behind the key. */
+/* A name that other codes have for a key, and a remark to print behind the key; key NULL: there is
+ * none, which the remark explains. */
 struct hint_name {
     const char *word, *key, *remark;
 };

@@ -21,7 +21,8 @@ struct variable {
 
 struct let {
     muParserHandle_t parser;
-    const char *path; /* borrowed */
+    const char *path;              /* borrowed */
+    const config_setting_t *group; /* the case's group let; NULL: it has none */
     int n;
     struct variable of[LET_MAX];
 };
@@ -60,7 +61,10 @@ static void explain(const struct let *l, const char *text, struct expression *e)
         for (int k = 0; k < l->n; k++)
             hint_nearest_try(&near, l->of[k].name);
         const char *word = hint_nearest_word(&near);
+        const bool below = l->group && config_setting_get_member(l->group, token);
         say_known(l, known, sizeof known);
+        if (below)
+            snprintf(known, sizeof known, "let.%s stands below: put it above", token);
         snprintf(e->why, sizeof e->why, "`%s' in \"%.80s\" is not known%s%s%s; %s", token, text,
                  word ? ": did you mean `" : "", word ? word : "", word ? "'?" : "", known);
     } else {
@@ -206,6 +210,7 @@ static void read_variables(struct let *l, config_setting_t *group, struct overri
         params_add_fault(f, place, "at most %d variables", LET_MAX);
         return;
     }
+    l->group = group;
     for (int k = 0; k < config_setting_length(group); k++) {
         config_setting_t *s = config_setting_get_elem(group, (unsigned)k);
         define(l, s, given_for(config_setting_name(s), o, n), f);

@@ -17,11 +17,14 @@ void override_read(struct override *o, const char *text, struct faults *f)
 {
     char place[256], value[4096], line[4160];
     const char *eq = strchr(text, '='), *dot = is_whole(text, eq) ? eq : strchr(text, '.');
+    const char *last = eq; /* of the key, without blanks before the sign = */
+    while (last && last > text && last[-1] == ' ')
+        last--;
     o->text = text;
     config_init(&o->cfg);
     config_set_auto_convert(&o->cfg, CONFIG_TRUE);
     snprintf(place, sizeof place, "command line: -p %s", text);
-    if (!eq || !dot || dot > eq || dot == text || eq == dot + 1 || !eq[1] || dot - text > 60 ||
+    if (!eq || !dot || dot > eq || dot == text || last == dot + 1 || !eq[1] || dot - text > 60 ||
         eq - dot > 60) {
         params_add_fault(
             f, place,
@@ -30,7 +33,7 @@ void override_read(struct override *o, const char *text, struct faults *f)
     }
     snprintf(o->group, sizeof o->group, "%.*s", (int)(dot - text), text);
     if (dot < eq)
-        snprintf(o->key, sizeof o->key, "%.*s", (int)(eq - dot - 1), dot + 1);
+        snprintf(o->key, sizeof o->key, "%.*s", (int)(last - dot - 1), dot + 1);
     int a, b, c, end = 0;
     if (sscanf(eq + 1, "%dx%dx%d%n", &a, &b, &c, &end) == 3 && !eq[1 + end])
         snprintf(value, sizeof value, "(%d, %d, %d)", a, b, c);

@@ -233,8 +233,9 @@ static bool get_points(const struct param *r, const config_setting_t *s, void *t
     int *count = plane ? &points->n : &places->n;
     *count = 0;
     if (config_setting_is_group(s) || n < 0 || n > most) {
-        snprintf(why, size, "expected at most %d points: ((x, y%s), ...)", most,
-                 plane ? "" : ", z");
+        snprintf(why, size, "expected at most %d points: ((x, y%s), ...)%s", most,
+                 plane ? "" : ", z",
+                 config_setting_type(s) == CONFIG_TYPE_STRING ? "; a file is read by outline" : "");
         return false;
     }
     for (int k = 0; k < n; k++) {

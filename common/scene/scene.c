@@ -445,23 +445,35 @@ bool scene_has_lines(const struct scene *s)
     return any;
 }
 
+/* Of the k-th wall, which is a side of the domain. */
+static void check_side(const struct scene *s, const struct params *p, int k, struct faults *f)
+{
+    const int side = s->walls[k].side - SIDE_X_MIN, a = side / 2;
+    const struct scene_wall *first = scene_wall_of(s, (enum scene_side)s->walls[k].side);
+    const char *key = key_text("walls.[%d].side", k), *name = scene_side_names[side];
+    if (a >= s->domain.dim)
+        params_fault(p, f, key,
+                     "%s in a case of 2 dimensions: the plane is x, y; or domain.dim = 3", name);
+    else if (s->domain.periodic[a])
+        params_fault(p, f, key, "%s is periodic: leave the wall out, or domain.periodic along %c",
+                     name, "xyz"[a]);
+    if (first != s->walls + k)
+        params_fault(p, f, key, "%s is wall %d already: leave one out", name,
+                     (int)(first - s->walls) + 1);
+}
+
 static void check_walls(const struct scene *s, const struct params *p, struct faults *f)
 {
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
-        const int a = (w->side - SIDE_X_MIN) / 2;
         const char *key = key_text("walls.[%d]", k);
         const bool mesh = *w->surface.mesh != '\0';
         if (w->side == SIDE_NONE && w->points.n < 2 && !mesh)
             params_fault(p, f, key, "wall %d: give a side, a mesh or at least two points", k + 1);
         else if ((w->side != SIDE_NONE) + (w->points.n > 0) + mesh > 1)
             params_fault(p, f, key, "wall %d: give one of side, points and mesh", k + 1);
-        else if (w->side != SIDE_NONE && a >= s->domain.dim)
-            params_fault(p, f, key, "wall %d: a z side in a case of 2 dimensions", k + 1);
-        else if (w->side != SIDE_NONE && s->domain.periodic[a])
-            params_fault(p, f, key, "wall %d: its side is periodic", k + 1);
-        if (w->side != SIDE_NONE && scene_wall_of(s, (enum scene_side)w->side) != w)
-            params_fault(p, f, key, "wall %d: its side has a wall already", k + 1);
+        if (w->side != SIDE_NONE)
+            check_side(s, p, k, f);
         if (w->kind >= WALL_INFLOW && w->side == SIDE_NONE)
             params_fault(p, f, key, "wall %d: inlets and outlets lie on sides of the domain",
                          k + 1);
@@ -564,11 +576,13 @@ static void check_field(const struct scene *s, const struct params *p, struct fa
  */
 void scene_check(struct scene *s, const struct params *p, struct faults *f)
 {
-    static const char *const needed[] = {"time", "domain"};
+    static const char *const needed[][2] = {{"time", "end = 10.0"},
+                                            {"domain", "min = (0, 0); max = (2, 1)"}};
     struct param_group groups[SCENE_GROUPS];
     for (int k = 0; k < 2; k++)
-        if (!params_has_group(p, needed[k]))
-            params_fault(p, f, needed[k], "the case must have this group");
+        if (!params_has_group(p, needed[k][0]))
+            params_fault(p, f, needed[k][0], "the case must have this group, as %s: { %s; };",
+                         needed[k][0], needed[k][1]);
     if (f->n)
         return; /* what follows needs sound values */
     scene_waves_mark(s);

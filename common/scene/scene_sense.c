@@ -321,13 +321,15 @@ static void check_probes(const struct scene *s, const struct params *p, struct f
                              tank ? "outside the tank that is" : "inside", s->bodies[b].name);
         }
         if (strcmp(g->name, "t") == 0 || strcmp(g->name, "dt") == 0)
-            params_fault(p, f, key,
+            params_fault(p, f, key_text("probes.[%d].name", k),
                          "%s: series.csv has a column of this name already: give the "
                          "gauge another",
                          g->name);
         for (int m = 0; m < k; m++)
             if (strcmp(g->name, s->probes[m].name) == 0)
-                params_fault(p, f, key, "%s: a gauge of this name is there already", g->name);
+                params_fault(p, f, key_text("probes.[%d].name", k),
+                             "%s is the name of gauge %d already: give this one another", g->name,
+                             m + 1);
     }
 }
 

@@ -227,7 +227,9 @@ static void check_zone(const struct scene *s, const struct params *p, int k, str
     else if (axis == scene_still_axis(s))
         params_fault(p, f, key, "a zone is before an upright side, not below or above the water");
     else if (!scene_has_surface(s))
-        params_fault(p, f, key, "no water has a free surface: there are no waves");
+        params_fault(p, f, key,
+                     "no water has a free surface: there are no waves; give the water by "
+                     "shapes, as { form = \"below\"; level = ...; }");
     else if (w->beach >= s->domain.max[axis] - s->domain.min[axis])
         params_fault(p, f, key, "%g m: the domain is %g m long there", w->beach,
                      s->domain.max[axis] - s->domain.min[axis]);
@@ -248,7 +250,8 @@ static bool check_water(const struct scene *s, const struct params *p, struct fa
     const double g = vec3_length(s->fluid.gravity);
     const int up = scene_still_axis(s);
     if (up < 0 || fabs(s->fluid.gravity[up]) < (1.0 - 1e-9) * g)
-        params_fault(p, f, "fluid.gravity", "waves are made under gravity along an axis");
+        params_fault(p, f, "fluid.gravity",
+                     "waves are made under gravity along an axis, as (0, -9.81)");
     else if (!(scene_waves_depth(s) > 0.0))
         params_fault(p, f, "waves.depth",
                      "no shape (a box, or below a level) tells how deep the water is: give it, m");

@@ -239,7 +239,8 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
         return;
     if (w->kind == WALL_OUTFLOW && r->scene.fluid.gravity[(w->side - SIDE_X_MIN) / 2] != 0.0)
         wall_fault(r, f, k,
-                   "water would fall out of it: with a free surface an outflow stands upright");
+                   "water would fall out of it: with a free surface an outflow stands "
+                   "upright; a side that is open to the air above it needs no wall");
     if (w->pressure != 0.0)
         wall_fault(
             r, f, k,

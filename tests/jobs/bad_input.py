@@ -171,6 +171,36 @@ faulty('coupled', 's/steps = 32/steps = -1/', 'coupling.steps: ', 'coupler', '--
 faulty('coupled', 's/steps = 32/steps = 32; mapping = "nearest"/', 'coupling.mapping: .*mls', 'coupler', '--check')
 says('4 faults', 'sph', 'sph.cfg', '-o', 'result', '-p', 'sph.dx=-1', '-p', 'sph.cfll=1', '-p', 'time.end=-3', '-p', 'sph.scheme=none')
 
+# words of other codes
+for change, words in (('nu = 0.005/sigma = 0.07', 'fluid.sigma: unknown key; there is no surface tension'),
+                      ('nu = 0.005/turbulence = "k"', 'fluid.turbulence: unknown key; there are no turbulence models'),
+                      ('end = 0.01/end = 0.01; dt = 1e-4', "case.cfg:2: time.dt: .*did you mean `end': the programs choose their steps"),
+                      ('end = 0.01/start = 0.0; end = 0.01', "time.start: .*`end': a run starts at t = 0"),
+                      ('dx = 0.02/dx = 0.02; kernel = "cubic"', "sph.kernel: unknown key; the kernel is Wendland's C2; R_dx is"),
+                      ('^sph:.*/&\\ncoupling: { dt = 0.1; };', "coupling.dt: .*`steps'"),
+                      ('^sph:.*/&\\nbodies: ( { disc = (0.5, 0.5, 0.1); } );', "bodies.disc: .*`radius'"),
+                      ('^sph:.*/&\\nbodies: ( { file = "hull.stl"; } );', "bodies.file: .*`mesh' (STL, OBJ, PLY), `outline' in 2D"),
+                      ('^sph:.*/&\\nbodies: ( { fixed = true; } );', "bodies.fixed: .*`free': without it a body is fixed"),
+                      ('^sph:.*/&\\nwaves: { amplitude = 0.1; };', "waves.amplitude: .*`height' from trough to crest"),
+                      ('^sph:.*/&\\nwaves: { kind = "jonswap"; };', "waves.kind: .*did you mean `sea'"),
+                      ('^sph:.*/&\\nwaves: { kind = "airy"; };', "waves.kind: .*did you mean `regular'"),
+                      ('^sph:.*/&\\nbodies: ( { motion = ( { kind = "sine"; frequency = 1; } ); } );', "motion.kind: .*`harmonic'"),
+                      ('^sph:.*/&\\nbodies: ( { motion = ( { kind = "harmonic"; frequency = 1; } ); } );', "frequency: .*`period' = 1/frequency"),
+                      ('^sph:.*/&\\nwalls: ( { side = "x_max"; kind = "periodic"; } );', 'walls.kind: .*; a period is domain.periodic'),
+                      ('^sph:.*/&\\nwalls: ( { points = "bed.csv"; } );', 'walls.points: .*; a file is read by outline'),
+                      ('^sph:.*/let: { H = "2*n"; n = 3; };\\nsph: { dx = "H"; };', "case.cfg:6: let.H: `n' in .* is not known; let.n stands below: put it above"),
+                      ('^domain.*/', 'domain: the case must have this group, as domain: { min = (0, 0); max = (2, 1); };'),
+                      ('^sph:.*/&\\nwalls: ( { side = "z_min"; } );', r'walls.\[0\].side: z_min in a case of 2 dimensions'),
+                      ('^sph:.*/&\\nwalls: ( { side = "x_min"; } );', r'walls.\[0\].side: x_min is periodic: leave the wall out')):
+    faulty('sph', 's%' + change.replace('/', '%', 1) + '%', words, 'sph')
+faulty('fv', 's/cells = (16, 16)/nx = 16/', "fv.nx: .*`cells' = (nx, ny)", 'fv')
+says('elements of a list are walls.*, with a point', 'sph', 'sph.cfg', '-o', 'result', '-p', 'walls[0].kind=slip')
+holds(start('sph', 'sph.cfg', '--check', '-p', 'sph.dx = 0.025') == 0 and told('dx 0.025 m'), 'blanks around the sign = of -p')
+for option, words in (('-n', 'a:b:c'), 'expected whole numbers'), (('-n', '2:2'), 'needs SPH:COUPLER:FV'), (('-n', '0:1:1'), 'needs a rank'), \
+        (('--timeout', 'soon'), 'soon: expected whole seconds'), (('-np', '2'), 'did you mean -n?'), (('--check=pictures',), 'did you mean --check=picture?'):
+    code = run(root + '/cases/run', 'coupled.cfg', '--check', *option)
+    holds(code == 2 and told(words), 'cases/run %s, wanted the words: %s' % (' '.join(option), words))
+
 # fv: keys that a run does not use, scenes that contradict themselves
 write('basin.cfg', '''format = 1;
 time:    { end = 0.1; };
@@ -530,7 +560,7 @@ faulty('tank', 's/level = 0.5; }/level = 0.5; }, { hole = true; box = ((0, 0), (
 faulty('tank', 's/gravity = (0, -9.81)/nu = 0.0/; /^bodies/d', 'fluid.gravity: .*nothing that moves', 'sph')
 faulty('tank', 's/at = (1, 0.1)/at = (1, -0.1)/', r'case.cfg:9: probes.\[0\].at: p: y = -0.1 m is outside', 'sph')
 faulty('tank', 's/at = (1, 0.1)/at = (1, 0.3)/', r'probes.\[0\].at: p is inside body b', 'sph')
-faulty('tank', 's/at = (1, 0.1); }/at = (1, 0.1); }, { name = "p"; at = (1.5, 0.1); }/', r'probes.\[1\].at: p: a gauge of this name', 'sph')
+faulty('tank', 's/at = (1, 0.1); }/at = (1, 0.1); }, { name = "p"; at = (1.5, 0.1); }/', r'probes.\[1\].name: p is the name of gauge 1 already: give this one another', 'sph')
 faulty('tank', 's/at = (1, 0.1)/at = (1, 0.1); kind = "level"/; s/(0, -9.81)/(1, -9.81)/', r'probes.\[0\].kind: p: gauges of levels read', 'sph')
 faulty('tank', 's/gravity = (0, -9.81)/gravity = (0, 0, -9.81)/', 'fluid.gravity: .*as in (0, -9.81)', 'sph')
 faulty('tank', 's/max = (2, 1)/max = (2, 1, 3)/', 'domain.max: z component 3', 'sph')
@@ -545,7 +575,7 @@ faulty('channel', r's/^sph:/shapes: ( { box = ((0, 0), (2, 0.5)); } );\nsph:/', 
 faulty('channel', 's/nu = 0.01/nu = 0.01; gravity = (0, -9.81)/', r'walls.\[1\].pressure: .*9.81 Pa more', 'sph')
 faulty('channel', 's/"inflow"; velocity = (1, 0)/"outflow"/; s/nu = 0.01/gravity = (1, 0)/', 'fluid.gravity: .*open ends x_min and x_max.*differ by 2 Pa', 'sph')
 faulty('channel', 's/max = (2, 1)/max = (0.4, 1)/', 'sph.dx: .*leave nothing of .* domain larger, or sph.dx finer', 'sph')
-faulty('channel', 's/{ side = "y_max"; }/{ side = "y_min"; }/', r'walls.\[3\]: .*has a wall already', 'sph')
+faulty('channel', 's/{ side = "y_max"; }/{ side = "y_min"; }/', r'walls.\[3\].side: y_min is wall 3 already: leave one out', 'sph')
 faulty('channel', 's/, { side = "y_max"; }//', 'domain: .*up to its side y_max', 'sph')
 faulty('sph', 's/nu = 0.005/gravity = (1, 0)/', 'fluid.gravity: 1 m.s^2 along the periodic x', 'sph')
 # water around a line or a body, up to sides that hold nothing
