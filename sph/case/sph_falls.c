@@ -156,6 +156,25 @@ static bool start_at(const struct scene *c, const struct exact *e, const struct 
     return true;
 }
 
+/* Sides, upright or above, that are open with water before them: it flows out there. */
+static void warn_beside(const struct scene *c, const struct fall_region *in, const double *x,
+                        const double *g, double dx, bool told[6])
+{
+    for (int side = 0; side < 2 * c->domain.dim; side++) {
+        const int a = side / 2;
+        const double sense = side % 2 ? 1.0 : -1.0, end = side % 2 ? in->hi[a] : in->lo[a];
+        double d[3] = {0.0, 0.0, 0.0};
+        d[a] = end + 1e-3 * sense * dx - x[a];
+        if (told[side] || fabs(d[a]) > dx || sense * g[a] > 0.0 || in->periodic[a] ||
+            in->open[side] || scene_wall_of(c, SIDE_X_MIN + side) || sph_falls_stopped(c, x, d))
+            continue;
+        told[side] = true;
+        log_warn("water stands against the side %s, which is open: it flows out there and is "
+                 "lost. If that is not meant give this side a wall",
+                 scene_side_names[side]);
+    }
+}
+
 /* Two passes over the same places: how many hold water, then FLIGHTS of them, evenly. */
 void sph_falls_warn(const struct run *r, const struct sph_params *used)
 {
@@ -171,8 +190,12 @@ void sph_falls_warn(const struct run *r, const struct sph_params *used)
     int most = 0;
     if (used->surface != SURFACE_YES || c->has_fv || scene_still_gravity(c, g) == 0.0)
         return;
+    bool told[6] = {false};
     for (int64_t k = 0; k < of.n; k++)
-        water += start_at(c, &e, &of, k, &p);
+        if (start_at(c, &e, &of, k, &p)) {
+            water++;
+            warn_beside(c, &in, p.x, g, used->dx, told);
+        }
     const int64_t every = 1 + water / FLIGHTS;
     water = 0;
     for (int64_t k = 0; k < of.n; k++) {

@@ -232,6 +232,12 @@ tells('sph', 's/every = 0.01/every = 1e-5/', 'output.every = 1e-05 s is far belo
 tells('sph', 's/dx = 0.02/dx = 0.02; c0 = 1500/', r'sph.c0 = 1500 m/s takes 1.5e.02 times the steps of 10 m/s')
 tells('sph', 's/dx = 0.02/dx = 0.02; R_dx = 1.6/', r'sph.R_dx = 1.6: particles have too few neighbours')
 tells('sph', 's/every = 0.01/checkpoint = 1e-5/', 'output.checkpoint = 1e-05 s is far below')
+# water that stands against a side without a wall: accepted, with a word; behind a line: without
+beside = 'water stands against the side x_min, which is open'
+edit('tank.cfg', 's/{ side = "x_min"; }, //; s/{ side = "y_max"; }/{ side = "x_min"; }/; s/^fv.*/sph: { dx = 0.05; };/', 'open.cfg')
+for wall, leaks in ('{ side = "x_min"; }', False), ('{ points = ((-0.1, 1.1), (0, 0.9), (0, 0)); }', False), ('{ side = "y_max"; }', True):
+    edit('open.cfg', 's/{ side = "x_min"; }/%s/' % wall)
+    holds(start('sph', 'case.cfg', '--check') == 0 and told(beside) == leaks, 'water beside x_min, ' + wall)
 # lengths in cm: accepted, with a word
 edit('tank.cfg', 's/gravity = (0, -9.81)/gravity = (0, -981)/')
 holds(start('fv', 'case.cfg', '--check') == 0 and told('fluid.gravity: 981 m/s^2 looks like cm/s^2') and told('run time'), 'gravity in cm/s^2')
