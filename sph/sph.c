@@ -148,7 +148,7 @@ static void describe_scene(const struct run *r)
     const double *g = r->scene.fluid.gravity;
     const bool gravity = g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0,
                viscous = r->scene.fluid.nu > 0.0;
-    const bool riemann = prm->scheme == SCHEME_RIEMANN_ALE || prm->scheme == SCHEME_RIEMANN;
+    const bool riemann = sph_params_is_riemann(prm->scheme);
     log_say("%dD, %s%s%s, %s%s%s%s", r->scene.domain.dim, schemes[prm->scheme], riemann ? ", " : "",
             riemann ? limiters[prm->limiter] : "", transports[prm->transport],
             riemann && prm->low_dissipation ? ", low dissipation" : "",

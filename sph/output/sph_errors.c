@@ -404,7 +404,7 @@ static void summarise_modules(const struct sph *s)
 {
     static const char *const limiters[] = {"koren", "minmod", "none"};
     static const char *const transports[] = {"tvs", "tvo", "none", "eulerian", "xsph"};
-    const bool riemann = s->prm.scheme == SCHEME_RIEMANN_ALE || s->prm.scheme == SCHEME_RIEMANN;
+    const bool riemann = sph_params_is_riemann(s->prm.scheme);
     const char *names[16];
     int n = 0;
     names[n++] = s->scheme->name;

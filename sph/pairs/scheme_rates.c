@@ -56,7 +56,7 @@ struct scheme scheme_pick(const struct sph *s)
 {
     static const char *const names[] = {"riemann_ale", "riemann", "delta", "standard"};
     const int scheme = s->prm.scheme, transport = s->prm.transport;
-    const bool riemann = scheme == SCHEME_RIEMANN_ALE || scheme == SCHEME_RIEMANN;
+    const bool riemann = sph_params_is_riemann(scheme);
     const bool diffusion = scheme == SCHEME_DELTA && s->prm.delta > 0.0;
     struct scheme passes = {.name = names[scheme], .slopes = riemann || diffusion};
     if (riemann || transport != TRANSPORT_NONE || s->walls || s->surface)

@@ -368,7 +368,7 @@ void mixed_check(const struct run *r, const struct sph_params *used, const struc
     refuse(r, f, c->domain.dim != 2, "apr.method", "this one is for 2D");
     refuse(r, f, r->size > 1, "apr.method", "this one runs on one rank");
     refuse(r, f, c->has_fv && c->has_sph, "apr.method", "this one is not for a coupled job");
-    refuse(r, f, used->scheme > SCHEME_RIEMANN, "sph.scheme",
+    refuse(r, f, !sph_params_is_riemann(used->scheme), "sph.scheme",
            "particles of mixed sizes need riemann or riemann_ale");
     refuse(r, f, used->transport != TRANSPORT_TVS && used->transport != TRANSPORT_NONE,
            "sph.transport", "particles of mixed sizes need tvs or none");

@@ -467,8 +467,7 @@ static void check_criteria(const struct run *r, const struct sph_params *used,
         const char *key = key_text("apr.criteria.[%d].kind", k);
         if (surface && used->surface != SURFACE_YES)
             params_fault(r->params, f, key, "the scene has no free surface");
-        if (is->kind == CRITERION_JUMP && used->scheme != SCHEME_RIEMANN_ALE &&
-            used->scheme != SCHEME_RIEMANN)
+        if (is->kind == CRITERION_JUMP && !sph_params_is_riemann(used->scheme))
             params_fault(r->params, f, key, "only the Riemann schemes reconstruct pressures");
     }
     double cells = 1.0;

@@ -8,6 +8,7 @@
  * standard, which need the shift to keep their order: 4e-4 c0 with U/4, 5e-3 without.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../pairs/sph_pairs.h"
+#include "../particles/sph_particles.h"
 #include "../walls/sph_walls.h"
 #include "surface.h"
 
@@ -149,7 +150,8 @@ void transport_finish(struct sph *s)
     const bool by_own =
         !s->packing && (oger || (s->surface && s->prm.scheme != SCHEME_RIEMANN_ALE));
     const double now = fmax(s->step.max_speed, s->nu / s->R);
-    const bool bounded = !s->packing && s->walls && !s->surface && s->prm.scheme <= SCHEME_RIEMANN;
+    const bool bounded =
+        !s->packing && s->walls && !s->surface && sph_params_is_riemann(s->prm.scheme);
     if (!oger && s->prm.transport != TRANSPORT_TVS)
         return;
     double *room = s->surface && s->surface->fades ? walls_rooms(s) : NULL;

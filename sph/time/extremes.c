@@ -83,7 +83,7 @@ static void learn(struct sph *s, const double *most, double signal)
     /* 0.1 c0 is the speed that a sound speed is chosen for; transport_finish bounds what comes of
      * it at walls. */
     const double speed = s->walls ? fmax(s->step.max_speed, s->nu / s->R) : most[MOST_RELATIVE];
-    const bool bounded = s->walls && s->prm.scheme <= SCHEME_RIEMANN;
+    const bool bounded = s->walls && sph_params_is_riemann(s->prm.scheme);
     s->step.shift_speed =
         bounded ? 0.1 * s->c0
                 : fmin(fmax(s->step.shift_speed, speed), (s->walls ? 0.1 : 0.2) * s->c0);

@@ -13,7 +13,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "runge_kutta.h"
 
-#include "../sph.h"
+#include "../particles/sph_particles.h"
 
 static const struct rk_stages rk4 = {.name = "rk4",
                                      .n = 4,
@@ -40,5 +40,5 @@ const struct rk_stages *stages_of(int integrator, int scheme)
 {
     if (integrator == INTEGRATOR_RK4)
         return &rk4;
-    return scheme <= SCHEME_RIEMANN ? &j3_upwind : &j3_central;
+    return sph_params_is_riemann(scheme) ? &j3_upwind : &j3_central;
 }

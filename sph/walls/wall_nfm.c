@@ -239,8 +239,7 @@ INLINE double wall_pressure(const struct sph *s, const struct seen *i, const dou
            (un < 0.0 ? held : near) * rho * eos_c(rho, s->rho0, s->c0, s->gamma) * un;
 }
 
-/* Both Riemann schemes come first in enum sph_scheme. */
-static bool is_riemann(const struct sph *s) { return s->prm.scheme <= SCHEME_RIEMANN; }
+static bool is_riemann(const struct sph *s) { return sph_params_is_riemann(s->prm.scheme); }
 
 /* Whether the wave to a piece counts in full: of bodies alone, but tanks, it does not. Beside what
  * is at rest pairs of delta are too calm without it; in full it gave a disc of twelve particles

@@ -68,7 +68,7 @@ static const char *clump_remedy(const struct sph_params *prm)
 {
     if (prm->transport != TRANSPORT_TVS)
         return "particles clump: set sph.transport = \"tvs\"";
-    if (prm->scheme != SCHEME_RIEMANN && prm->scheme != SCHEME_RIEMANN_ALE)
+    if (!sph_params_is_riemann(prm->scheme))
         return "particles clump: take a Riemann scheme";
     return "particles clump, as in sheets of few particles: refine sph.dx";
 }
@@ -249,7 +249,7 @@ static const char *energy_remedy(const struct sph *s)
         return w->remedy[REMEDY_WALLS];
     if (w->of[SPH_WATCH_MACH].now > 0.3)
         return w->remedy[REMEDY_C0];
-    return w->remedy[s->prm.scheme <= SCHEME_RIEMANN ? REMEDY_DX : REMEDY_SCHEME];
+    return w->remedy[sph_params_is_riemann(s->prm.scheme) ? REMEDY_DX : REMEDY_SCHEME];
 }
 
 /* The work between two samples is the trapezoidal rule over the power of body forces, plus what
