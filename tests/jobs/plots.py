@@ -1,6 +1,7 @@
 # What cases/estran reads and draws of four runs: plots.py ROOT POOL CUBE JOB TANK. SPDX-License-Identifier: BSD-3-Clause
 import json
 import os
+import subprocess
 import sys
 from types import SimpleNamespace
 
@@ -41,6 +42,10 @@ try:
     raise AssertionError('a column that is not there')
 except KeyError as fault:
     assert 'only:' in str(fault)
+
+# a time beyond the run is told, not only drawn as the last snapshot
+late = subprocess.run([os.path.join(sys.argv[1], 'cases/plot'), sys.argv[2], 'pressure', '-t', '99'], capture_output=True, text=True, check=True)
+assert 'no snapshot at t = 99: there are those of t = 0 to 0.1' in late.stderr, late.stderr
 
 # a job: both programs in one object, at the same times, the snapshots hold the case's vortices
 assert sorted(job.programs) == ['fv', 'sph'] and job.column('sph.particles')[1][-1] > 3000
