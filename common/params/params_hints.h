@@ -29,8 +29,7 @@ void hint_nearest_try(struct hint_nearest *n, const char *known);
 /* The nearest word tried so far; NULL: none is near. */
 const char *hint_nearest_word(const struct hint_nearest *n);
 
-/* A name that other codes have for a key, and a remark to print behind the key; key NULL: there is
- * none, which the remark explains. */
+/* What other codes call a key, and a remark to print behind it; key NULL: only the remark. */
 struct hint_name {
     const char *word, *key, *remark;
 };

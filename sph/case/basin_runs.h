@@ -34,7 +34,7 @@ struct basins {
     struct basin_run *runs;
     int nlinks;
     struct basin_link *links;
-    int pockets, waters, wet, dry;
+    int pockets, wet, dry;
     int64_t lost;
     double where[3];
 };

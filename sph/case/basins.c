@@ -12,7 +12,6 @@
 #include "basin_runs.h"
 #include "basins_shut.h"
 #include "rooms.h"
-#include "sph_params.h"
 #include "surface_rows.h"
 
 /* Parts of fewer cells that walls cut off are no water that could flow. */
@@ -379,8 +378,7 @@ static int64_t *count_cells(struct basins *b)
     return cells;
 }
 
-/* Counts waters and pockets, and marks the runs of pockets; the largest part of all is never one.
- */
+/* Counts pockets and marks their runs; the largest part of all is never one. */
 static void drop_pockets(struct basins *b)
 {
     int64_t *cells = count_cells(b), most = 0;
@@ -407,7 +405,6 @@ static void drop_pockets(struct basins *b)
             continue;
         b->runs[r].dropped = cut[part];
         b->pockets += r == part && cut[part];
-        b->waters += r == part && !cut[part];
         b->lost += r == part && cut[part] ? cells[part] : 0;
     }
     FREE(cells, cut);

@@ -3,7 +3,6 @@
 
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
-#include "sph_params.h"
 #include "sph_sense.h"
 
 static const double least_parted = 0.02; /* of the water that shapes draw, behind partitions */

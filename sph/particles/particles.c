@@ -5,8 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../sph.h"
 
-#include "eos.h"
-
 /* The line that pads neighbour rows: outside every support and without volume, yet harmless in any
  * quotient. */
 static void set_dummy(struct particles *p, int dim)

@@ -51,7 +51,7 @@ struct wall_list {
     bool *parted;
     double (*cut)[2];
     /* 3D: triangles that were seen, by mesh; what a tree found; what is near a group */
-    int nframes, found_capacity;
+    int found_capacity;
     struct wall_frames *of3;
     int *found;
     struct wall_near *near;

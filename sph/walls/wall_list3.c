@@ -18,7 +18,6 @@ static void create_frames(const struct sph *s, struct wall_list *l)
 {
     const struct walls *w = s->walls;
     l->of3 = NEW_IN(l->owner, struct wall_frames, w->nmeshes);
-    l->nframes = w->nmeshes;
     for (int k = 0; k < w->nmeshes; k++) {
         const struct wall_mesh *m = w->meshes + k;
         struct wall_frames *f = l->of3 + k;

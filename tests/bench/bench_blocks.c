@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "../../fv/operators/mesh_ops.h"
-#include "../../fv/poisson/poisson.h"
 #include "../../fv/time/stages.h"
 #include "../unit/fv/mesh_case.h"
 #include "bench.h"

@@ -5,11 +5,9 @@
 #include <stdio.h>
 
 #include "../../common/base/timer.h"
-#include "../../sph/case/sph_state.h"
 #include "../../sph/output/sph_output.h"
 #include "../../sph/pairs/neighbours.h"
 #include "../../sph/pairs/vec.h"
-#include "../../sph/parallel/domain.h"
 #include "../../sph/time/integrate.h"
 #include "../../sph/time/runge_kutta.h"
 #include "../unit/sph/sph_case.h"

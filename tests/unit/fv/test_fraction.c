@@ -8,7 +8,6 @@
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"
 #include "../../../fv/surface/fraction.h"
-#include "../../../fv/surface/near_water.h"
 #include "../../../fv/time/surface_steps.h"
 #include "surface_case.h"
 

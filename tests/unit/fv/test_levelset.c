@@ -9,7 +9,6 @@
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/output/output.h"
 #include "../../../fv/poisson/poisson.h"
-#include "../../../fv/surface/near_water.h"
 #include "../../../fv/time/steps.h"
 #include "fv_restart.h"
 #include "surface_case.h"

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/time/newton.h"
 #include "mesh_case.h"
 #include "newton_case.h"

@@ -2,9 +2,7 @@
  * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/grid/overset.h"
-#include "../../../fv/output/output.h"
 #include "mesh_case.h"
 
 /* A box over the periodic square, turned by 30 degrees. */

@@ -3,7 +3,6 @@
 #include "../test.h"
 
 #include "../../../common/base/mem.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/parallel/domain.h"
 #include "../../../sph/time/integrate.h"

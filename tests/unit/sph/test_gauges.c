@@ -6,7 +6,6 @@
 
 #include "../../../common/run/crossing.h"
 #include "../../../common/scene/exact.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/probes.h"
 #include "../../../sph/time/integrate.h"
 #include "sph_case.h"

@@ -2,7 +2,6 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/particles/state_sums.h"

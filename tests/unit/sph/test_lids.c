@@ -2,7 +2,6 @@
  * ghosts do not depend on the order of axes. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "sph_case.h"
 

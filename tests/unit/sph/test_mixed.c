@@ -2,7 +2,6 @@
  * with: what holds for each of them. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/refinement/mixed.h"

@@ -2,7 +2,6 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/refinement/apr_params.h"
 #include "../../../sph/refinement/guards.h"

@@ -4,7 +4,6 @@
 #include "../test.h"
 
 #include "../../../common/scene/exact.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/refinement/apr_params.h"
 #include "../../../sph/time/integrate.h"

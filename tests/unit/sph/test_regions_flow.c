@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/refinement/criteria.h"
 #include "../../../sph/refinement/refinement.h"

@@ -5,7 +5,6 @@
 
 #include "../../../common/base/vec3.h"
 #include "../../../common/scene/scene_mesh.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/eos.h"
 #include "../../../sph/walls/walls.h"
 #include "../common/mesh_files.h"

@@ -2,7 +2,6 @@
  * does not count. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/shore.h"
 #include "../../../sph/time/integrate.h"
 #include "sph_case.h"

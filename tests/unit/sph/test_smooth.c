@@ -3,7 +3,6 @@
 #include "../test.h"
 
 #include "../../../common/scene/exact.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/particles/eos.h"
 #include "../../../sph/time/integrate.h"

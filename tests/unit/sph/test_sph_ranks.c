@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "../../../common/files/h5.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/open_boundaries/openings.h"
 #include "../../../sph/open_boundaries/zones.h"
 #include "../../../sph/output/sph_output.h"

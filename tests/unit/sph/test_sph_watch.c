@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include "../../../sph/bodies/bodies.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/walls.h"

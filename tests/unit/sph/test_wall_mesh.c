@@ -4,7 +4,6 @@
 #include "../test.h"
 
 #include "../../../common/scene/scene_mesh.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/walls/wall_share.h"
 #include "../../../sph/walls/walls.h"
 #include "sph_case.h"

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"

@@ -3,7 +3,6 @@
  * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/output/probes.h"
 #include "../../../sph/pairs/eigenvalue.h"
 #include "../../../sph/pairs/kernel.h"
