@@ -6,6 +6,7 @@
  * as long as the partners need. Handlers use only functions that are safe in them.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include <errno.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/time.h>
@@ -192,11 +193,13 @@ static const char *fault_name(int signal)
                               : "abort";
 }
 
-/* Says which fault it was and ends as it would have ended. */
+/* Says which fault it was and in which calls, and ends as it would have ended. */
 static void on_fault(int signal)
 {
+    void *calls[32];
     leave_note(fault_name(signal));
     PUT(STDOUT_FILENO, state.who, ": ", fault_name(signal), "\n");
+    backtrace_symbols_fd(calls, backtrace(calls, 32), STDOUT_FILENO);
     raise(signal); /* SA_RESETHAND: the default action now */
 }
 
@@ -219,7 +222,9 @@ static void install_stop(int signal)
  * with its core file. SA_RESTART: writes that a signal interrupts go on. */
 void signals_install(const char *program, int rank)
 {
+    void *call;
     snprintf(state.who, sizeof state.who, "%s rank %d", program, rank);
+    backtrace(&call, 1); /* the first one loads what it needs, which a handler must not */
     install_stop(SIGINT);
     install_stop(SIGTERM);
     install_stop(SIGUSR1);

@@ -92,6 +92,34 @@ static inline double wall_air_edge(const struct sph *s, const struct wall_list *
     return share * fmin(1.0, fmax(0.0, 10.0 * back / (all * s->dx)));
 }
 
+/* 0 to 1: how much of a particle that comes to the piece of touch t with u - uw goes past it,
+ * beside a convex edge of this share: all of it where it is dx/4 over what the edge has on its
+ * other side (a row runs at dx/2), unless it comes to that as well. */
+static inline double wall_air_past(const struct sph *s, const struct wall_list *l, int k,
+                                   const struct wall_touch *t, const double *u, const double *uw,
+                                   double edge, const int dim)
+{
+    double all = 0.0, over = 0.0, here = 0.0, there = 0.0;
+    for (const struct wall_touch *o = l->touch + l->first[k];
+         edge > 0.0 && o < l->touch + l->first[k + 1]; o++) {
+        double cosine = 0.0, comes = 0.0;
+        for (int a = 0; a < dim; a++) {
+            cosine += o->n[a] * t->n[a];
+            comes += (u[a] - uw[a]) * o->n[a];
+        }
+        const double turned = wall_touch_counts(o) * (1.0 - cosine);
+        all += turned;
+        over += turned * o->height;
+        there += turned * comes;
+    }
+    for (int a = 0; a < dim; a++)
+        here += (u[a] - uw[a]) * t->n[a];
+    if (!(all > 0.0) || !(here > 0.0))
+        return 0.0;
+    const double q = fmin(1.0, fmax(0.0, 4.0 * over / (all * s->dx)));
+    return edge * q * q * (3.0 - 2.0 * q) * fmin(1.0, fmax(0.0, 1.0 - there / (all * here)));
+}
+
 /* |u - uw|^2 along a wall of normal n, m^2/s^2. */
 static inline double wall_air_square(const double *u, const double *uw, const double *n, int dim)
 {

@@ -349,7 +349,10 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
     const bool film = i->film && wall_air_runs_along(s, square);
     const double near = wave * share_of_wave(s, t, i->streams, false),
                  held = wave * share_of_wave(s, t, i->streams, film);
-    double P = i->p + wall_pressure(s, i, t->is.e, near, held, uw, t->n, dim) - 2.0 * i->damped;
+    const double past = wall_air_past(s, l, k, t, i->u, uw, i->edge, dim);
+    across *= 1.0 - past;
+    double P = i->p + wall_pressure(s, i, t->is.e, (1.0 - past) * near, held, uw, t->n, dim) -
+               2.0 * i->damped;
     /* What walls do not hold: a drop under a roof falls, air comes between. */
     if (i->in_air && !wall_air_runs_along(s, square)) {
         P = fmax(P, 0.0);
