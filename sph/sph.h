@@ -41,6 +41,11 @@ struct list_state {
     bool ready;
     /* Prim and slope belong to y as well, and the next stage may take them as they are. */
     bool sloped;
+    /* -: the second moment of supports that scales friction of pairs, 1 in a continuum, on average
+     * of this list; 0: not known. Before that the sum, in units of 2^-36, and number of those that
+     * the first pass has met on this rank. kernel_sums.h */
+    double moment;
+    int64_t moments[2];
     bool pulled; /* what zones of waves want in this step is known: p.pull */
     bool broken; /* the state cannot be trusted: no list is made from it any more */
 };

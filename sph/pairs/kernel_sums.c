@@ -42,5 +42,31 @@ double kernel_lattice_sum(const struct sph *s) { return over_lattice(s, false); 
 
 double kernel_pair_viscosity(const struct sph *s)
 {
-    return s->nu > 0.0 ? s->rho0 * s->nu / over_lattice(s, true) : 0.0;
+    const double moment = s->lists.moment > 0.0 ? s->lists.moment : over_lattice(s, true);
+    return s->nu > 0.0 ? s->rho0 * s->nu / moment : 0.0;
+}
+
+/* Divided by a lattice's, friction of a disordered set erred by 0.1 to 1 %, whatever dx: vortices
+ * of Re 50 by 0.19 and 0.23 % with L = 50 and 100 dx, with the set's own by 0.05 and 0.06 %. Sums
+ * are of integers, so that no order of particles changes them. What is far from 1 is no support
+ * that the fluid fills. */
+static const double units = 0x1p36;
+
+void kernel_moment_add(struct sph *s, int i, double moment)
+{
+    const bool cut = s->list->beside[i] || (s->zones && s->p.zone[i] != ZONE_FREE);
+    if (cut || particles_is_guard(&s->p, i) || !(fabs(moment - 1.0) < 0.1))
+        return;
+    s->lists.moments[0] += llround(units * moment);
+    s->lists.moments[1]++;
+}
+
+void kernel_moment_learn(struct sph *s)
+{
+    int64_t *sums = s->lists.moments;
+    if (!kernel_moment_asked(s))
+        return;
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_INT64_T, MPI_SUM, s->run->comm);
+    s->lists.moment =
+        sums[1] > 0 ? (double)sums[0] / (units * (double)sums[1]) : over_lattice(s, true);
 }

@@ -290,6 +290,7 @@ INLINE void list_cell(struct sph *s, int cell, const int dim)
         l->count[i] = before + append(g, self + 1, g->near, x, reach2, j + before, &least, dim);
         l->busy[i] = l->count[i];
         l->whole[i] = l->count[i] + 1 >= enough;
+        l->beside[i] = false;
         if (vec_less(least, vec_all(close2)))
             add_close(s, i, close2);
         /* padding: a vector that starts at any entry, the last one included, reads dummies */
@@ -363,6 +364,7 @@ void neighbours_room(struct neighbours *l, int n)
     ROOM_IN(l, l->start, n + 1);
     ROOM_IN(l, l->count, n + 1);
     ROOM_IN(l, l->whole, n + 1);
+    ROOM_IN(l, l->beside, n + 1);
     ROOM_IN(l, l->tail, n + 1);
 }
 

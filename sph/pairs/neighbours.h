@@ -26,6 +26,7 @@ struct neighbours {
     bool spared; /* neighbours_spare has been called */
     int *j;
     unsigned char *whole; /* [n] so many neighbours that nothing of the support can be missing */
+    bool *beside;         /* [n] normal flux walls may cut the support; false until these say so */
     /* [n] rows in the order in which passes treat them: those whose lists hold locals only, the
      * others, the deep ones (ROLE_DEEP). NULL: as they are stored; so it is on one rank, where
      * ghosts need no wait, without deep rows. */

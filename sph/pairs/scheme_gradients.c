@@ -17,6 +17,7 @@
 #include "../surface/sph_surface.h"
 #include "eigenvalue.h"
 #include "kernel.h"
+#include "kernel_sums.h"
 #include "neighbours.h"
 #include "vec.h"
 
@@ -276,10 +277,11 @@ INLINE void shift(const struct sph *s, int i, double *delta, const double *u, co
 }
 
 /* Finishes particle i: writes grad rho, grad u and u0 to its slope record, M for surface detection
- * where that is under way, and the kernel sum of how filled its support is. */
-INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
-                        const struct gradient_sums *sum, int i, const int dim, const int transport,
-                        const bool velocity, const bool filled)
+ * where that is under way, and the kernel sum of how filled its support is; the trace of M over D.
+ */
+INLINE double write_slope(const struct sph *s, const struct gradient_constants *c,
+                          const struct gradient_sums *sum, int i, const int dim,
+                          const int transport, const bool velocity, const bool filled)
 {
     const double *u = prim_line(&s->p, i) + dim;
     double *slope = slope_line(&s->p, i), *u0 = slope + dim + dim * dim;
@@ -302,6 +304,7 @@ INLINE void write_slope(const struct sph *s, const struct gradient_constants *c,
             delta[a] = c->smoothed * t.n[a];
     for (int a = 0; a < dim; a++)
         u0[a] = transport == TRANSPORT_EULERIAN ? 0.0 : u[a] + delta[a];
+    return dim == 2 ? 0.5 * (t.M[0] + t.M[2]) : (t.M[0] + t.M[2] + t.M[5]) / 3.0;
 }
 
 /* One body for all laws of transport; constants in each instance drop what it does not need. */
@@ -318,6 +321,7 @@ INLINE void pass(struct sph *s, const int dim, const int transport, const bool v
                                          .W0 = kernel_w0(dim, R),
                                          .Wdx = kernel_w(dim, s->dx, R),
                                          .smoothed = kernel_w0(dim, R)}; /* 2 eps = 1 */
+    const bool asked = kernel_moment_asked(s);
     for (int k = l->begin; k < l->end; k++) {
         const int i = neighbours_row(l, k);
         const double *own = prim_line(&s->p, i);
@@ -330,7 +334,9 @@ INLINE void pass(struct sph *s, const int dim, const int transport, const bool v
             add(&c, own, s->p.prim, j, &near, &sum, dim, transport, velocity, filled);
             j += BATCH * LANES;
         }
-        write_slope(s, &c, &sum, i, dim, transport, velocity, filled);
+        const double moment = write_slope(s, &c, &sum, i, dim, transport, velocity, filled);
+        if (asked)
+            kernel_moment_add(s, i, moment);
     }
 }
 

@@ -325,6 +325,7 @@ void mixed_list(struct sph *s)
         l->count[i] = l->tail[i]; /* where the next goes: behind, before */
         l->tail[i] = 0;
         l->whole[i] = false;
+        l->beside[i] = false;
     }
     for (int k = 0; k < m->npairs; k++) {
         const int i = m->pair[k][0], j = m->pair[k][1];

@@ -64,6 +64,8 @@ void level_prepare(struct sph *s)
         volume_feedback_prepare(s);
     }
     s->lists.sloped = false;
+    s->lists.moment = 0.0;
+    memset(s->lists.moments, 0, sizeof s->lists.moments);
     s->lists.ready = true;
 }
 
@@ -165,6 +167,10 @@ void level_gradients(struct sph *s, bool shared)
     (s->mixed ? mixed_gradients : scheme_gradients(s->dim, s->prm.transport))(s);
     stop(s, shared ? "gradients" : "output");
     slopes_done(s);
+    if (shared)
+        kernel_moment_learn(s);
+    else /* made of what is imposed later, or over fewer pairs */
+        memset(s->lists.moments, 0, sizeof s->lists.moments);
     s->lists.sloped = shared;
 }
 
@@ -195,6 +201,7 @@ void level_rates(struct sph *s)
     if (s->scheme->gradients && !s->lists.sloped) {
         pass(s, s->scheme->gradients, "gradients", false, w ? w->lines : NULL);
         slopes_done(s);
+        kernel_moment_learn(s);
     }
     if (s->zones) {
         start(s, "zones");

@@ -50,6 +50,8 @@ static void list(struct sph *s)
 {
     struct nfm *m = s->walls->state;
     wall_list_build(s, &m->list);
+    for (int k = 0; k < m->list.n; k++)
+        s->list->beside[m->list.who[k]] = true;
     m->judged = false;
 }
 
