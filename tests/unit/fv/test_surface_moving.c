@@ -65,7 +65,7 @@ static double segment(double a, double l)
 TEST(a_body_at_rest_has_its_buoyancy)
 {
     static const double levels[2] = {0.0, 0.113};
-    for (int k = SANITIZED ? 1 : 0; k < 3; k++) {
+    for (int k = SANITIZED ? 2 : 0; k < 3; k++) {
         struct mesh_case c;
         const double level = levels[k % 2];
         struct fv *s = start(&c, MPI_COMM_WORLD, k == 2 ? short_one : half,

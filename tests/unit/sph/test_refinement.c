@@ -109,7 +109,7 @@ TEST(nested_boxes_and_space_are_exact)
         set_moving(s, U);
         for (const struct sph *q = s; q; q = q->finer)
             assert_true(flowing(q) > 0.0);
-        assert_true(sph_case_run(&c, dim == 2 ? 10 : 4, 100.0));
+        assert_true(sph_case_run(&c, SANITIZED ? 2 : dim == 2 ? 10 : 4, 100.0));
         assert_true(departure(s, U) < 1e-10);
         DROP(c.s);
     }
@@ -268,7 +268,7 @@ TEST(local_steps_are_as_good)
             apr_given.margin = 1.5;
             apr_given.local_steps = local;
             struct sph *s = sph_case_start(&c, NULL);
-            while (s->t < (SANITIZED ? 0.02 : 0.1))
+            while (s->t < (SANITIZED ? 0.006 : 0.1))
                 assert_true(sph_case_run(&c, 1, 0.1));
             double sums[SUM_COUNT];
             sph_sums(s, sums);
@@ -304,7 +304,7 @@ TEST(missing_children_are_born_again)
     refine(&c, 1, 0.1, 0.9);
     struct sph *s = sph_case_start(&c, NULL), *fine = s->finer;
     const double before = guards_of(fine);
-    assert_true(sph_case_run(&c, SANITIZED ? 6 : 40, 100.0));
+    assert_true(sph_case_run(&c, SANITIZED ? 3 : 40, 100.0));
     assert_true(guards_of(fine) == before); /* nothing is missing */
     int n = 0;
     for (int i = 0; i < fine->p.n; i++)
@@ -314,7 +314,7 @@ TEST(missing_children_are_born_again)
     fine->lists.ready = false;
     assert_true(guards_of(fine) < 0.85 * before);
     assert_true(
-        sph_case_run(&c, SANITIZED ? 20 : 100, 100.0)); /* one for each disc of R/2 in two steps */
+        sph_case_run(&c, SANITIZED ? 8 : 100, 100.0)); /* one for each disc of R/2 in two steps */
     const double after = guards_of(fine);
     print_message("guards: %.0f, %.0f after losses\n", before, after);
     if (!SANITIZED) {
