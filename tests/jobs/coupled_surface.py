@@ -41,7 +41,7 @@ def lifted(folder):
 
 # water at rest, SPH in the right half, a strip in the middle, and a level that no row of particles ends on
 water = open(root + '/cases/still_water_crossing/case.cfg').read()
-still = 'time.end=1.5 sph.dx=0.05 fv.cells=(32,11) output.snapshots=false '
+still = 'time.end=1 sph.dx=0.05 fv.cells=(32,11) output.snapshots=false '
 gauges = '''probes:  ( { name = "left"; kind = "level"; at = (1, 0); }, { name = "right"; kind = "level"; at = (3, 0); },
            { name = "edge"; kind = "level"; at = (2, 0); } );
 '''
@@ -50,7 +50,7 @@ job('right', water, still)
 job('strip', water, still + 'sph.box=((0.7,0),(3.3,1.4))')
 job('off', off, still)
 # the same in 3D, periodic along the side
-job('thick', water, 'time.end=1 output.snapshots=false domain.dim=3 domain.max=(4,1.4,0.8) domain.periodic=(false,false,true) '
+job('thick', water, 'time.end=0.6 output.snapshots=false domain.dim=3 domain.max=(4,1.4,0.8) domain.periodic=(false,false,true) '
     'fluid.gravity=(0,-1,0) sph.dx=0.1 sph.R_dx=3 fv.cells=(20,7,8) sph.box=((2,0,0),(4,1.4,0.8))', ranks='2:1:1')
 for folder in 'right', 'strip', 'off', 'thick':
     at_rest(folder)
@@ -234,7 +234,7 @@ probes:  ( { name = "a"; kind = "level"; at = (2, 0); }, { name = "b"; kind = "l
 '''
 wide = 'fv.cells=(80,14) domain.max=(8,1.4) output.snapshots=false '
 boxes = 'sph', 'sph_right'
-job('two', two, wide + 'time.end=1.5', boxes=boxes)
+job('two', two, wide + 'time.end=1', boxes=boxes)
 below('two: Mach in water at rest', number('two', 'max_mach'), 2e-3)
 keeps_water('two')
 for program, name in ('sph', 'a'), ('fv', 'b'), ('sph_right', 'c'):
@@ -310,7 +310,7 @@ def on_blocks(text, blocks):
 
 # on blocks: two joined ones whose seam lies in sph's box, turned cells under a box that moves, bdf2; a bed that rises
 # through both programs, which a side of fv's block follows; restart
-on = 'time.end=1.5 sph.dx=0.05 output.every=0.75 output.checkpoint=0.76 '
+on = 'time.end=1 sph.dx=0.05 output.every=0.5 output.checkpoint=0.51 '
 job('joined', on_blocks(water, '''{ name = "l"; cells = (20, 14); max = (2, 1.4); i_max = "joined"; },
     { name = "r"; cells = (20, 14); min = (2, 0); max = (4, 1.4); i_min = "joined"; }'''),
     on + 'sph.box=((0.8,0),(2.8,1.4))', ranks='1:1:2')
