@@ -169,8 +169,10 @@ static void goes_on_on_others(int dim, int steps)
 /* Written by all, read by one, and the other way. */
 TEST(other_ranks_go_on)
 {
+    if (SANITIZED) /* one rank: restart_is_exact of the walls runs the same lines */
+        skip();
     goes_on_on_others(2, 8);
     goes_on_on_others(3, 3);
 }
 
-TEST(other_ranks_go_on_with_open_sides) { goes_on_on_others(0, SANITIZED ? 8 : 20); }
+TEST(other_ranks_go_on_with_open_sides) { goes_on_on_others(0, SANITIZED ? 4 : 20); }
