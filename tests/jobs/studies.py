@@ -70,9 +70,8 @@ os.mkdir('empty')
 does('plot empty', 'no run here', fails=True)
 
 # a new case of each kind is sound as it stands
-for of in ('sph --body fixed', 'sph --body floating --gauges', 'sph --dim 3', 'fv --gauges', 'fv --dim 3', 'coupled --gauges',
-           'fv --body fixed', 'sph --waves --body floating', 'fv --dim 3 --waves --body fixed', 'coupled --waves --body floating',
-           'coupled --dim 3 --body floating'):
+for of in ('sph --body fixed --gauges', 'sph --dim 3', 'sph --waves --body floating', 'fv --gauges --body fixed', 'fv --dim 3 --waves --body fixed',
+           'coupled --gauges', 'coupled --waves --body floating', 'coupled --dim 3 --body floating'):
     does('new my/new --force -s ' + of)
     does('run my/new.cfg --check -o new')
 does('new my/new -s fv', fails=True)  # not over a file that is there
