@@ -241,19 +241,32 @@ void hint_keys(const struct param_group *g, char *text, size_t size)
 }
 
 /* Line `line', from 1, without its comment; no copy longer than size. */
-static const char *line_at(const char *text, int line, char *copy, size_t size)
+static char *line_at(const char *text, int line, char *copy, size_t size)
 {
+    bool quoted = false;
     for (int k = 1; k < line && text; k++) {
         text = strchr(text, '\n');
         text = text ? text + 1 : NULL;
     }
     const size_t n = text ? strcspn(text, "\n") : 0;
     snprintf(copy, size, "%.*s", (int)(n < size ? n : size - 1), text ? text : "");
-    copy[strcspn(copy, "#")] = '\0';
-    char *comment = strstr(copy, "//");
-    if (comment)
-        *comment = '\0';
+    for (char *c = copy; *c; c++) {
+        quoted = quoted != (*c == '"');
+        if (!quoted && (*c == '#' || strncmp(c, "//", 2) == 0)) {
+            *c = '\0';
+            break;
+        }
+    }
     return copy;
+}
+
+/* Puts letters in the place of what stands in quotes, which is no fault whatever it is. */
+static void hide_quoted(char *s)
+{
+    for (bool quoted = false; *s; s++) {
+        quoted = quoted != (*s == '"');
+        *s = quoted && *s != '"' ? 'q' : *s;
+    }
 }
 
 /* Whether a number is followed by a word: a unit. */
@@ -297,12 +310,11 @@ static bool has_bare_word(const char *s)
 /* 1.0.0 */
 static bool has_two_points(const char *s)
 {
-    bool quoted = false, number = false;
+    bool number = false;
     for (int points = 0; *s; s++) {
-        quoted = quoted != (*s == '"');
         number = isdigit((unsigned char)*s) || (number && *s == '.');
         points = number ? points + (*s == '.') : 0;
-        if (!quoted && points > 1)
+        if (points > 1)
             return true;
     }
     return false;
@@ -311,11 +323,9 @@ static bool has_two_points(const char *s)
 /* (0 -9.81) */
 static bool has_two_numbers(const char *s)
 {
-    bool quoted = false;
     for (; *s; s++) {
-        quoted = quoted != (*s == '"');
         const char *next = s + 1 + strspn(s + 1, " \t");
-        if (!quoted && (isdigit((unsigned char)*s) || *s == '.') && next > s + 1 &&
+        if ((isdigit((unsigned char)*s) || *s == '.') && next > s + 1 &&
             (isdigit((unsigned char)*next) || strchr("-+.", *next)) && *next)
             return true;
     }
@@ -337,13 +347,9 @@ static int open_vectors(const char *s)
 /* apr.levels = 1: a name with a point. */
 static bool has_dotted_name(const char *s)
 {
-    bool quoted = false;
-    for (const char *c = s; *c; c++) {
-        quoted = quoted != (*c == '"');
-        if (!quoted && *c == '.' && c > s && isalpha((unsigned char)c[-1]) &&
-            isalpha((unsigned char)c[1]))
+    for (const char *c = s; *c; c++)
+        if (*c == '.' && c > s && isalpha((unsigned char)c[-1]) && isalpha((unsigned char)c[1]))
             return true;
-    }
     return false;
 }
 
@@ -351,14 +357,12 @@ static const char OPEN_QUOTE[] = "a quote \" is opened and not closed";
 
 static const char *after_blanks(const char *s) { return s + strspn(s, " \t\r"); }
 
-/* The first mark, of those in a, whose next one is of those in b; quoted text is passed over. */
+/* Whether the mark after one of those in a is of those in b. */
 static bool has_marks(const char *s, const char *a, const char *b)
 {
-    bool quoted = false;
     for (; *s; s++) {
-        quoted = quoted != (*s == '"');
         const char next = *after_blanks(s + 1);
-        if (!quoted && strchr(a, *s) && next && strchr(b, next))
+        if (strchr(a, *s) && next && strchr(b, next))
             return true;
     }
     return false;
@@ -375,10 +379,8 @@ static bool has_open_quote(const char *s)
 /* side = x_min: a word that is no truth value and stands in no quotes. */
 static bool has_bare_text(const char *s)
 {
-    bool quoted = false;
     for (const char *c = s; *c; c++) {
-        quoted = quoted != (*c == '"');
-        if (quoted || !strchr("=:", *c))
+        if (!strchr("=:", *c))
             continue;
         const char *word = after_blanks(c + 1);
         const size_t n = strcspn(word, " \t\r;,}");
@@ -400,9 +402,12 @@ static bool has_no_colon(const char *s)
            strchr("{(", *after_blanks(end));
 }
 
-/* What is likely wrong in a line, most certain first; NULL: nothing that is known. */
-static const char *slip(const char *s)
+/* What is likely wrong in a line, most certain first; NULL: nothing that is known. Changes s. */
+static const char *slip(char *s)
 {
+    const bool is_open = has_open_quote(s);
+    const bool is_curved = strstr(s, "\xe2\x80\x9c") || strstr(s, "\xe2\x80\x9d");
+    hide_quoted(s);
     const char *open = strchr(s, '[');
     if (has_decimal_comma(s))
         return "decimal numbers take a point, as in 0.01";
@@ -414,11 +419,11 @@ static const char *slip(const char *s)
         return "numbers are plain SI, without a unit, as in 0.01";
     if (has_two_points(s))
         return "a number has one point";
-    if (has_open_quote(s))
+    if (is_open)
         return OPEN_QUOTE;
     if (has_dotted_name(s))
         return "a key within a group: fv: { cfl = 1.0; }; not fv.cfl = 1.0";
-    if (strstr(s, "\xe2\x80\x9c") || strstr(s, "\xe2\x80\x9d"))
+    if (is_curved)
         return "quotes are straight ones, \", not those of a text program";
     if (has_marks(s, "0123456789)", "*/+"))
         return "an expression stands in quotes, as in dx = \"0.3/15\"";

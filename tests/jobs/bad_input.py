@@ -119,6 +119,9 @@ faulty('sph', 's/min = (0, 0)/min = (0 0)/', 'case.cfg:4: .*comma is missing bet
 faulty('sph', 's/min = (0, 0)/min = (0, 0/', 'case.cfg:4: .*more ( than it closes', 'sph')
 faulty('sph', 's/dx = 0.02/dx = 0.02; apr.levels = 1/', 'case.cfg:6: .*within a group', 'sph')
 faulty('sph', 's/dx = 0.02/dx 0.02/', 'case.cfg:6: .*the line .sph:', 'sph')
+# what stands in quotes is neither a comment nor a fault
+faulty('sph', r's/^sph:.*/bodies: ( { outline = "a.svg#b"; free = yes; } );\nsph: { dx = 0.02; };/', 'case.cfg:6: .*truth values are true and false', 'sph')
+faulty('sph', r's/^sph:.*/bodies: ( { outline = "a, [b.c 1 2 = d"; free = true } { radius = 1; } );\nsph: { dx = 0.02; };/', 'case.cfg:6: .*comma is missing between two elements', 'sph')
 write('binary.cfg', '\0\1\2')
 says('binary.cfg: is not text', 'sph', 'binary.cfg', '-o', 'result')
 with open('wide.cfg', 'wb') as wide:
