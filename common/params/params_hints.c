@@ -240,33 +240,40 @@ void hint_keys(const struct param_group *g, char *text, size_t size)
         text_add(text, size, "%s%s", k ? ", " : "", g->rows[k].key);
 }
 
-/* Line `line', from 1, without its comment; no copy longer than size. */
-static char *line_at(const char *text, int line, char *copy, size_t size)
+/* A copy with blanks for comments (of #, //, or between marks) and, unless they are kept, for what
+ * stands in quotes, which end with their line: the same places. Owned by the caller. */
+static char *bare_copy(const char *text, bool keep_quoted)
 {
-    bool quoted = false;
+    enum { BARE, QUOTED, COMMENT, BLOCK } in = BARE;
+    char *bare = NEW(char, strlen(text) + 1);
+    memcpy(bare, text, strlen(text));
+    for (char *c = bare; *c; c++) {
+        const bool closes = in == BLOCK && *c == '/' && text[c - bare - 1] == '*';
+        if (closes || (in == QUOTED && *c == '"') || (in < BLOCK && *c == '\n'))
+            in = BARE;
+        else if (in == BARE)
+            in = *c == '"'                               ? QUOTED
+                 : *c == '#' || strncmp(c, "//", 2) == 0 ? COMMENT
+                 : strncmp(c, "/*", 2) == 0              ? BLOCK
+                                                         : BARE;
+        const bool shown = in == BARE || (in == QUOTED && (keep_quoted || *c == '"'));
+        *c = *c == '\n' || (shown && !closes) ? *c : ' ';
+    }
+    return bare;
+}
+
+/* Line `line', from 1; no copy longer than size. */
+static const char *line_at(const char *text, int line, char *copy, size_t size)
+{
     for (int k = 1; k < line && text; k++) {
         text = strchr(text, '\n');
         text = text ? text + 1 : NULL;
     }
-    const size_t n = text ? strcspn(text, "\n") : 0;
+    size_t n = text ? strcspn(text, "\n") : 0;
+    while (n > 0 && text[n - 1] == ' ')
+        n--;
     snprintf(copy, size, "%.*s", (int)(n < size ? n : size - 1), text ? text : "");
-    for (char *c = copy; *c; c++) {
-        quoted = quoted != (*c == '"');
-        if (!quoted && (*c == '#' || strncmp(c, "//", 2) == 0)) {
-            *c = '\0';
-            break;
-        }
-    }
     return copy;
-}
-
-/* Puts letters in the place of what stands in quotes, which is no fault whatever it is. */
-static void hide_quoted(char *s)
-{
-    for (bool quoted = false; *s; s++) {
-        quoted = quoted != (*s == '"');
-        *s = quoted && *s != '"' ? 'q' : *s;
-    }
 }
 
 /* Whether a number is followed by a word: a unit. */
@@ -336,11 +343,8 @@ static bool has_two_numbers(const char *s)
 static int open_vectors(const char *s)
 {
     int open = 0;
-    bool quoted = false;
-    for (; *s; s++) {
-        quoted = quoted != (*s == '"');
-        open += quoted ? 0 : (*s == '(') - (*s == ')');
-    }
+    for (; *s; s++)
+        open += (*s == '(') - (*s == ')');
     return open;
 }
 
@@ -402,12 +406,10 @@ static bool has_no_colon(const char *s)
            strchr("{(", *after_blanks(end));
 }
 
-/* What is likely wrong in a line, most certain first; NULL: nothing that is known. Changes s. */
-static const char *slip(char *s)
+/* What is likely wrong in a line s, most certain first; NULL: nothing that is known. all: the line
+ * with what stands in quotes. */
+static const char *slip(const char *s, const char *all)
 {
-    const bool is_open = has_open_quote(s);
-    const bool is_curved = strstr(s, "\xe2\x80\x9c") || strstr(s, "\xe2\x80\x9d");
-    hide_quoted(s);
     const char *open = strchr(s, '[');
     if (has_decimal_comma(s))
         return "decimal numbers take a point, as in 0.01";
@@ -419,11 +421,11 @@ static const char *slip(char *s)
         return "numbers are plain SI, without a unit, as in 0.01";
     if (has_two_points(s))
         return "a number has one point";
-    if (is_open)
+    if (has_open_quote(all))
         return OPEN_QUOTE;
     if (has_dotted_name(s))
         return "a key within a group: fv: { cfl = 1.0; }; not fv.cfl = 1.0";
-    if (is_curved)
+    if (strstr(all, "\xe2\x80\x9c") || strstr(all, "\xe2\x80\x9d"))
         return "quotes are straight ones, \", not those of a text program";
     if (has_marks(s, "0123456789)", "*/+"))
         return "an expression stands in quotes, as in dx = \"0.3/15\"";
@@ -443,33 +445,26 @@ static const char *slip(char *s)
 }
 
 /* First line of a group that is never closed; 0 if all are. */
-static int open_group(const char *text, char *name, size_t size)
+static int open_group(const char *bare, char *name, size_t size)
 {
     int lines[64], depth = 0, line = 1;
     const char *start[64];
-    bool comment = false, quoted = false;
-    for (const char *c = text; *c; c++) {
-        if (*c == '\n') {
-            line++;
-            comment = false;
-        } else if (!comment && *c == '"') {
-            quoted = !quoted;
-        } else if (!quoted && *c == '#') {
-            comment = true;
-        } else if (!quoted && !comment && *c == '{' && depth < 64) {
+    for (const char *c = bare; *c; c++) {
+        line += *c == '\n';
+        if (*c == '{' && depth < 64) {
             start[depth] = c;
             lines[depth++] = line;
-        } else if (!quoted && !comment && *c == '}' && depth > 0) {
+        } else if (*c == '}' && depth > 0) {
             depth--;
         }
     }
     if (depth == 0)
         return 0;
     const char *end = start[0];
-    while (end > text && !isalpha((unsigned char)end[-1]))
+    while (end > bare && !isalpha((unsigned char)end[-1]))
         end--;
     const char *begin = end;
-    while (begin > text && (isalnum((unsigned char)begin[-1]) || begin[-1] == '_'))
+    while (begin > bare && (isalnum((unsigned char)begin[-1]) || begin[-1] == '_'))
         begin--;
     snprintf(name, size, "%.*s", (int)(end - begin), begin);
     return lines[0];
@@ -477,9 +472,10 @@ static int open_group(const char *text, char *name, size_t size)
 
 /* libconfig often tells the line after the one at fault: that one is looked at first, then the one
  * before. */
-int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size)
+static int find_slip(const char *text, const char *bare, int line, const char *error, char *hint,
+                     size_t size)
 {
-    char copy[512], name[64];
+    char copy[512], without[512], name[64];
     *hint = '\0';
     if (strstr(error, "include") || strstr(error, "uplicate")) {
         line_at(text, line, copy, sizeof copy);
@@ -487,7 +483,8 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
         return line;
     }
     for (int k = line; k >= line - 1 && k > 0; k--) {
-        const char *what = slip(line_at(text, k, copy, sizeof copy));
+        const char *what =
+            slip(line_at(bare, k, without, sizeof without), line_at(text, k, copy, sizeof copy));
         if (what) {
             snprintf(hint, size, "%s", what);
             return k;
@@ -500,15 +497,24 @@ int hint_syntax(const char *text, int line, const char *error, char *hint, size_
         }
     if (strncmp(text, "\xef\xbb\xbf", 3) == 0)
         snprintf(hint, size, "an included file begins with a mark of UTF-8: save it without");
-    const int open = open_group(text, name, sizeof name);
+    const int open = open_group(bare, name, sizeof name);
     if (open > 0)
         snprintf(hint, size, "group `%s', opened at line %d, is not closed", name, open);
     const char *at = after_blanks(line_at(text, line, copy, sizeof copy));
+    const int vectors = open_vectors(line_at(bare, line, without, sizeof without));
     if (!*hint)
         snprintf(hint, size, "in or before the line `%s'%s", at,
-                 open_vectors(at) > 0   ? ", which opens more ( than it closes"
-                 : open_vectors(at) < 0 ? ", which closes more ( than it opens"
-                                        : "");
+                 vectors > 0   ? ", which opens more ( than it closes"
+                 : vectors < 0 ? ", which closes more ( than it opens"
+                               : "");
+    return line;
+}
+
+int hint_syntax(const char *text, int line, const char *error, char *hint, size_t size)
+{
+    char *without_comments = bare_copy(text, true), *bare = bare_copy(text, false);
+    line = find_slip(without_comments, bare, line, error, hint, size);
+    FREE(without_comments, bare);
     return line;
 }
 
@@ -527,26 +533,20 @@ const char *hint_no_text(const char *text, size_t n)
 /* Ten digits and more, bare: those of a real have a point, an exponent or an L behind. */
 int hint_long_integer(const char *text, char *word, size_t size)
 {
-    int line = 1;
-    bool comment = false, quoted = false;
-    for (const char *c = text; *c; c++) {
-        if (*c == '\n') {
-            line++;
-            comment = false;
-        } else if (*c == '"' && !comment) {
-            quoted = !quoted;
-        } else if (*c == '#' && !quoted) {
-            comment = true;
-        }
-        if (comment || quoted || !isdigit((unsigned char)*c))
+    int line = 1, found = 0;
+    char *all = bare_copy(text, false);
+    for (const char *c = all; *c && !found; c++) {
+        line += *c == '\n';
+        if (!isdigit((unsigned char)*c))
             continue;
         const size_t n = strspn(c, "0123456789");
-        const bool bare = c == text || !(isalnum((unsigned char)c[-1]) || strchr("._", c[-1]));
+        const bool bare = c == all || !(isalnum((unsigned char)c[-1]) || strchr("._", c[-1]));
         if (bare && n >= 10 && (!c[n] || !strchr(".eEL", c[n]))) {
             snprintf(word, size, "%.*s", (int)n, c);
-            return line;
+            found = line;
         }
         c += n - 1;
     }
-    return 0;
+    mem_free(all);
+    return found;
 }

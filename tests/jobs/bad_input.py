@@ -808,6 +808,13 @@ if os.getuid() == 0 and shutil.which('setpriv') and run(*other, 'test', '-r', 's
     says('result/deep, or write in it: Permission denied', 'env', 'OMPI_MCA_orte_tmpdir_base=/tmp', *other, b + '/sph', 'sph.cfg', '-o', 'result/deep')
     says('mine.cfg cannot be read: no permission', *other, root + '/cases/run', 'mine.cfg')
 
+# what is no fault: numbers and brackets in comments of every kind
+noted = 'format = 1; // doi 12345678901 {\n/* { 12345678901 " */\n# 12345678901 { "\n'
+edit('sph.cfg', '1d', 'rest.cfg')
+write('noted.cfg', noted + open('rest.cfg').read())
+holds(start('sph', 'noted.cfg', '--check') == 0, 'noted.cfg is refused')
+write('noted.cfg', noted + open('rest.cfg').read().replace('dx = 0.02; };', 'dx = 0.02;'))
+holds(start('sph', 'noted.cfg', '--check') == 2 and told('noted.cfg:.*group .sph., opened at line 8, is not closed'), 'noted.cfg, not closed')
 # what is no fault: a mark of UTF-8, ends of lines of other systems, tabs, all on one line
 sound = open('sph.cfg').read()
 with open('marked.cfg', 'w', newline='') as marked:
