@@ -29,25 +29,97 @@ int scene_still_axis(const struct scene *s)
     return axis;
 }
 
-/* Whether an edge of a body lies on the plane x_a = at and covers lo to hi of the other axis. */
-static bool is_held(const struct scene *s, int a, double at, double lo, double hi)
+/* Whether the wall is a line that keeps all water where it is: closed, with the fluid inside, or
+ * around all shapes, with two ends that are as high as they are. lo, hi: its bounds, m. */
+static bool is_basin(const struct scene *s, const struct scene_wall *w, double lo[3], double hi[3])
 {
-    const double near = 1e-6 * (hi - lo);
+    const struct line l = line_of(&w->points, w->closed);
+    if (w->side != SIDE_NONE || l.n < 3)
+        return false;
+    outline_bounds(l.n, l.x, lo, hi);
+    if (w->closed)
+        return line_area(&l) > 0.0;
+    const double ends = fmin(scene_height(s, l.x[0]), scene_height(s, l.x[l.n - 1]));
+    bool all = s->nshapes > 0;
+    for (int k = 0; k < s->nshapes; k++) {
+        double from[3], to[3], x[3] = {0.0};
+        scene_shape_extent(s->shapes + k, from, to);
+        for (int i = 0; i < 4; i++) {
+            x[0] = i & 1 ? from[0] : to[0];
+            x[1] = i & 2 ? from[1] : to[1];
+            const double near = 1e-9 * (hi[0] - lo[0] + hi[1] - lo[1]);
+            all = all && scene_height(s, x) <= ends + near && x[0] >= lo[0] - near &&
+                  x[0] <= hi[0] + near && x[1] >= lo[1] - near && x[1] <= hi[1] + near;
+        }
+    }
+    return all;
+}
+
+void scene_basin(const struct scene *s, double lo[3], double hi[3])
+{
+    double from[3], to[3];
+    int n = 0;
+    memcpy(lo, s->domain.min, sizeof s->domain.min);
+    memcpy(hi, s->domain.max, sizeof s->domain.max);
+    for (int k = 0; k < s->nwalls && s->domain.dim == 2; k++)
+        if (is_basin(s, s->walls + k, from, to) && ++n == 1)
+            for (int a = 0; a < 2; a++) {
+                lo[a] = fmax(s->domain.min[a], from[a]);
+                hi[a] = fmin(s->domain.max[a], to[a]);
+            }
+    for (int a = 0; a < 2 && n > 1; a++) { /* which of them has the water? */
+        lo[a] = s->domain.min[a];
+        hi[a] = s->domain.max[a];
+    }
+}
+
+/* The farthest place along the other axis up to which a body that is not free, from `to' on, has an
+ * edge on the plane x_a = at. */
+static double held_to(const struct scene *s, int a, double at, double to, double near)
+{
+    double far = to;
     for (int k = 0; k < s->nbodies; k++) {
         const struct param_points *p = &s->bodies[k].points;
         for (int i = 0; i < p->n && !s->bodies[k].free; i++) {
-            const double *from = p->x[i], *to = p->x[(i + 1) % p->n];
-            if (fabs(from[a] - at) <= near && fabs(to[a] - at) <= near &&
-                fmin(from[1 - a], to[1 - a]) <= lo + near &&
-                fmax(from[1 - a], to[1 - a]) >= hi - near)
-                return true;
+            const double *from = p->x[i], *end = p->x[(i + 1) % p->n];
+            if (fabs(from[a] - at) <= near && fabs(end[a] - at) <= near &&
+                fmin(from[1 - a], end[1 - a]) <= to + near)
+                far = fmax(far, fmax(from[1 - a], end[1 - a]));
         }
     }
-    return false;
+    return far;
+}
+
+/* The same of the water of another shape on the side `out', 1 or -1, of that plane. */
+static double borne_to(const struct scene *s, const struct scene_shape *h, int a, double at,
+                       double to, double near)
+{
+    double far = to;
+    const double out = at == h->box[0][a] ? -2.0 * near : 2.0 * near;
+    for (const struct scene_shape *q = s->shapes; q < s->shapes + s->nshapes; q++) {
+        double x[3] = {0.0};
+        x[a] = at + out;
+        x[1 - a] = to + 2.0 * near;
+        if (q != h && !q->hole && q->form == SHAPE_BOX && scene_in_shape(s, q, x))
+            far = fmax(far, q->box[1][1 - a]);
+    }
+    return far;
+}
+
+/* Whether a face of a box, in 2D, on the plane x_a = at ends on bodies and on water all along. */
+static bool is_held(const struct scene *s, const struct scene_shape *h, int a, double at)
+{
+    const double hi = h->box[1][1 - a], near = 1e-6 * (hi - h->box[0][1 - a]);
+    double to = h->box[0][1 - a], before = -INFINITY;
+    while (to < hi - near && to > before) {
+        before = to;
+        to = fmax(held_to(s, a, at, to, near), borne_to(s, h, a, at, to, near));
+    }
+    return to >= hi - near;
 }
 
 /* Whether the shape is water at rest: a box must fill the section below its top, from side to side
- * or to bodies that hold it. */
+ * or to bodies that hold it, or to other boxes, which must be at rest, too. */
 bool scene_is_level(const struct scene *s, const struct scene_shape *h)
 {
     const int up = scene_still_axis(s);
@@ -55,18 +127,17 @@ bool scene_is_level(const struct scene *s, const struct scene_shape *h)
         return false;
     if (h->form != SHAPE_BOX || up < 0)
         return h->form == SHAPE_BELOW;
-    double g[3];
+    double g[3], min[3], max[3];
     const double size = scene_still_gravity(s, g);
     bool level = fabs(g[up]) > (1.0 - 1e-9) * size;
+    scene_basin(s, min, max);
     for (int a = 0; a < s->domain.dim && level; a++) {
-        const double lo = s->domain.min[a], hi = s->domain.max[a], near = 1e-9 * (hi - lo);
-        const int b = 1 - up;
-        const bool flat = s->domain.dim == 2 && a == b;
-        bool low = h->box[0][a] <= lo + near, high = h->box[1][a] >= hi - near;
-        if (flat && !low)
-            low = is_held(s, a, h->box[0][a], h->box[0][up], h->box[1][up]);
-        if (flat && !high)
-            high = is_held(s, a, h->box[1][a], h->box[0][up], h->box[1][up]);
+        const double near = 1e-9 * (max[a] - min[a]);
+        bool low = h->box[0][a] <= min[a] + near, high = h->box[1][a] >= max[a] - near;
+        if (s->domain.dim == 2 && !low)
+            low = is_held(s, h, a, h->box[0][a]);
+        if (s->domain.dim == 2 && !high)
+            high = is_held(s, h, a, h->box[1][a]);
         level = a != up ? low && high : g[up] < 0.0 ? low : high;
     }
     return level;

@@ -20,8 +20,11 @@ void scene_heights(const struct scene *s, double *low, double *high);
 /* Whether `at', or beyond periodic sides its image in the domain, lies inside a shape; h must be an
  * element of s->shapes. */
 bool scene_in_shape(const struct scene *s, const struct scene_shape *h, const double *at);
-/* Whether a shape's water is at rest under gravity from the start: all below a level, or a box on
- * the floor of the domain whose vertical faces are sides of the domain or faces of bodies. */
+/* Bounds of what can have water, m: the domain, in 2D the one line that keeps all of it. */
+void scene_basin(const struct scene *s, double lo[3], double hi[3]);
+/* Whether a shape's water is at rest under gravity from the start, if that of the others is: all
+ * below a level, or a box on the floor of the basin whose vertical faces are its sides, or, in 2D,
+ * faces of bodies or of other boxes, on which it may stand, too. */
 bool scene_is_level(const struct scene *s, const struct scene_shape *h);
 /* Height of the free surface of such a shape, m. */
 double scene_level(const struct scene *s, const struct scene_shape *h);

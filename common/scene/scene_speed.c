@@ -215,11 +215,13 @@ static void tank_box(const struct scene_body *b, double lo[3], double hi[3])
     }
 }
 
-/* Box around the tank or the meshes that hold the fluid, where no side of the domain does; else no
- * extent. */
+/* Box around the tank or the meshes that hold the fluid, where no side of the domain does, or
+ * around the line that does; else no extent. */
 static void room_of(const struct scene *s, double lo[3], double hi[3])
 {
     bool sides = !s->meshes, any = false;
+    if (s->domain.dim == 2)
+        scene_basin(s, lo, hi);
     for (int k = 0; k < s->nwalls; k++)
         sides = sides || s->walls[k].side != SIDE_NONE;
     for (int k = 0; !sides && k < s->meshes->n; k++) {

@@ -28,7 +28,7 @@ struct scene_speed {
 
 /* The largest of: the initial field with the velocity that carries it, velocities of shapes,
  * inflows (and what they make of a narrower outlet), moving walls, bodies, the fall of the water,
- * sqrt(2 g H) from its highest point to the domain's lowest (for waves from crest to trough, none
+ * sqrt(2 g H) from its highest point to its basin's lowest (for waves from crest to trough, none
  * where all water lies below one level), and what body forces along periodic axes and pressure
  * differences of openings reach within the run, limited by viscosity and Bernoulli's equation.
  * file: largest speed of bodies that follow a motion file, m/s; 0: none. spacing: smallest length

@@ -269,3 +269,35 @@ TEST(longest_wave_of_sound)
     s.walls[0] = (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_ABSORBING};
     assert_true(scene_speed_of(&s, 0.0, 0.0).across == 0.0);
 }
+
+/* Still water has the same speed, none but by its weight, whether it is drawn in one box or in
+ * several, in a tank of sides or of a line, which stands in a larger domain. */
+TEST(still_water_is_so_however_it_is_drawn)
+{
+    struct scene s = column(0.6);
+    s.shapes[0].box[1][0] = 2.0;
+    assert_true(strstr(scene_speed_of(&s, 0.0, 0.0).from, "static"));
+    const double still = speed_of(&s);
+    s.nshapes = 2;
+    s.shapes[1] = s.shapes[0];
+    s.shapes[0].box[1][0] = s.shapes[1].box[0][0] = 0.7; /* side by side */
+    assert_close(speed_of(&s), still, 1e-12);
+    s.shapes[1].box[1][1] = 0.5; /* lower */
+    assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 0.6), 1e-12);
+    s.shapes[0] = s.shapes[1] = (struct scene_shape){.box = {{0.0, 0.0}, {2.0, 0.6}}};
+    s.shapes[0].box[1][1] = s.shapes[1].box[0][1] = 0.2; /* on each other */
+    assert_close(speed_of(&s), still, 1e-12);
+    s.nwalls = 1;
+    s.walls[0].points =
+        (struct param_points){.n = 4, .x = {{0.0, 0.9}, {0.0, 0.0}, {2.0, 0.0}, {2.0, 0.9}}};
+    s.domain.min[0] = s.domain.min[1] = -0.5;
+    s.domain.max[0] = 2.5;
+    assert_close(speed_of(&s), still, 1e-12);
+    s.walls[0].closed = true;
+    assert_close(speed_of(&s), still, 1e-12);
+    s.shapes[0].box[1][0] = s.shapes[1].box[1][0] = 0.5; /* a column, down to the tank's floor */
+    assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 0.6), 1e-12);
+    s.walls[0].closed = false;
+    s.walls[0].points.x[3][1] = 0.3; /* it can run over that rim, and out */
+    assert_close(speed_of(&s), sqrt(2.0 * 9.81 * 1.1), 1e-12);
+}
