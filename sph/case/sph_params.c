@@ -22,7 +22,7 @@ static const struct param rows[] = {
     PARAM(P, R_dx, "-", "4.0", 1.5, 8.0, "radius of the kernel's support over dx"),
     PARAM(P, c0, "m/s", "0.0", 0.0, 1e6, "speed of sound; 0: ten times the largest speed expected in the scene, and density within 1 % at rest and in slow viscous flow"),
     PARAM(P, gamma, "-", "7.0", 1.0, 7.0, "exponent of the equation of state, 7 or 1", .comparison = true),
-    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, but riemann_ale beside inlets and outlets and where waves go on in fv; else riemann_ale"),
+    CHOICE(P, scheme, "riemann_ale|riemann|delta|standard|auto", "auto", "pair interaction: Riemann ALE (Vila), without mass flux (Leduc); delta-SPH (Antuono); artificial viscosity; auto: riemann with a free surface, but riemann_ale beside inlets and outlets and, without levels of refinement, where waves go on in fv; else riemann_ale"),
     CHOICE(P, riemann, "linear|exact", "linear", "Riemann problem of each pair of the Riemann schemes: linearised; for comparison solved exactly, by Newton's iteration, in twice the time",
           USED(NEED(ONE_SIZE, "only the Riemann schemes solve Riemann problems, and sets of several sizes (apr.method) the linear ones alone")), .comparison = true),
     CHOICE(P, limiter, "koren|minmod|none", "koren", "limiter of the reconstruction between particles",
