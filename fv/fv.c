@@ -52,6 +52,29 @@ static void say_forecast(const struct run *r, const struct fv_params *prm, doubl
 /* Cells a wave needs along its length and over its height. */
 static const double wave_points[2] = {12.0, 1.5};
 
+/* Doubles kept of a cell, about. */
+static int fields_of(const struct run *r)
+{
+    const int dim = r->scene.domain.dim;
+    return 4 + 6 * dim + (r->scene.fluid.nu > 0.0 ? 2 * dim : 0) + 4;
+}
+
+static void check(const struct run *r, struct faults *f)
+{
+    fv_params_check(r, f);
+    if (f->n > 0)
+        return;
+    const struct fv_params *prm = fv_params_of(r);
+    const int nblocks = prm->blocks.n;
+    double cells = 0.0;
+    for (int b = 0; b < (nblocks > 0 ? nblocks : 1); b++) {
+        const int *n = nblocks > 0 ? prm->blocks.of[b].cells : prm->cells;
+        cells += (double)n[0] * n[1] * (r->scene.domain.dim > 2 ? n[2] : 1);
+    }
+    run_check_memory(r, f, nblocks > 0 ? "blocks" : "fv.cells", cells, "cells",
+                     8.0 * cells * fields_of(r));
+}
+
 static void describe(const struct run *r)
 {
     const struct fv_params *prm = fv_params_of(r);
@@ -80,7 +103,6 @@ static void describe(const struct run *r)
     const struct step_limit step_most = limits_estimate(r, prm, h);
     const double dt = fmin(step_most.dt, r->scene.time.end);
     limits_warn(r, prm, fmax(h[0], fmax(h[1], d->dim > 2 ? h[2] : 0.0)));
-    const int fields = 4 + 6 * d->dim + (viscous ? 2 * d->dim : 0) + 4;
     const struct log_use uses[] = {
         {viscous, "implicit viscosity", NULL}, {water, "free surface (level set)", NULL},
         {walls, "walls and openings", NULL},   {prm->nboxes > 0, "blocked boxes", NULL},
@@ -100,7 +122,7 @@ static void describe(const struct run *r)
     }
     if (prm->graded[1] > 0.0)
         describe_rows(r);
-    log_say("%.0f cells, h %g m; about %.0f MB", cells, least, 8e-6 * cells * fields + 1.0);
+    log_say("%.0f cells, h %g m; about %.0f MB", cells, least, 8e-6 * cells * fields_of(r) + 1.0);
     if (prm->steady)
         return; /* marches in pseudo-time */
     if (step_most.by == LIMIT_NONE)
@@ -193,7 +215,7 @@ static struct program fv_program = {.name = "fv",
                                     .meshes = scene_meshes_read,
                                     .mesh_owners = 1u << MESH_OF_BODY,
                                     .complete = fv_scene_complete,
-                                    .check = fv_params_check,
+                                    .check = check,
                                     .describe = describe,
                                     .draw = draw,
                                     .create = create,
