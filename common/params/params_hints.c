@@ -144,6 +144,11 @@ static const struct hint_name names[] = {{"density", "rho", ""},
                                          {"depth", "level", ""},
                                          {"file", "mesh", " (STL, OBJ, PLY), `outline' in 2D"},
                                          {"fixed", "free", ": without it a body is fixed"},
+                                         {"dof", "lock", ": degrees of freedom taken out"},
+                                         {"spring", "lines", ""},
+                                         {"moorings", "lines", ""},
+                                         {"speed", "velocity", ""},
+                                         {"length", "beach", ": of the zone"},
                                          {"kernel", NULL,
                                           "the kernel is Wendland's C2; R_dx is "
                                           "its support over dx"},
@@ -193,6 +198,8 @@ static const struct hint_name values[] = {
     {"linear", "regular", ""},
     {"jonswap", "sea", ""},
     {"irregular", "sea", ""},
+    {"sponge", "beach", ""},
+    {"damping", "beach", ""},
     {"periodic", NULL, "a period is domain.periodic"},
     {"piston", NULL, "a paddle is a body that moves, of motion.kind \"waves\""}};
 

@@ -260,6 +260,9 @@ picture = open('drawn/fv-scene.svg').read() if drawn else ''
 holds('>a<' in picture and 'no-slip wall' in picture, 'block.cfg is not drawn, or without its forecast')
 
 
+faulty('basin', 's/cells = (16, 16)/cells = (40000, 40000)/', 'fv.cells: 1.6e.09 cells are too many for 1 rank: at most 1e9 each', 'fv')
+
+
 # boxes that are cut out
 def box(words, change):
     """Basin with a box."""
