@@ -367,6 +367,8 @@ static void start_residual(const struct fv *s, int q, double c, const double *st
             memset(s->viscous->work[0][q], 0, (size_t)s->b.size * sizeof(double));
             blocked_add_slip(s, q, s->viscous->work[0][q]);
             helmholtz_add(s, -c, s->viscous->work[0][q], s->faces[0]);
+            if (s->surface) /* faces in air are no part of the system */
+                surface_zero(s, s->faces[0]);
         }
         sums[1] += helmholtz_dot(s, rhs, rhs);
         helmholtz_add(s, -1.0, s->faces[0], rhs);

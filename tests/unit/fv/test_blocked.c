@@ -156,6 +156,29 @@ TEST(boxes_are_walls)
         }
 }
 
+/* A drop falls, over a film at rest, beside a box in the air to which fluid sticks: what sticks
+ * there has no part in the friction of water, which is none. */
+TEST(boxes_in_air_rub_no_water)
+{
+    struct fv_case c;
+    const struct scene_shape drop = {
+        .form = SHAPE_DISC, .centre = {0.2955132286689605, 0.249, 0}, .radius = 0.0436952176863742};
+    const struct scene_shape film = {.form = SHAPE_BOX,
+                                     .box = {{0, 0.08, 0}, {0.54, 0.10428251190085225, 0}}};
+    BOX("post", WALL_SLIP, 0.36, 0.18, 0, 0.39, 0.24, 0);
+    BOX("other", WALL_NO_SLIP, 0.18, 0.18, 0, 0.21, 0.24, 0);
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){
+                    "fv.surface=\"yes\"", "initial.field=\"rest\"", "domain.periodic=(true,false)",
+                    "fluid.gravity=(0,-1)", "fluid.nu=2e-4", "domain.dim=2", "domain.min=(0,0.08)",
+                    "domain.max=(0.54,0.34)", "fv.cells=(18,13)", "fv.tol_viscous=1e-12",
+                    "fv.tol_pressure=1e-9", "fluid.rho=1000", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = film;
+    start_set(&c, &drop, WALL_SLIP);
+    assert_true(fv_case_run(&c, 4, 1.68));
+    end(&c);
+}
+
 /* A wall of one cell: no water and no pressure passes, whatever the stencils reach. */
 TEST(thin_wall_parts_basins)
 {
