@@ -121,7 +121,7 @@ asan:
 
 $(B)/system.h: Makefile
 	@mkdir -p $@.gch
-	@printf '#include <%s.h>\n' errno float limits math mpi signal stdarg stdbool stdint stdio stdlib string time unistd >$@
+	@printf '#include <%s.h>\n' errno float limits math mpi stdarg stdbool stdint stdio stdlib string >$@
 $(B)/system.h.gch/%: $(B)/system.h
 	@$(CC) $(CFLAGS) -$* -x c-header -c -o $@ $<
 

@@ -111,9 +111,29 @@ static void close_file(void *p)
         fclose(s->file);
 }
 
+/* The title of a column, owned by `owner': what is of the whole flow is in the plane per metre of
+ * depth. */
+static const char *title_of(void *owner, const char *column, int dim)
+{
+    static const char *const whole[][3] = {{"[J]", "[J/m]", "[J]"},
+                                           {"[kg]", "[kg/m]", "[kg]"},
+                                           {"[kg m/s]", "[N s/m]", "[kg m/s]"},
+                                           {"[m^dim]", "[m^2]", "[m^3]"},
+                                           {"[m^dim/s^2]", "[m^2/s^2]", "[m^3/s^2]"}};
+    const char *unit = strrchr(column, '[');
+    for (size_t k = 0; unit && k < sizeof whole / sizeof whole[0]; k++)
+        if (strcmp(unit, whole[k][0]) == 0) {
+            const size_t size = strlen(column) + 8;
+            char *title = mem_new_in(owner, size, 1);
+            snprintf(title, size, "%.*s%s", (int)(unit - column), column, whole[k][dim - 1]);
+            return title;
+        }
+    return column;
+}
+
 /* With `keep', but no file of an earlier run, a new one begins. */
-struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
-                             double t_restart)
+struct series *series_create(const char *path, int dim, int ncolumns, const char *const *columns,
+                             bool keep, double t_restart)
 {
     struct series *s = NEW(struct series, 1);
     mem_at_free(s, close_file);
@@ -121,10 +141,13 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
     require_names(ncolumns, columns);
     if (!path)
         return s;
+    const char **titles = mem_new_in(s, (size_t)ncolumns, sizeof *titles);
+    for (int k = 0; k < ncolumns; k++)
+        titles[k] = title_of(s, columns[k], dim);
     FILE *old = keep ? fopen(path, "r") : NULL;
     if (old) {
         fclose(old);
-        drop_later_rows(path, t_restart, ncolumns, columns, s->last, sizeof s->last);
+        drop_later_rows(path, t_restart, ncolumns, titles, s->last, sizeof s->last);
     }
     snprintf(s->path, sizeof s->path, "%s", path);
     s->file = fopen(path, old ? "a" : "w");
@@ -132,7 +155,7 @@ struct series *series_create(const char *path, int ncolumns, const char *const *
         disk_failed(path);
     setvbuf(s->file, NULL, _IOLBF, 0);
     if (!old)
-        write_header(s->file, ncolumns, columns);
+        write_header(s->file, ncolumns, titles);
     if (ferror(s->file))
         disk_failed(path);
     return s;

@@ -9,14 +9,16 @@
 
 /* an open series.csv: made by series_create; FREE closes it */
 struct series;
-/* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; two of the
- * same name end the run through abort_run(). keep: append to an existing file, without its rows
- * later than t_restart, s, and without a last row that is cut short; where its columns are others,
- * rows keep what they have by the names of these, nan in new ones, and where one is no more the
- * whole file stays as PATH.before-T. path NULL: nothing is written.
- * A file that cannot be written ends the run (disk_failed). */
-struct series *series_create(const char *path, int ncolumns, const char *const *columns, bool keep,
-                             double t_restart);
+/* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; units of
+ * what is of the whole flow, [J], [kg], [kg m/s], [m^dim], [m^dim/s^2], become those of a flow in
+ * the plane, per metre of depth, or in space: dim, 2 or 3. Two of the same name end the run through
+ * abort_run(). keep: append to an existing file, without its rows later than t_restart, s, and
+ * without a last row that is cut short; where its columns are others, rows keep what they have by
+ * the names of these, nan in new ones, and where one is no more the whole file stays as
+ * PATH.before-T. path NULL: nothing is written. A file that cannot be written ends the run
+ * (disk_failed). */
+struct series *series_create(const char *path, int dim, int ncolumns, const char *const *columns,
+                             bool keep, double t_restart);
 /* Writes a row with 12 digits, flushed at once; after a restart not one that is there already. */
 void series_row(struct series *s, const double *values);
 

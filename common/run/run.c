@@ -246,8 +246,8 @@ static void start_series(struct life *l)
     for (int k = 0; k < l->p->ncolumns; k++)
         columns[k + 2] = l->p->columns[k];
     files_path(r, "series.csv", path, sizeof path);
-    l->series = mem_own(l, series_create(r->rank == 0 ? path : NULL, l->p->ncolumns + 2, columns,
-                                         r->restart, r->t));
+    l->series = mem_own(l, series_create(r->rank == 0 ? path : NULL, r->scene.domain.dim,
+                                         l->p->ncolumns + 2, columns, r->restart, r->t));
     snprintf(path, sizeof path, "%s/%s.xdmf", r->dir, r->name);
     if (r->rank == 0)
         l->files.xdmf = mem_own(l, xdmf_create(path, r->restart, r->t * (1.0 + 1e-9)));

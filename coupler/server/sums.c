@@ -49,8 +49,8 @@ void sums_window(struct coupler *c)
         char path[1100];
         snprintf(path, sizeof path, "%s/series.csv", c->dir);
         s = c->sums = NEW(struct server_sums, 1);
-        s->file = mem_own(s, series_create(path, 1 + n, columns, c->command->restart,
-                                           window_start(c, c->window - 1)));
+        s->file = mem_own(s, series_create(path, c->scene.domain.dim, 1 + n, columns,
+                                           c->command->restart, window_start(c, c->window - 1)));
     }
     memcpy(s->now, row + 1, sizeof s->now);
     series_row(s->file, row);

@@ -26,7 +26,7 @@ assert found == {'a': 1, 'b': {'c': [1.5, 'xy'], 'd': True}, 'f': [{'g': -2}, {}
 assert pool.case['bodies'][0]['name'] == 'box' and pool.case['domain']['max'][0] == 2
 
 # series: names, units; the mass of the snapshot is that of the series
-assert pool.series['kinetic energy'].units == 'J' and pool.series['t'].units == 's'
+assert pool.series['kinetic energy'].units == 'J/m' and pool.series['t'].units == 's'
 part = pool.at()['sph']
 near(part.time, 0.1, 1e-12)
 near(1000 * np.asarray(part['volume'], float).sum(), pool.series['mass'][-1], 0.01 * pool.series['mass'][-1])

@@ -24,6 +24,9 @@ class Run:
         self.reason = next((line for line in words if re.search('diverged at|stopped|limit', line)), '')
         self.warned = ''.join(line for line in words if 'warning' in line)
         titles, *lines = [line.split(',') for line in self.text(directory, name + '/series.csv').splitlines()] or [[]]
+        # what is of the whole flow by one name, per metre of depth or not
+        whole = {'[J/m]': '[J]', '[kg/m]': '[kg]', '[N s/m]': '[kg m/s]', '[m^2]': '[m^dim]', '[m^3]': '[m^dim]', '[m^2/s^2]': '[m^dim/s^2]', '[m^3/s^2]': '[m^dim/s^2]'}
+        titles = [re.sub(r'\[[^]]*\]$', lambda unit: whole.get(unit[0], unit[0]), title) for title in titles]
         self.columns = {title: [figure(line[k]) for line in lines] for k, title in enumerate(titles)}
         self.t = next(iter(self.columns.values()), [])
         self.rows = len(lines)

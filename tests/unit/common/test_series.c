@@ -23,7 +23,7 @@ static const char *text(void)
 /* Rows of t = dt, 2 dt, ... up to n, from `first' on. */
 static void write_rows(bool keep, double t_restart, int first, int n, double dt)
 {
-    struct series *s = series_create(path, 3, columns, keep, t_restart);
+    struct series *s = series_create(path, 3, 3, columns, keep, t_restart);
     for (int k = first; k <= n; k++)
         series_row(s, (double[]){k * dt, dt, 0.1 * k});
     FREE(s);
@@ -37,9 +37,22 @@ TEST(a_row_has_its_columns)
     assert_string_equal(text(), "t [s],dt [s],Ma\n0.5,0.5,0.1\n");
 }
 
+TEST(amounts_are_per_metre_in_the_plane)
+{
+    static const char *const of[] = {"t [s]", "mass [kg]", "px [kg m/s]", "volume [m^dim]",
+                                     "enstrophy [m^dim/s^2]"};
+    for (int dim = 2; dim <= 3; dim++) {
+        FREE(series_create(path, dim, 5, of, false, 0));
+        assert_string_equal(text(), dim == 2 ? "t [s],mass [kg/m],px [N s/m],volume [m^2],"
+                                               "enstrophy [m^2/s^2]\n"
+                                             : "t [s],mass [kg],px [kg m/s],volume [m^3],"
+                                               "enstrophy [m^3/s^2]\n");
+    }
+}
+
 TEST(a_row_is_on_disk_at_once)
 {
-    struct series *s = series_create(path, 3, columns, false, 0);
+    struct series *s = series_create(path, 3, 3, columns, false, 0);
     series_row(s, (double[]){1, 2, 3});
     assert_string_equal(text(), "t [s],dt [s],Ma\n1,2,3\n");
     FREE(s);
@@ -66,11 +79,12 @@ TEST(a_restart_with_other_columns_keeps_values_by_name)
 {
     static const char *const others[] = {"t [s]", "dt [s]", "P [Pa]", "Ma"};
     write_rows(false, 0, 1, 2, 0.25);
-    struct series *s = series_create(path, 4, others, true, 0.25);
+    struct series *s = series_create(path, 3, 4, others, true, 0.25);
     series_row(s, (double[]){0.5, 0.25, 7.0, 0.2});
     FREE(s);
     assert_string_equal(text(), "t [s],dt [s],P [Pa],Ma\n0.25,0.25,nan,0.1\n0.5,0.25,7,0.2\n");
-    FREE(series_create(path, 3, others, true, 0.25)); /* without Ma, whose values stay elsewhere */
+    FREE(series_create(path, 3, 3, others, true,
+                       0.25)); /* without Ma, whose values stay elsewhere */
     assert_string_equal(text(), "t [s],dt [s],P [Pa]\n0.25,0.25,nan\n");
     char before[600];
     snprintf(before, sizeof before, "%s.before-0.25", path);
@@ -86,7 +100,7 @@ TEST(a_restart_without_an_old_file_begins_one)
 
 TEST(other_ranks_write_nothing)
 {
-    struct series *s = series_create(NULL, 3, columns, false, 0);
+    struct series *s = series_create(NULL, 3, 3, columns, false, 0);
     series_row(s, (double[]){1, 2, 3});
     FREE(s);
 }
@@ -165,7 +179,7 @@ TEST(a_long_header_survives_a_restart)
         row[k] = k;
     }
     for (int again = 0; again < 2; again++) {
-        struct series *s = series_create(path, MANY, list, again, 0.0);
+        struct series *s = series_create(path, 3, MANY, list, again, 0.0);
         row[0] = again; /* the time */
         series_row(s, row);
         FREE(s);
