@@ -161,6 +161,37 @@ static void meet_pressures(struct fv *s)
     pressure_start(s);
 }
 
+/* Mean over the cell at q of a velocity whose averages over its faces are q[0] and q[d]: of fourth
+ * order between two cells that flow, of third beside one that does. */
+static double mean_of_faces(const double *q, int64_t d, bool low, bool high)
+{
+    const double mean = 0.5 * (q[0] + q[d]);
+    return low && high ? (13.0 * (q[0] + q[d]) - q[-d] - q[2 * d]) / 24.0
+           : high      ? (5.0 * q[0] + 8.0 * q[d] - q[2 * d]) / 12.0
+           : low       ? (5.0 * q[d] + 8.0 * q[0] - q[-d]) / 12.0
+                       : mean;
+}
+
+/* Cells as their faces: psi of an inflow that starts at once bends at the inlet's own faces, and
+ * its gradient left the cells beside them with 4.9, 6.4, 4.0 of 5 m/s. */
+static void meet_faces(struct fv *s)
+{
+    const struct block *b = &s->b;
+    block_halo(b, b->dim, s->U);
+    for (int a = 0; a < b->dim; a++)
+        BLOCK_CELLS (b, i, j, k, c) {
+            const int at[3] = {i, j, k};
+            const int64_t d = b->stride[a];
+            const bool even = a != 1 || !b->rows;
+            const bool low = !block_has_side(b, 2 * a) || at[a] > 0;
+            const bool high = !block_has_side(b, 2 * a + 1) || at[a] < b->n[a] - 1;
+            if (!is_blocked(s, c))
+                s->u[a][c] = mean_of_faces(s->U[a] + c, d, even && low && !is_blocked(s, c - d),
+                                           even && high && !is_blocked(s, c + d));
+        }
+    sides_velocity(s, BC_GIVEN, s->u);
+}
+
 /* Blocks start from fluxes without divergence. So do uniform cells with an inflow that starts at
  * once, or boxes in the flow of the start, which push the whole fluid at once: the first step is
  * made for the speeds of that flow. A partner gives its cells later, and a surface's first stage
@@ -177,6 +208,8 @@ void fv_project_start(struct fv *s)
     memset(s->stages.psi[stage], 0, (size_t)s->size * sizeof(double));
     if (s->m)
         memset(s->stages.start[stage], 0, (size_t)s->size * sizeof(double));
+    if (!s->m)
+        meet_faces(s);
     measure(s);
     if (!s->m)
         set_limit(s);

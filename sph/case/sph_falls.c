@@ -156,7 +156,8 @@ static bool start_at(const struct scene *c, const struct exact *e, const struct 
     return true;
 }
 
-/* Sides, upright or above, that are open with water before them: it flows out there. */
+/* Upright sides that are open with water before them: it flows out there, unless the weight leans
+ * away from them. */
 static void warn_beside(const struct scene *c, const struct fall_region *in, const double *x,
                         const double *g, double dx, bool told[6])
 {
@@ -165,7 +166,8 @@ static void warn_beside(const struct scene *c, const struct fall_region *in, con
         const double sense = side % 2 ? 1.0 : -1.0, end = side % 2 ? in->hi[a] : in->lo[a];
         double d[3] = {0.0, 0.0, 0.0};
         d[a] = end + 1e-3 * sense * dx - x[a];
-        if (told[side] || fabs(d[a]) > dx || sense * g[a] > 0.0 || in->periodic[a] ||
+        const double lean = sense * g[a] / vec3_length(g);
+        if (told[side] || fabs(d[a]) > dx || lean > 0.0 || lean < -0.1 || in->periodic[a] ||
             in->open[side] || scene_wall_of(c, SIDE_X_MIN + side) || sph_falls_stopped(c, x, d))
             continue;
         told[side] = true;
