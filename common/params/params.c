@@ -213,38 +213,14 @@ static bool heads_columns(const char *name) { return *name && !strpbrk(name, ",;
 static void read_inner(struct params *p, const char *path, const struct param *r,
                        const config_setting_t *s, void *target, struct faults *f);
 
-static bool has_row(const struct param_group *g, const char *key)
-{
-    for (int k = 0; k < g->nrows; k++)
-        if (strcmp(g->rows[k].key, key) == 0)
-            return true;
-    return false;
-}
-
-/* The key of a group that an unknown one stands for, and what to say behind it; NULL: none, and the
- * remark, if there is any, why. */
-static const char *meant_key(const struct param_group *g, const char *key, const char **remark)
-{
-    *remark = "";
-    for (const struct hint_name *n = hint_name_next(key, NULL); n; n = hint_name_next(key, n))
-        if (!n->key || has_row(g, n->key)) {
-            *remark = n->remark;
-            return n->key;
-        }
-    struct hint_nearest n = hint_nearest_start(key);
-    for (int k = 0; k < g->nrows; k++)
-        hint_nearest_try(&n, g->rows[k].key);
-    return hint_nearest_word(&n);
-}
-
 /* Whether a group has the key under a wrong name: one fault, not two. */
 static bool is_misspelt(const struct param_group *g, const config_setting_t *group, const char *key)
 {
     for (int k = 0; group && k < config_setting_length(group); k++) {
         const char *name = config_setting_name(config_setting_get_elem(group, (unsigned)k));
-        if (!name || has_row(g, name))
+        if (!name || hint_has_key(g, name))
             continue;
-        const char *remark, *meant = meant_key(g, name, &remark);
+        const char *remark, *meant = hint_meant(g, name, &remark);
         bool same = meant && strcmp(meant, key) == 0;
         for (const struct hint_name *n = hint_name_next(name, NULL); n; n = hint_name_next(name, n))
             same = same || (n->key && strcmp(n->key, key) == 0);
@@ -305,12 +281,24 @@ static const struct param_group *group_with(const struct params *p, const char *
 {
     const struct param_group *home = NULL;
     for (int k = 0; k < p->ngroups; k++)
-        if (has_row(p->groups + k, key)) {
+        if (hint_has_key(p->groups + k, key)) {
             if (home)
                 return NULL;
             home = p->groups + k;
         }
     return home;
+}
+
+/* Tells which key of the group an unknown one stands for, or why there is none; false: no idea. */
+static bool tell_meant(struct faults *f, const char *place, const struct param_group *g,
+                       const char *key)
+{
+    const char *remark, *near = hint_meant(g, key, &remark);
+    if (near)
+        params_add_fault(f, place, "unknown key; did you mean `%s'%s?", near, remark);
+    else if (*remark)
+        params_add_fault(f, place, "unknown key; %s", remark);
+    return near || *remark;
 }
 
 /* In this order: a slip of the pen, a key of another group, else all that there are. */
@@ -321,18 +309,15 @@ static void find_unknown_keys(const struct params *p, const struct param_group *
     hint_keys(g, keys, sizeof keys);
     for (int k = 0; k < config_setting_length(group); k++) {
         const config_setting_t *s = config_setting_get_elem(group, (unsigned)k);
-        const char *key = config_setting_name(s), *near, *remark;
-        if (!key || has_row(g, key))
+        const char *key = config_setting_name(s);
+        if (!key || hint_has_key(g, key))
             continue;
         place_of(p, s, place, sizeof place, g->name, key);
         const struct param_group *home = group_with(p, key);
-        near = meant_key(g, key, &remark);
-        if (near)
-            params_add_fault(f, place, "unknown key; did you mean `%s'%s?", near, remark);
-        else if (*remark || home)
-            params_add_fault(f, place,
-                             *remark ? "unknown key; %s" : "unknown key; it is known in group `%s'",
-                             *remark ? remark : home->name);
+        if (tell_meant(f, place, g, key))
+            continue;
+        if (home)
+            params_add_fault(f, place, "unknown key; it is known in group `%s'", home->name);
         else
             params_add_fault(f, place, "unknown key; there are %s", keys);
     }
@@ -483,16 +468,14 @@ static void find_unknown_overrides(struct params *p, const char *const *others, 
                  *o->key ? "." : "", o->key);
         if (!g && !known_group(p, others, o->group)) {
             const char *near = nearest_group(p, others, o->group);
-            params_add_fault(f, place,
-                             near ? "unknown group; did you mean `%s'?"
-                             : strchr(o->group, '[')
-                                 ? "elements of a list are walls.[0].kind, with a point"
-                                 : "unknown group",
-                             near);
-        } else if (g && *o->key && !g->stride && !has_row(g, o->key) && !strstr(o->key, ".[")) {
-            const char *remark, *near = meant_key(g, o->key, &remark);
-            params_add_fault(f, place, near ? "unknown key; did you mean `%s'%s?" : "unknown key",
-                             near, remark);
+            const char *none = strchr(o->group, '[')
+                                   ? "elements of a list are walls.[0].kind, with a point"
+                                   : "unknown group";
+            params_add_fault(f, place, near ? "unknown group; did you mean `%s'?" : none, near);
+        } else if (g && *o->key && !g->stride && !hint_has_key(g, o->key) &&
+                   !strstr(o->key, ".[")) {
+            if (!tell_meant(f, place, g, o->key))
+                params_add_fault(f, place, "unknown key");
         } else if (g) {
             o->known = true; /* if some list has such an element and key, seen once it is read */
         }

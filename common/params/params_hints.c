@@ -240,6 +240,28 @@ void hint_choice(const char *choices, const char *word, char *text, size_t size)
     }
 }
 
+bool hint_has_key(const struct param_group *g, const char *key)
+{
+    for (int k = 0; k < g->nrows; k++)
+        if (strcmp(g->rows[k].key, key) == 0)
+            return true;
+    return false;
+}
+
+const char *hint_meant(const struct param_group *g, const char *key, const char **remark)
+{
+    *remark = "";
+    for (const struct hint_name *n = hint_name_next(key, NULL); n; n = hint_name_next(key, n))
+        if (!n->key || hint_has_key(g, n->key)) {
+            *remark = n->remark;
+            return n->key;
+        }
+    struct hint_nearest n = hint_nearest_start(key);
+    for (int k = 0; k < g->nrows; k++)
+        hint_nearest_try(&n, g->rows[k].key);
+    return hint_nearest_word(&n);
+}
+
 void hint_keys(const struct param_group *g, char *text, size_t size)
 {
     *text = '\0';

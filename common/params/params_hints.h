@@ -41,6 +41,10 @@ const struct hint_name *hint_name_next(const char *word, const struct hint_name 
  * word that is none of them, or is what other codes call so; else nothing. */
 void hint_choice(const char *choices, const char *word, char *text, size_t size);
 
+bool hint_has_key(const struct param_group *g, const char *key);
+/* The key of a group that an unknown one stands for, and what to say behind it; NULL: none, and the
+ * remark, if there is any, why. */
+const char *hint_meant(const struct param_group *g, const char *key, const char **remark);
 /* Writes the names of a group's keys, "a, b, c", to text[size]; cut if need be. */
 void hint_keys(const struct param_group *g, char *text, size_t size);
 

@@ -165,11 +165,10 @@ static void meet_pressures(struct fv *s)
  * order between two cells that flow, of third beside one that does. */
 static double mean_of_faces(const double *q, int64_t d, bool low, bool high)
 {
-    const double mean = 0.5 * (q[0] + q[d]);
     return low && high ? (13.0 * (q[0] + q[d]) - q[-d] - q[2 * d]) / 24.0
            : high      ? (5.0 * q[0] + 8.0 * q[d] - q[2 * d]) / 12.0
            : low       ? (5.0 * q[d] + 8.0 * q[0] - q[-d]) / 12.0
-                       : mean;
+                       : 0.5 * (q[0] + q[d]);
 }
 
 /* Cells as their faces: psi of an inflow that starts at once bends at the inlet's own faces, and
@@ -208,7 +207,7 @@ void fv_project_start(struct fv *s)
     memset(s->stages.psi[stage], 0, (size_t)s->size * sizeof(double));
     if (s->m)
         memset(s->stages.start[stage], 0, (size_t)s->size * sizeof(double));
-    if (!s->m)
+    else
         meet_faces(s);
     measure(s);
     if (!s->m)

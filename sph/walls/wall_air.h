@@ -100,8 +100,9 @@ static inline double wall_air_past(const struct sph *s, const struct wall_list *
                                    double edge, const int dim)
 {
     double all = 0.0, over = 0.0, here = 0.0, there = 0.0;
-    for (const struct wall_touch *o = l->touch + l->first[k];
-         edge > 0.0 && o < l->touch + l->first[k + 1]; o++) {
+    if (!(edge > 0.0)) /* as of most particles */
+        return 0.0;
+    for (const struct wall_touch *o = l->touch + l->first[k]; o < l->touch + l->first[k + 1]; o++) {
         double cosine = 0.0, comes = 0.0;
         for (int a = 0; a < dim; a++) {
             cosine += o->n[a] * t->n[a];
