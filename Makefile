@@ -18,7 +18,8 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-
 HDF5_CFLAGS = $(patsubst -I%,-isystem %,$(shell pkg-config --cflags hdf5-openmpi 2>/dev/null))
 HDF5_LIBS = $(shell pkg-config --libs hdf5-openmpi 2>/dev/null)
 SAN =
-CFLAGS = -std=c11 -D_GNU_SOURCE -g1 $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
+flags = -std=c11 -D_GNU_SOURCE -g1 $(OPT) $(WARN) $(HDF5_CFLAGS) -isystem /usr/include/hypre $(SAN)
+CFLAGS = $(flags)
 # links a test in a third of the time
 FAST_LD = $(if $(shell command -v ld.gold 2>/dev/null),-fuse-ld=gold)
 LIBS = $(HDF5_LIBS) -llapacke -lconfig -lmuparser -lm
@@ -62,10 +63,17 @@ $(B)/libcoupler.a: $(coupler_o)
 $(B)/lib%.a:
 	@rm -f $@; ar rcs $@ $^
 
-$(B)/o/%.o: %.c $(READ_ONCE)
+# System headers are read once for all files, a fifth of what a compile takes (tests/includes.py finds an include that is missing);
+# -O0 is for units
+$(B)/system.h: Makefile
+	@mkdir -p $@.gch
+	@printf '#include <%s.h>\n' errno float limits math mpi stdarg stdbool stdint stdio stdlib string >$@
+$(B)/system.h.gch/%: $(B)/system.h
+	@$(CC) $(flags) $(filter -O0,-$*) -x c-header -c -o $@ $<
+$(B)/o/%.o: %.c | $(B)/system.h.gch/OPT $(B)/system.h.gch/O0
 	@mkdir -p $(@D)
 	@echo "CC $@"
-	@$(CC) $(CFLAGS) $(if $(READ_ONCE),-include $(B)/system.h) -MMD -MP -c -o $@ $<
+	@$(CC) $(CFLAGS) -include $(B)/system.h -MMD -MP -c -o $@ $<
 ifneq ($(ASSIMP_LIBS),)
 $(B)/o/common/geometry/trimesh_read.o: CFLAGS += -DHAVE_ASSIMP $(patsubst -I%,-isystem %,$(shell pkg-config --cflags assimp))
 endif
@@ -113,17 +121,10 @@ $(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properti
 $(B)/o/tests/unit/%.o: CFLAGS += -O0 -DUNIT=$(basename $(@F))
 units: $(filter $(B)/tests/units $(B)/tests/toy%,$(tests_bin))
 tests: all $(tests_bin) $(mocks) $(examples) $(preloaded) $(B)/tests/properties_scene
-# (a pointer that overflows is one past memory, too). System headers are read once for all files, and nothing is warned of twice: a
-# quarter of this build. The programs are built without, which finds an include that is missing.
+# (a pointer that overflows is one past memory, too; nothing is warned of twice)
 asan:
-	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-Og -march=native -fno-math-errno" WARN=-w READ_ONCE='$$(B)/system.h.gch/Og $$(B)/system.h.gch/O0' \
+	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-Og -march=native -fno-math-errno" WARN=-w \
 	    SAN="-fsanitize=address,undefined -fno-sanitize=null,alignment,object-size,pointer-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer" units
-
-$(B)/system.h: Makefile
-	@mkdir -p $@.gch
-	@printf '#include <%s.h>\n' errno float limits math mpi stdarg stdbool stdint stdio stdlib string >$@
-$(B)/system.h.gch/%: $(B)/system.h
-	@$(CC) $(CFLAGS) -$* -x c-header -c -o $@ $<
 
 # ---- what a user types ---------------------------------------------------------------------------------
 deps:

@@ -79,6 +79,8 @@ done
 for name in $(grep -rhoE 'summary_(real|int|bool|text|texts)\([^,]+, *(key_text\()?"[a-zA-Z_0-9]+' --include='*.c' sph fv common | sed 's/.*"//' | sort -u); do
     grep -qE "^ .*\"$name\"" common/run/accept.c || bad "$name is missing in the first words of common/run/accept.c"
 done
+found=$(python3 tests/includes.py) || found=${found:-tests/includes.py failed}
+[ -z "$found" ] || bad "$found"
 found=$(find sph fv coupler common tests -name '*.[ch]' -exec grep -L 'SPDX-License-Identifier: BSD-3-Clause' {} +)
 [ -z "$found" ] || bad "no licence line: $found"
 found=$(ldd "$b/sph" "$b/coupler" | grep -i -E 'hypre|sundials')
