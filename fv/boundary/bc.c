@@ -411,6 +411,7 @@ void bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, void 
                               .a = d.a,
                               .in = d.in,
                               .wall = s->bc ? s->bc->wall[k] : NULL};
+        f.friction = f.wall ? f.wall->friction : 0.0;
         SIDE_PLACES (b, d, i, j, m, c) {
             f.cell = c;
             f.face = k % 2 ? c + b->stride[d.a] : c;

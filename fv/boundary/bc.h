@@ -35,6 +35,7 @@ struct side_face {
     int64_t face;                  /* place in U[a] */
     double once;                   /* -: share of it that no other block has */
     double flow_area;              /* makes a flow in m^dim/s of U there */
+    double friction;               /* bed friction c_f of a slip side */
     const struct scene_wall *wall; /* of the scene; NULL: a side of a block alone */
 };
 

@@ -31,6 +31,12 @@ void sides_visit(const struct fv *s, void (*visit)(const struct side_face *f, vo
 /* The same for the faces of free cells on boxes that are cut out. */
 void sides_visit_boxes(const struct fv *s, void (*visit)(const struct side_face *f, void *with),
                        void *with);
+/* Adds what the bed friction of slip walls takes of the cells beside them to N, the rate at which
+ * the velocity falls, m/s^2. */
+void sides_brake(const struct fv *s, double *const N[3]);
+/* Adds the force of that on the wet share of a face to sum, N, in 2D N/m. */
+void side_friction_force(const struct fv *s, const struct side_face *f, double share,
+                         double sum[4]);
 /* Flow through this rank's openings, m^dim/s: adds inflow minus outflow to sums[0] and inflow plus
  * outflow to sums[1], of each face the share of the cell inside that counts (in: offset one cell
  * inwards). */

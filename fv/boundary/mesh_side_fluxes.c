@@ -73,6 +73,7 @@ void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, 
     mesh_bc_share_faces(s);
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
+        const struct mesh_block *block = s->m->block + d->p->block;
         struct side_face f = {.kind = d->kind,
                               .part = d->p,
                               .body = d->body ? 1 + d->p->block : 0,
@@ -80,7 +81,8 @@ void mesh_bc_visit(const struct fv *s, void (*visit)(const struct side_face *f, 
                               .a = d->a,
                               .in = d->in,
                               .flow_area = 1.0,
-                              .wall = s->m->block[d->p->block].wall[d->k]};
+                              .wall = block->wall[d->k]};
+        f.friction = f.wall ? f.wall->friction : block->prm->friction;
         SIDE_PLACES (d, 0, i, j, at, c) {
             f.cell = c;
             f.face = c + d->face;

@@ -47,7 +47,7 @@ void fv_fault_sucks(const struct run *r, struct faults *f, const char *group, do
 void surface_check_hanging(const struct run *r, struct faults *f);
 
 /* mesh_params.c: the keys of a block. */
-enum { MESH_ROWS = 25 };
+enum { MESH_ROWS = 26 };
 extern const struct param mesh_rows_of[MESH_ROWS];
 /* What params_read fills from them: the blocks of the case in its order, and their number. */
 extern struct mesh_block_params mesh_given[MESH_BLOCKS_MAX];

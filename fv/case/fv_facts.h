@@ -32,6 +32,8 @@ bool mesh_stretch_fits(const void *run, const void *block);
 bool mesh_has_zones(const void *run, const void *block);
 /* blocks.velocity: a side is a wall or an inflow. */
 bool mesh_has_moving_side(const void *run, const void *block);
+/* blocks.friction: a side is slip. */
+bool mesh_has_bed(const void *run, const void *block);
 /* blocks.spin: each number belongs to a wall, of i_min or i_max. */
 bool mesh_spin_fits(const void *run, const void *block);
 

@@ -214,6 +214,11 @@ bool mesh_has_moving_side(const void *run, const void *block)
     return (void)run, mesh_block_has(block, MESH_WALL) || mesh_block_has(block, MESH_INFLOW);
 }
 
+bool mesh_has_bed(const void *run, const void *block)
+{
+    return (void)run, mesh_block_has(block, MESH_SLIP);
+}
+
 /* The third number has no wall. */
 bool mesh_spin_fits(const void *run, const void *block)
 {

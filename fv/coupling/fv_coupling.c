@@ -338,16 +338,6 @@ static void start_past(struct fv *s, double before)
             }
 }
 
-/* Of walls that both programs have. */
-static void tell_of_friction(const struct fv *s)
-{
-    const struct scene *c = &s->run->scene;
-    for (int w = 0; w < c->nwalls; w++)
-        if (c->walls[w].friction > 0.0)
-            log_say("walls.[%d].friction acts in the particles' part alone: in fv's the wall slips",
-                    w);
-}
-
 /* What cannot be coupled is refused here, by all programs at once; then what is given and taken is
  * declared, on the cells as they are. */
 void fv_coupling_create(struct fv *s)
@@ -377,7 +367,6 @@ void fv_coupling_create(struct fv *s)
     k->wish = s->m && k->of[0].fastest > 0.0 ? least_height(s) / k->of[0].fastest : INFINITY;
     if (s->surface)
         s->surface->forced = mem_own(s->surface, surface_forced_create(s));
-    tell_of_friction(s);
     declare(s, k);
     k->knows_mean = mean_velocity_is_known(s);
     k->course = mem_own(k, course_create(s, &k->patch, longest_memory(k)));

@@ -36,6 +36,7 @@ struct mesh_block_params {
     int zone;                                     /* block of a file, from 1 */
     int i_min, i_max, j_min, j_max, k_min, k_max; /* enum mesh_side */
     double velocity[3];                           /* m/s: of walls along themselves, of an inflow */
+    double friction;                              /* bed friction c_f of slip sides */
     int lid;        /* 0: all walls have the velocity; else the side that alone has it, from 1 */
     double spin[3]; /* rad/s: of the walls i_min, i_max about the centre */
     struct scene_motions motion; /* of the whole block, see mesh_motion.h */

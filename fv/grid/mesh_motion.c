@@ -222,6 +222,8 @@ static bool check_sides(const struct run *r, struct faults *f, const struct mesh
     if (slides)
         mesh_fault(r, f, m->block[k].prm, "velocity",
                    "walls of a block that moves have its velocity; turn them by spin");
+    if (b->prm->friction > 0.0)
+        mesh_fault(r, f, m->block[k].prm, "friction", "bed friction is that of a block at rest");
     return f->n == before;
 }
 

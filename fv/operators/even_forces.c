@@ -94,6 +94,7 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
         out * area * (wall_pressure(p, slip) + still_at(s, f, at, xi) + s->partners.pressure);
     for (int q = 0; q < b->dim; q++)
         sum[q] += area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s, q, f);
+    side_friction_force(s, f, share, sum);
 }
 
 /* The fluxes of energy, of pressure and of friction on the face: values there by the scheme's own

@@ -140,7 +140,7 @@ static double pressure_slope(const struct fv *s, const struct side_face *d, int6
                : face_pressure(s, d, t) - face_pressure(s, d, -t);
 }
 
-/* On a slip wall there is no friction: keeps the component of the force along S. */
+/* On a slip wall there is no viscous friction: keeps the component of the force along S. */
 static void keep_normal(const struct fv *s, const struct side_face *d, double *force)
 {
     double S[3];
@@ -188,6 +188,7 @@ void mesh_face_force(const struct fv *s, const struct side_face *d, double sum[4
     }
     if (d->kind == MESH_SLIP)
         keep_normal(s, d, force);
+    side_friction_force(s, d, share, force);
     x[2] = 0.0;
     double o[3];
     mesh_motion_now(m->block + d->part->block, m->block[d->part->block].prm->centre, o);

@@ -56,6 +56,7 @@ static void begin_born(struct fv *s, double *const N[3])
 void stage_convection(struct fv *s, double *const N[3])
 {
     s->ops->convection(s, N);
+    sides_brake(s, N);
     if (s->partners.born && s->t == s->partners.born_at)
         begin_born(s, N);
     if (s->moving)

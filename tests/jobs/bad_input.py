@@ -159,7 +159,7 @@ rough = r's/(true, true)/(true, false)/; s/"taylor_green"/"rest"/; s/^sph/walls:
 faulty('sph', rough + '; s/friction = 0.01/friction = -0.01/', 'walls.friction: -0.01', 'sph')
 faulty('sph', rough + '; s/friction/kind = "no_slip"; friction/', r'walls.\[0\].friction: .*bed friction is a slip wall', 'sph')
 faulty('sph', rough + '; s/dx = 0.02/dx = 0.02; walls = "ghosts"/', r'walls.\[0\].friction: mirrored ghosts', 'sph')
-faulty('fv', rough, r'walls.\[0\].friction: is not used: fv has no bed friction', 'fv')
+faulty('fv', rough + '; s/fv: {/fv: { integrator = "newton";/', r'walls.\[0\].friction: is not used: newton has no bed friction', 'fv')
 faulty('fv', 's/cells = (16, 16)/cells = (16, 2)/', 'fv.cells: ', 'fv')
 faulty('fv', 's/cells = (16, 16)/cells = (16, 16); graded = (0.5, 8)/', 'case.cfg:6: fv.graded: y is periodic', 'fv')
 faulty('fv', 's/cells = (16, 16)/cells = (16, 16); graded = (0.9, 6)/; s/(true, true)/(true, false)/', 'fv.graded: layers grow by', 'fv')
