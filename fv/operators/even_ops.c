@@ -17,7 +17,7 @@ static bool smooth_pressure(struct fv *s)
 {
     if (!s->bc && !s->blocked)
         return false;
-    smooth_odd_even(s, s->p, s->faces[0], s->flux);
+    smooth_odd_even(s, SMOOTHED, s->p, s->faces[0]);
     return true;
 }
 

@@ -42,13 +42,11 @@ bool viscous_keeps_increment(const struct fv *s);
  * given p, or none for a variation of p. */
 void gradient(const struct fv *s, const double *q, int a, enum continuation c, double *out);
 
-/* smooth.c: removes an odd-even (checkerboard) mode from p, which the central gradient does not see
- * but the one-sided ones at the boundary do: p -= 0.1 C'C p/64 along each axis, C the third
- * difference within the fluid; p with its ghosts. d, sum: scratch. */
-void smooth_odd_even(const struct fv *s, double *p, double *d, double *sum);
-/* Under a surface, on uniform cells, where nothing but outputs reads p: this share of the mode, of
- * modes along several axes, too; d: scratch. Collective. */
-void smooth_wet(struct fv *s, double share, double *p, double *d);
+/* smooth.c: takes a share of an odd-even (checkerboard) mode off p, which the central gradient does
+ * not see but the one-sided ones at the boundary do: p -= share C'C p/64 along each axis, C the
+ * third difference within the fluid. d: scratch. Collective. */
+#define SMOOTHED 0.1 /* share that each step takes off its first pressure */
+void smooth_odd_even(struct fv *s, double share, double *p, double *d);
 
 /* even_forces.c: see face_force and face_power in flow_ops.h. */
 struct side_face;
