@@ -7,6 +7,7 @@
 
 #include "../boundary/fv_boundary.h"
 #include "extension_window.h"
+#include "fraction.h"
 #include "level_ops.h"
 #include "mesh_view.h"
 #include "near_water.h"
@@ -240,11 +241,27 @@ static bool may_slow(const struct fv *s, double h)
     return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_inclined(s);
 }
 
-/* By layer: extension_apply goes through them in this order. */
-static void list_carry(struct surface *f, int layer, const struct carry *x)
+/* Whether fluxes through the faces of water, of stencils along an axis, read cell c of the second
+ * layer; on blocks they read across, too. A drop is judged by what it had (keep_drop). */
+static bool is_read_ahead(const struct fv *s, int64_t c)
 {
+    const struct surface *f = s->surface;
+    bool any = s->m || (f->fraction && f->fraction->C[c] > 0.0);
+    for (int a = 0; a < s->dim && !any; a++) {
+        const unsigned char *l = f->layer + c;
+        const int64_t d = s->b.stride[a];
+        any = l[-2 * d] == 0 || l[-d] == 0 || l[d] == 0 || l[2 * d] == 0;
+    }
+    return any;
+}
+
+/* By layer: extension_apply goes through them in this order. */
+static void list_carry(const struct fv *s, int layer, const struct carry *x)
+{
+    struct surface *f = s->surface;
     ROOM_IN(f, f->carry[layer], f->ncarry[layer] + 1);
-    f->carry[layer][f->ncarry[layer]++] = *x;
+    f->carry[layer][f->ncarry[layer]] = *x;
+    f->carry[layer][f->ncarry[layer]++].ahead = layer != 2 || is_read_ahead(s, x->cell);
 }
 
 /* Whether there is little water in the window, and cells behind a side: on lines of cells that bend
@@ -292,7 +309,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
     }
     x.slows = layer == 2 && may_slow(s, p.spacing);
     x.turns = is_film_on_wall(s, &p, layer);
-    list_carry(f, layer, &x);
+    list_carry(s, layer, &x);
 }
 
 /* Weights of a new pattern, by the first cell that has it. In the axes of the grid, without the
@@ -327,7 +344,7 @@ static void add_alike(struct fv *s, const struct part *part, int64_t c, int row,
     struct pattern *x = patterns_find(f, &f->patterns, &key);
     if (x->n < 0)
         learn(s, c, layer, &p, x);
-    list_carry(f, layer,
+    list_carry(s, layer,
                &(struct carry){.cell = c,
                                .first = x->first,
                                .n = x->n,

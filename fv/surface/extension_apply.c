@@ -235,7 +235,8 @@ void extension_apply(const struct fv *s, double *const u[3], enum extend how, in
         for (int l = 1; l <= last; l++) {
             grid_fill(&s->grid, s->dim, u);
             for (int64_t i = 0; i < f->ncarry[l]; i++)
-                carry_velocity(s, f->carry[l] + i, l, how, u);
+                if (how != EXTEND_FREE || last > STENCILS || f->carry[l][i].ahead)
+                    carry_velocity(s, f->carry[l] + i, l, how, u);
         }
 }
 

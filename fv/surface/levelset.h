@@ -39,6 +39,7 @@ struct carry {
     double slope;   /* weight of the normal derivative */
     bool slows;     /* layer 2: it may be much slower than its stencil, as films are */
     bool turns;     /* its values turn with the lines of cells */
+    bool ahead;     /* fluxes of water read it before a projection */
 };
 
 struct fraction;       /* water of each cell, fraction.h; NULL: phi is shifted as a whole */
