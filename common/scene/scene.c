@@ -252,6 +252,7 @@ static const struct param gauges_rows[] = {
     PARAM(P, probes, "-", NULL, 0, 0, "names of 2 to 8 level gauges along the waves, as \"w1 w2 w3\"; good places are 0, 0.1 and 0.27 wave lengths from the first, never half a length apart"),
     PARAM(P, from,   "s", "0.0", 0, 1e9, "from when waves are judged, over whole periods to the end; 0: the second half of the run"),
     PARAM(P, period, "s", "0.0", 0, 1e6, "of the waves; 0: that of the group waves"),
+    PARAM(P, depth,  "m", "0.0", 0, 1e6, "of the still water below the gauges, for the length of the waves there, as on a shelf; 0: that of the group waves"),
 };
 #undef P
 #define P struct scene_coupling

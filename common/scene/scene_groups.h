@@ -175,6 +175,7 @@ struct scene {
     struct scene_gauges {
         char name[PARAM_TEXT_SIZE], probes[PARAM_TEXT_SIZE];
         double from, period; /* s: start of the evaluation; period of the waves */
+        double depth;        /* m: below the gauges; 0: that of the waves */
     } gauges[GAUGES_MAX];
     int ngauges;
     /* Waves that sides of kind wave, or bodies with a motion of kind waves, make; scene_waves.h. */

@@ -32,7 +32,7 @@ walls: side "x_max" | points ((-1,-0.5),(1,-0.5)) | closed true | kind "no_slip"
     level_file "nowhere.txt" | discharge_file "nowhere.txt" | discharge 0.02 | mesh "other.stl"
     outline "other.csv" | scale 0.9 | rotate (0,0,20) | translate (0.05,0,0) | weld 5 | fluid_side "outside"
     flip true | thin true
-gauges: name other | probes "a b" | from 0.01 | period 0.3
+gauges: name other | probes "a b" | from 0.01 | period 0.3 | depth 0.5
 waves: kind sea | height 0.12 | length 1.2 | period 0.8 | depth 0.9 | direction 10.0 | at (0.2,0.1) | start 1.0
     current 0.1 | closed false | zone 0.4 | peak 2.0 | repeat 50.0 | seed 3 | order 1 | evolve hos
     file nowhere.swd | spread 8.0

@@ -100,8 +100,9 @@ static void write_sea(const char *path, const double *x, double R, double end)
 }
 
 /* What comes back of a sea, by a record that is longer than what it repeats itself after: its last
- * 20 s are taken, for their lines do not leak into each other. */
-static double of_sea(double R)
+ * 20 s are taken, for their lines do not leak into each other. waves, below: depths of the waves
+ * that are made and below the gauges, m; 0: the same. */
+static double of_sea(double R, double waves, double below)
 {
     const char *folder = unit_file("sea"); /* of its own: tests run beside each other */
     char path[400], spectrum[400];
@@ -111,11 +112,12 @@ static double of_sea(double R)
     *s = (struct scene){.has_waves = true, .nprobes = GAUGES, .ngauges = 1, .nshapes = 1};
     s->domain.dim = 2;
     s->fluid.gravity[1] = -9.81;
-    s->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = 0.16};
+    s->shapes[0] = (struct scene_shape){.form = SHAPE_BELOW, .level = waves};
     s->waves =
         (struct scene_waves){.kind = WAVE_SEA, .height = 0.01, .period = 0.9, .repeat = 20.0};
     s->waves.made.period = 0.9;
-    s->gauges[0] = (struct scene_gauges){.name = "tank", .probes = "a b c", .from = 18.0};
+    s->gauges[0] =
+        (struct scene_gauges){.name = "tank", .probes = "a b c", .from = 18.0, .depth = below};
     for (int g = 0; g < GAUGES; g++) {
         s->probes[g] = (struct scene_probe){.kind = PROBE_LEVEL, .at = {x[g], 0.17}};
         s->probes[g].name[0] = (char)('a' + g);
@@ -136,8 +138,15 @@ static double of_sea(double R)
 
 TEST(seas_are_told_apart_by_their_lines)
 {
-    assert_close(of_sea(0.0), 0.0, 0.01);
-    assert_close(of_sea(0.05), 0.05, 0.01);
+    assert_close(of_sea(0.0, 0.16, 0.0), 0.0, 0.01);
+    assert_close(of_sea(0.05, 0.16, 0.0), 0.05, 0.01);
+}
+
+/* Gauges on a shelf half as deep as where the waves are made. */
+TEST(waves_have_the_length_of_the_depth_below_their_gauges)
+{
+    assert_close(of_sea(0.05, 0.32, 0.16), 0.05, 0.01);
+    assert_true(of_sea(0.05, 0.32, 0.0) > 0.1);
 }
 
 /* Heights of a sum of two waves of 1 and 1.2 Hz: their beats; a sine has one height. The spectrum
