@@ -412,6 +412,8 @@ static void describe(const struct run *r)
     if (all >= 1.0)
         forecast_say("sph", r->scene.domain.dim,
                      all * pairs_of_particle(r) + PAIRS_OF_TOUCH * touches_of_meshes(r, n), steps);
+    else if (r->crossed)
+        log_say("sph.box is dry at the start: what runs in from fv becomes particles");
     else
         log_warn(
             "there is no water at the start, or walls and bodies leave it no place: lines have "

@@ -42,6 +42,10 @@ silent('times sph.dx')
 accepts('taylor_green', 'fv.cells=(150,150)', 'warning: fv.cells: cells of 0.00667 m are .* times sph.dx; below 1.5')
 accepts('box_in_waves', 'sph.scheme=auto', 'Riemann ALE')  # in waves of fv pressures fall without mass flux
 accepts('dam_break_crossing', '', 'Riemann ALE')
+# a box at the wall that a dam break will reach
+accepts(lib.changed(lib.TANK, shapes='{ form = "box"; box = ((0, 0), (0.3, 0.5)); }', fv='cells = (40, 40);', sph='dx = 0.02; box = ((0.4, 0), (1, 1));'),
+        '', 'sph.box is dry at the start')
+silent('no water at the start')
 accepts('waves_crossing')  # waves want their cells
 silent('times sph.dx')
 gain = '''format = 1;
