@@ -71,26 +71,31 @@ static double exact_kinetic(const struct sph *s)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i);
             const double x[3] = {y[0], y[1], s->dim == 3 ? y[2] : 0.0};
+            const double share = particles_share(q, y);
             double u[3];
             exact_point(&e, x, s->t, u, NULL, NULL);
-            for (int a = 0; a < s->dim && !particles_is_guard(&q->p, i); a++)
-                sum += 0.5 * y[at_mass(s->dim)] * u[a] * u[a];
+            for (int a = 0; a < s->dim; a++)
+                sum += 0.5 * share * y[at_mass(s->dim)] * u[a] * u[a];
         }
     return ranks_sum(s->run->comm, sum);
 }
 
-/* sum of w |curl u|^2/2, m^dim/s^2. Needs the gradients of the present state. own: each particle by
- * the share that no partner counts. Collective. */
+/* What particle i counts where levels meet; own: times the share that no partner counts. */
+static double share_of(const struct sph *s, int i, bool own)
+{
+    return particles_share(s, state_row(&s->p, s->p.y, i)) * (own ? zones_share(s, i) : 1.0);
+}
+
+/* sum of w |curl u|^2/2, m^dim/s^2. Needs the gradients of the present state. Collective. */
 static double enstrophy(const struct sph *s, bool own)
 {
     double sum = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
+            const double share = share_of(q, i, own);
             double w[3];
-            if (particles_is_guard(&q->p, i))
-                continue;
             sph_vorticity(q, i, w);
-            sum += 0.5 * (own ? zones_share(q, i) : 1.0) * prim_line(&q->p, i)[at_volume(s->dim)] *
+            sum += 0.5 * share * prim_line(&q->p, i)[at_volume(s->dim)] *
                    (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
         }
     return ranks_sum(s->run->comm, sum);
@@ -163,8 +168,7 @@ static double signal_now(const struct sph *s, const struct exact *e, bool own)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(dim)];
             const double u[3] = {y[dim] / m, y[dim + 1] / m, dim == 3 ? y[dim + 2] / m : 0.0};
-            if (!particles_is_guard(&q->p, i))
-                sum += (own ? zones_share(q, i) : 1.0) * m * exact_signal(e, y, u);
+            sum += share_of(q, i, own) * m * exact_signal(e, y, u);
         }
     return total(s, sum);
 }
@@ -182,7 +186,7 @@ void sph_tell(void *state, struct summary *report)
     for (const struct sph *q = s; q; q = q->finer)
         for (int i = 0; i < q->p.n; i++) {
             const double *y = state_row(&q->p, q->p.y, i), m = y[at_mass(dim)];
-            const double part = particles_is_guard(&q->p, i) ? 0.0 : zones_share(q, i);
+            const double part = share_of(q, i, true);
             water += part * m / s->rho0;
             for (int a = 0; a < dim; a++) {
                 kinetic += part * 0.5 * y[dim + a] * y[dim + a] / m;

@@ -1,8 +1,9 @@
 /* state_sums.c - conserved sums of the flow and its energies. Energy is kinetic + potential
  * (gravity, and the central force -W^2 x) + elastic, the work m int p/rho^2 d rho that Tait's law
- * stores from rho0 on. Sums run over all levels and ranks, guards left out; called for the series,
- * for drifts since the start and for watches.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * stores from rho0 on. Sums run over all levels and ranks; where two levels meet each particle
+ * counts by its share, guards too, so that no sum jumps as a row passes from one level to the next.
+ * Called for the series, for drifts since the start and for watches. SPDX-License-Identifier:
+ * BSD-3-Clause */
 #include "state_sums.h"
 
 #include "../sph.h"
@@ -38,29 +39,26 @@ static void add_sums(const struct sph *s, double sums[SUM_COUNT])
 {
     const int dim = s->dim;
     for (int i = 0; i < s->p.n; i++) {
-        const double *y = state_row(&s->p, s->p.y, i), w = y[at_volume(dim)], m = y[at_mass(dim)];
+        const double *y = state_row(&s->p, s->p.y, i), share = particles_share(s, y);
         double kinetic;
-        if (particles_is_guard(&s->p, i))
+        sums[SUM_VOLUME] += particles_is_guard(&s->p, i) ? 0.0 : y[at_volume(dim)];
+        if (share == 0.0)
             continue;
-        sums[SUM_ENERGY] += sph_energy(s, y, &kinetic);
+        sums[SUM_ENERGY] += share * sph_energy(s, y, &kinetic);
         for (int a = 0; a < dim; a++)
-            sums[SUM_MOMENTUM + a] += y[dim + a];
-        sums[SUM_MASS] += m;
-        sums[SUM_VOLUME] += w;
-        sums[SUM_KINETIC] += kinetic;
+            sums[SUM_MOMENTUM + a] += share * y[dim + a];
+        sums[SUM_MASS] += share * y[at_mass(dim)];
+        sums[SUM_KINETIC] += share * kinetic;
     }
 }
 
-/* With levels the mass is that of step.mass, in which levels overlap smoothly (sph.h), since the
- * plain sum jumps when a layer of particles passes from one level to the next. Collective. */
+/* Collective. */
 void sph_sums(const struct sph *s, double sums[SUM_COUNT])
 {
     for (int k = 0; k < SUM_COUNT; k++)
         sums[k] = 0.0;
     for (const struct sph *q = s; q; q = q->finer)
         add_sums(q, sums);
-    if (s->finer)
-        sums[SUM_MASS] = s->step.mass;
     MPI_Allreduce(MPI_IN_PLACE, sums, SUM_COUNT, MPI_DOUBLE, MPI_SUM, s->run->comm);
 }
 

@@ -7,9 +7,8 @@ struct sph;
 
 /* Places of the sums in sums[SUM_COUNT]. */
 enum { SUM_MASS, SUM_VOLUME, SUM_KINETIC, SUM_ENERGY, SUM_MOMENTUM, SUM_COUNT = SUM_MOMENTUM + 3 };
-/* Sums over all particles of all levels and ranks, guards left out: kg, m^dim, J (kinetic), J
- * (kinetic, elastic and potential), kg m/s. With levels the mass is that of sph_step.mass.
- * Collective. */
+/* Sums over all particles of all levels and ranks, each by its share (particles_share): kg, m^dim,
+ * J (kinetic), J (kinetic, elastic and potential), kg m/s. Collective. */
 void sph_sums(const struct sph *s, double sums[SUM_COUNT]);
 /* Energy of one record y of the state, J: kinetic, elastic (the integral of p/rho^2 from rho0) and
  * potential in gravity along axes that are not periodic and in the central force; *kinetic is the
