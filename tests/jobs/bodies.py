@@ -51,6 +51,18 @@ check(abs(pushes[0][1]) < 0.25 * pushes[1][0], 'a disc that swings is late by a 
 write('swing.csv', ''.join('%g, %.9g, 0, 0\n' % (0.02 * k, 0.01 * math.sin(0.04 * math.pi * k)) for k in range(151)))
 run_case('disc', re.sub(r'motion = \(.*?\);', 'motion = "swing.csv";', disc), '--check', words='c0 6 m/s')  # the same told by a file
 
+# Pressure turns neither a disc nor a lying cylinder about its axis, however the water beside it lies; what pushes the end of one
+# still turns it about the others. An eccentric disc turns by its weight.
+run_case('disc', changed(TANK, time='end = 0.5;', sph='dx = 0.05;', bodies='{ name = "d"; radius = 0.2; centre = (0.47, 0.6); free = true; density = 500; lock = "x"; }'))
+check(max(map(abs, column('disc', 'd spin'))) < 1e-12, 'a disc afloat spins: %g rad/s' % column('disc', 'd spin')[-1])
+run_case('log', changed(TANK, time='end = 0.1;', domain='dim = 3; max = (0.8, 0.6, 0.6);', fluid='gravity = (0, 0, -9.81);', shapes='{ box = ((0, 0, 0), (0.8, 0.6, 0.3)); }',
+                        walls=sides('x_min x_max y_min y_max z_min'), sph='dx = 0.05;',
+                        bodies='{ name = "d"; radius = 0.12; length = 0.4; rotate = (0, 90, 0); translate = (0.43, 0.28, 0.32); free = true; density = 400; }'))
+check(abs(column('log', 'd ox')[-1]) < 1e-3 * abs(column('log', 'd oy')[-1]) > 1e-6,
+      'a log turns at %g, %g rad/s' % (column('log', 'd ox')[-1], column('log', 'd oy')[-1]))
+run_case('eccentric', changed(TANK, time='end = 0.1;', sph='dx = 0.05;', bodies='{ name = "d"; radius = 0.2; translate = (0.5, 0.4); centre = (0.55, 0.4); free = true; mass = 125.7; inertia = 3; }'))
+close('an eccentric disc', column('eccentric', 'd moment')[-1], -0.05 * column('eccentric', 'd force y')[-1], 0.02)
+
 # A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
 run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
 close('water around a block that begins elsewhere', column('begins', 'mass')[0], 460, 0.01)
