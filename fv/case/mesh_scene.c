@@ -245,6 +245,16 @@ static void check_extent(const struct run *r, struct faults *f, const struct mes
 
 enum { SWEEP_TIMES = 2000, SWEEP_CUTS = 12 };
 
+/* Whether it turns, as told by terms, and its centre is not given. */
+static bool turns_about_origin(const struct run *r, const struct mesh_block_params *b)
+{
+    const int k = (int)(b - mesh_given);
+    bool turns = false;
+    for (int i = 0; i < b->motion.n; i++)
+        turns = turns || (b->motion.of[i].kind != MOTION_FILE && b->motion.of[i].axis >= AXIS_RX);
+    return turns && !params_given(r->params, key_text("blocks.[%d].centre", k));
+}
+
 /* At one place of the run: false: faults were added. */
 static bool sound_at(const struct run *r, struct faults *f, struct mesh *m, double t)
 {
@@ -255,8 +265,11 @@ static bool sound_at(const struct run *r, struct faults *f, struct mesh *m, doub
         if (m->block[k].motion && beyond_domain(r, m, m->block + k, at) > 1e-6) {
             mesh_fault(r, f, m->block[m->block[k].motion->block].prm, "motion",
                        "at t = %g s it reaches out of the domain, to (%g, %g, %g) m: a smaller "
-                       "motion, or a larger domain and background",
-                       t, at[0], at[1], at[2]);
+                       "motion, or a larger domain and background%s",
+                       t, at[0], at[1], at[2],
+                       turns_about_origin(r, m->block[m->block[k].motion->block].prm)
+                           ? "; it turns about the origin, by angles in rad: give its centre"
+                           : "");
             return false;
         }
     }

@@ -94,20 +94,43 @@ static bool is_free(const struct scene *c, const struct bound *b)
     return b->body >= 0 && c->bodies[b->body].free;
 }
 
-/* Whether it is told to turn, and not about what. */
-static bool turns_about_origin(const struct run *r, int k)
+/* Whether it is told to turn, and not about what. Sets *axes to the bits 1 << a of what it turns
+ * about. */
+static bool turns_about_origin(const struct run *r, int k, int *axes)
 {
     const struct scene_body *b = r->scene.bodies + k;
-    bool turns = vec3_length(b->spin) > 0.0;
+    *axes = 0;
+    for (int a = 0; a < 3; a++)
+        *axes |= b->spin[a] != 0.0 ? 1 << a : 0;
     for (int i = 0; i < b->motion.n; i++)
-        turns = turns || (b->motion.of[i].kind != MOTION_FILE && b->motion.of[i].axis >= AXIS_RX);
-    return turns && !b->free && !params_given(r->params, key_text("bodies.[%d].centre", k));
+        if ((b->motion.of[i].kind == MOTION_HARMONIC ||
+             b->motion.of[i].kind == MOTION_POLYNOMIAL) &&
+            b->motion.of[i].axis >= AXIS_RX)
+            *axes |= 1 << (b->motion.of[i].axis - AXIS_RX);
+    return *axes && !b->free && !params_given(r->params, key_text("bodies.[%d].centre", k));
+}
+
+/* One that so swings on an arm that nobody drew. What turns about one axis may be anywhere along
+ * it. */
+static void warn_of_arm(const struct run *r, const struct body *b, int k)
+{
+    int axes;
+    bool beside = false;
+    if (!turns_about_origin(r, k, &axes) || vec3_length(b->centre) > 0.0)
+        return;
+    for (int a = 0; a < r->scene.domain.dim; a++)
+        beside = beside || (axes != 1 << a && fabs(b->middle[a]) > b->half[a]);
+    if (beside)
+        log_warn("body %d (%s) turns about the origin, which lies outside of it: give its centre, "
+                 "also if that is meant",
+                 k + 1, b->is->name);
 }
 
 /* What to do with body k, which is beyond a side along an axis. */
 static const char *beyond_remedy(const struct run *r, int k, int axis)
 {
-    return turns_about_origin(r, k)
+    int axes;
+    return turns_about_origin(r, k, &axes)
                ? "it turns about the origin, by angles in rad: give its centre, or make the "
                  "domain larger"
            : r->scene.domain.periodic[axis]
@@ -609,8 +632,10 @@ void sph_bodies_check(const struct run *r, const struct sph_params *used, struct
         mem_free(now);
         return;
     }
-    for (int k = 0; k < c->nbodies; k++)
+    for (int k = 0; k < c->nbodies; k++) {
         body_create(bodies + k, c->bodies + k, scene_body_mesh(c, k), c->domain.dim, r->motions);
+        warn_of_arm(r, bodies + k, k);
+    }
     const bool plane = c->domain.dim == 2;
     const int n = plane ? find_bounds(c, used, all) : 0;
     for (int k = 0; k < c->nbodies && plane; k++) {

@@ -446,6 +446,9 @@ faulty('beyond', 's/^format/&/', 'a gap of 0.01 m between .* across the period a
 write('rest.cfg', changed(lib.TANK, fluid='', shapes='{ box = ((0, 0), (0.5, 0.5)); }', bodies='{ box = ((0.8, 0), (0.9, 0.2)); }'))
 faulty('rest', 's/end = 0.4/end = 0.2/', 'fluid.gravity: a free surface, and nothing that moves the fluid', 'sph')
 faulty('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "rz"; amplitude = 20; period = 1; } )/', r'leaves the domain across .*it turns about the origin, by angles in rad: give its centre', 'sph')
+tells('tank', 's/"b"/"b"; motion = ( { kind = "harmonic"; axis = "rz"; amplitude = 0.02; period = 1; } )/', 'warning: body 1 .* turns about the origin, which lies outside of it: give its centre')
+tells('tank', 's/"b"/"b"; centre = (0, 0); motion = ( { kind = "harmonic"; axis = "rz"; amplitude = 0.02; period = 1; } )/')
+holds(not told('about the origin'), 'a body that is told to turn about the origin is warned of')
 # gauges with the name of another column, criteria of what is not there
 faulty('tank', 's/name = "p"/name = "t"/', r'probes.\[0\].*: t: series.csv has a column of this name', 'sph', '--check')
 faulty('tank', r's/^sph:/accept: ( { what = "p"; tolerance = 1.0; } );\n&/', r'accept.\[0\].what: p is a gauge, .*give a reference', 'sph', '--check')
