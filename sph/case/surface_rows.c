@@ -79,14 +79,19 @@ static bool is_free(const struct rows_water *w, const double *x, int axis, doubl
     return !has_walls(w, y) && !has_walls(w, farther);
 }
 
-/* Where the surface is one row aside, from x, m; NAN: none within 2 dx. */
+/* Where the surface is one row aside, from x, m; NAN: none within 2 dx. The bottom of a body there
+ * is none: the column beside a box of a shallow draught took it for a slope and kept the lattice's
+ * rows, so that water at rest pushed the box to that side. */
 static double end_aside(const struct rows_water *w, const double *x, int axis, double sign)
 {
     const double far = 2.0 * sign * w->s->dx;
     double from[3] = {x[0], x[1], x[2]}, to[3] = {x[0], x[1], x[2]};
     from[axis] -= far;
     to[axis] += far;
-    return is_wet(w, from) && !is_wet(w, to) ? find_end(w, from, axis, 2.0 * far) - far : NAN;
+    if (!is_wet(w, from) || is_wet(w, to))
+        return NAN;
+    const double way = find_end(w, from, axis, 2.0 * far);
+    return is_free(w, from, axis, way) ? way - far : NAN;
 }
 
 /* Whether rows along this axis are fitted to the surface that is b from the last centre x: it lies

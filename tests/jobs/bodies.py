@@ -63,6 +63,11 @@ check(abs(column('log', 'd ox')[-1]) < 1e-3 * abs(column('log', 'd oy')[-1]) > 1
 run_case('eccentric', changed(TANK, time='end = 0.1;', sph='dx = 0.05;', bodies='{ name = "d"; radius = 0.2; translate = (0.5, 0.4); centre = (0.55, 0.4); free = true; mass = 125.7; inertia = 3; }'))
 close('an eccentric disc', column('eccentric', 'd moment')[-1], -0.05 * column('eccentric', 'd force y')[-1], 0.02)
 
+# Rows end on a surface between two of the lattice beside a box of a shallow draught, too, on either side of it.
+run_case('draught', changed(TANK, time='end = 0.01;', sph='dx = 0.04;', bodies='{ name = "b"; box = ((0.36, 0.4), (0.64, 0.6)); }'))
+close('lift of a shallow box at the start', column('draught', 'b force y')[0], 274.7, 0.01)
+check(abs(column('draught', 'b force x')[0]) < 1e-6, 'a shallow box is pushed aside at the start: %g N/m' % column('draught', 'b force x')[0])
+
 # A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
 run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
 close('water around a block that begins elsewhere', column('begins', 'mass')[0], 460, 0.01)
