@@ -164,6 +164,29 @@ static void warn_narrow(const struct coarse *g)
             g->prm->boxes[g->beside].name, g->narrow, "xyz"[g->across]);
 }
 
+/* Whether the free cells from `first' to before `last' along an axis at i are open on either side
+ * across it, and no pocket or shaft that ends at a wall. */
+static bool is_passage(const struct run *r, const struct coarse *g, int a, const int i[3],
+                       int first, int last)
+{
+    for (int b = 0; b < r->scene.domain.dim; b++) {
+        bool open[2] = {false, false};
+        for (int up = 0; up < 2 && b != a; up++) {
+            int j[3] = {i[0], i[1], i[2]};
+            j[b] += up ? 1 : -1;
+            if (r->scene.domain.periodic[b])
+                j[b] = (j[b] + g->n[b]) % g->n[b];
+            for (int m = first; m < last && j[b] >= 0 && j[b] < g->n[b]; m++) {
+                j[a] = m % g->n[a];
+                open[up] = open[up] || g->box[coarse_at(g, j[0], j[1], j[2])] == 0;
+            }
+        }
+        if (open[0] && open[1])
+            return true;
+    }
+    return false;
+}
+
 /* Ghosts are made of three cells: so wide at least must be what lies between a box and another, or
  * a side. */
 static void check_gaps(const struct run *r, struct coarse *g, int a, struct faults *f)
@@ -175,6 +198,7 @@ static void check_gaps(const struct run *r, struct coarse *g, int a, struct faul
     for (i[q] = 0; i[q] < g->n[q]; i[q]++)
         for (i[t] = 0; i[t] < g->n[t]; i[t]++) {
             int from = periodic ? -1 : 0, box = 0; /* where free cells begin, after which box */
+            int first = 0;                         /* of them on the coarse grid */
             for (int m = 0; m < (periodic ? 2 : 1) * g->n[a] + 1; m++) {
                 const bool end = !periodic && m == g->n[a];
                 i[a] = m % g->n[a];
@@ -193,10 +217,11 @@ static void check_gaps(const struct run *r, struct coarse *g, int a, struct faul
                           at - from, "xyz"[a], least,
                           least > BLOCKED_GAP ? " between no-slip faces" : "");
                     told[k] = true;
-                } else if (k >= 0 && from >= 0 && at - from > 0)
+                } else if (k >= 0 && from >= 0 && at - from > 0 && is_passage(r, g, a, i, first, m))
                     note_gap(r, g, a, k, at - from, end);
                 from = at + (end ? 0 : g->edge[a][i[a] + 1] - g->edge[a][i[a]]);
                 box = here;
+                first = m + 1;
             }
         }
 }

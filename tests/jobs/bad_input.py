@@ -230,6 +230,12 @@ fv:      { cells = (16, 16); };
 ''')
 for sound in 'basin', 'block', 'tank':  # or the faults below could come from something else
     holds(start('fv', sound + '.cfg', '--check') == 0, sound + '.cfg is refused')
+# openings of few cells are told, pockets and shafts that end at a wall are none
+shafts = changed(lib.TANK, domain='max = (1, 1);', shapes='{ box = ((0, 0), (1, 0.5)); }', sph='', bodies='{ name = "b"; box = ((0.3, 0.3), (0.7, 1)); }').replace('sph: {', 'fv: { cells = (20, 40);')
+write('shafts.cfg', shafts)
+holds(start('fv', 'shafts.cfg', '--check') == 0 and not told('contracts too little'), 'shafts beside a box are taken for openings')
+write('shafts.cfg', shafts.replace('0.3, 0.3)', '0.3, 0.2)'))
+holds(start('fv', 'shafts.cfg', '--check') == 0 and told('8 cells along y .* contracts too little'), 'an opening of 8 cells is not told')
 # outputs shorter than steps: accepted, with a word
 tells('sph', 's/every = 0.01/every = 1e-5/', 'output.every = 1e-05 s is far below a step of .* take .* s or more')
 tells('sph', 's/dx = 0.02/dx = 0.02; c0 = 1500/', r'sph.c0 = 1500 m/s takes 1.5e.02 times the steps of 10 m/s')
@@ -269,7 +275,7 @@ def box(words, change):
     faulty('basin', r's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.5); } );\n&/; ' + change, words, 'fv')
 
 
-edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0.25, 0); max = (0.5, 0.625); } );\n&/')
+edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0.25, 0.3125); max = (0.5, 0.6875); } );\n&/')
 holds(start('fv', 'case.cfg', '--check') == 0 and told('box "b": 4 cells along x between it and what is next: under water a jet'), 'a narrow gap')
 edit('basin.cfg', r's/^fv:/blocked: ( { name = "b"; min = (0, 0); max = (0.25, 0.25); } );\n&/')
 holds(start('fv', 'case.cfg', '--check') == 0 and not told('a jet out of'), 'a wide gap')
