@@ -240,7 +240,8 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
     if (w->kind == WALL_OUTFLOW && r->scene.fluid.gravity[(w->side - SIDE_X_MIN) / 2] != 0.0)
         wall_fault(r, f, k,
                    "water would fall out of it: with a free surface an outflow stands "
-                   "upright; a side that is open to the air above it needs no wall");
+                   "upright; a side that is open to the air above it needs no wall, and a channel "
+                   "that slopes a bed that slopes (a block of mapping \"file\"), not gravity");
     if (w->pressure != 0.0)
         wall_fault(
             r, f, k,

@@ -162,7 +162,7 @@ static void check_sides(const struct run *r, struct faults *f, const struct mesh
             if (kind == MESH_OUTFLOW && t.slant > 1e-6 && surface_wanted(r))
                 mesh_fault(r, f, m->block[k].prm, sides[side],
                            "water would fall out of it: with a free surface an outflow stands "
-                           "upright");
+                           "upright, along gravity");
             if (kind == MESH_OUTFLOW)
                 add_outflow(&outflows, m->block[k].on[side], &t);
             out = out || (side_is_opening(kind) && kind != MESH_INFLOW);
