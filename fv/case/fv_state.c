@@ -191,6 +191,26 @@ static void meet_faces(struct fv *s)
     sides_velocity(s, BC_GIVEN, s->u);
 }
 
+/* Blocks: the component across an inlet of the cells that stencils of G reach from it. Their lines
+ * may turn and lean, so that the other components are not those of faces. */
+static void meet_inlet(const struct side_face *f, void *with)
+{
+    const struct fv *s = with;
+    const int64_t d = f->part->stride[f->a];
+    for (int k = 0; k < 3 && f->kind == MESH_INFLOW && s->free[f->cell + k * f->in] > 0.0; k++) {
+        const int64_t c = f->cell + k * f->in;
+        const bool low = k > 0 || f->side % 2 == 1, high = k > 0 || f->side % 2 == 0;
+        double across = mean_of_faces(s->U[f->a] + c, d, low, high), S[3], S2 = 0.0;
+        for (int q = 0; q < s->dim; q++) {
+            S[q] = mean_of_faces(s->m->S[f->a][q] + c, d, low, high);
+            S2 += S[q] * S[q];
+            across -= S[q] * s->u[q][c];
+        }
+        for (int q = 0; q < s->dim; q++)
+            s->u[q][c] += across * S[q] / S2;
+    }
+}
+
 /* Blocks start from fluxes without divergence. So do uniform cells with an inflow that starts at
  * once, or boxes in the flow of the start, which push the whole fluid at once: the first step is
  * made for the speeds of that flow. A partner gives its cells later, and a surface's first stage
@@ -205,10 +225,13 @@ void fv_project_start(struct fv *s)
     s->totals.start_iterations = s->totals.iterations;
     s->totals.iterations = 0;
     memset(s->stages.psi[stage], 0, (size_t)s->size * sizeof(double));
-    if (s->m)
+    if (s->m) {
         memset(s->stages.start[stage], 0, (size_t)s->size * sizeof(double));
-    else
+        sides_visit(s, meet_inlet, s);
+        sides_velocity(s, BC_GIVEN, s->u);
+    } else {
         meet_faces(s);
+    }
     measure(s);
     if (!s->m)
         set_limit(s);

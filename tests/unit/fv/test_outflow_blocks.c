@@ -46,6 +46,32 @@ static struct fv *start(struct mesh_case *c, MPI_Comm comm, const char *blocks, 
     return mesh_case_create(c, f);
 }
 
+/* An inlet that opens at once before fluid at rest moves all of it alike, the cells beside it, too:
+ * they had 0.97, 1.28 and 0.81 of its velocity. */
+TEST(an_inlet_starts_a_uniform_stream)
+{
+    const char *const all[] = {joined, stretched};
+    for (int k = 0; k < 2; k++) {
+        struct mesh_case c;
+        double most = 0.0;
+        mesh_case_read(&c, MPI_COMM_WORLD, all[k],
+                       (const char *const[]){"initial.field=\"rest\"", "initial.U=1",
+                                             "domain.periodic=(false,true)", "fluid.nu=1e-4",
+                                             NULL});
+        c.run.scene.walls[0] = (struct scene_wall){
+            .side = SIDE_X_MIN, .kind = WALL_INFLOW, .velocity = {1.0, 0.0, 0.0}};
+        c.run.scene.walls[1] = (struct scene_wall){.side = SIDE_X_MAX, .kind = WALL_OUTFLOW};
+        c.run.scene.nwalls = 2;
+        struct fv *s = mesh_case_create(&c, NULL);
+        FLOW_ROWS (s, at, n)
+            for (int64_t i = at; i < at + n; i++)
+                most = fmax(most, fabs(s->u[0][i] - 1.0));
+        print_message("%s: %.3g off\n", k ? "stretched" : "joined", most);
+        assert_true(most < (k ? 5e-3 : 1e-5)); /* G of a psi that is linear in x */
+        mesh_case_end(&c, &s);
+    }
+}
+
 /* A vortex of Gaussian stream function in the uniform flow. */
 static void add_vortex(struct fv *s, double x0, double y0)
 {
