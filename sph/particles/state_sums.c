@@ -2,8 +2,8 @@
  * (gravity, and the central force -W^2 x) + elastic, the work m int p/rho^2 d rho that Tait's law
  * stores from rho0 on. Sums run over all levels and ranks; where two levels meet each particle
  * counts by its share, guards too, so that no sum jumps as a row passes from one level to the next.
- * Called for the series, for drifts since the start and for watches. SPDX-License-Identifier:
- * BSD-3-Clause */
+ * Called for the series, for drifts since the start and for watches.
+ * SPDX-License-Identifier: BSD-3-Clause */
 #include "state_sums.h"
 
 #include "../sph.h"

@@ -21,6 +21,8 @@ struct refinement {
     int (*held)[APR_LEVELS_MAX + 1]; /* [BODIES_MAX]: cover.c; NULL before the first step */
     double added;       /* kg: to the mass of what flows, by changes of level; this rank */
     double mass0, gone; /* kg: of the fluid at the start, all ranks; removed since, this rank */
+    double momentum[3]; /* kg m/s: of the fluid, by shares as sph_step.mass, at the last step; this
+                           rank */
     double
         mass_surplus; /* -: by what fraction of the fluid's mass too much flows, at the last step */
     double grown; /* m^dim: volume added by changes of level within this common step; this rank */
@@ -38,6 +40,8 @@ void refinement_begin(struct sph *s, void (*settle)(struct sph *level));
  * from each other. In a closed room all that flows compensates it, slowly; volumes as well, so that
  * densities stay. Collective. */
 void refinement_restore_mass(struct sph *s);
+/* The same of momentum along periods; see life.c. */
+void refinement_restore_momentum(struct sph *s);
 /* Takes the present mass of the fluid for that of the start. Collective. */
 void refinement_remember(struct sph *s);
 /* To be called before local particle i of a level is removed. */

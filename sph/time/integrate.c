@@ -263,6 +263,7 @@ static void finish_step(struct sph *s, double dt, double lost, double *most, str
     if (s->finer) {
         refinement_adapt(s);
         start(s, "levels");
+        refinement_restore_momentum(s);
         refinement_restore_mass(s);
         volume_renew(s);
         stop(s, "levels");

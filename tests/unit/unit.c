@@ -27,6 +27,16 @@ const char *unit_file(const char *name)
     return file;
 }
 
+/* One rank agrees with itself: of a unit that has other tests this one tells nothing there. */
+static int leave_out_ranks(struct CMUnitTest *tests, int n)
+{
+    int kept = 0;
+    for (int k = 0; k < n; k++)
+        if (n == 1 || strcmp(tests[k].name, "ranks_agree") != 0)
+            tests[kept++] = tests[k];
+    return kept;
+}
+
 int main(int argc, char **argv)
 {
     enum { MOST = 256 };
@@ -44,6 +54,8 @@ int main(int argc, char **argv)
     }
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (is_alone())
+        n = leave_out_ranks(tests, n);
     if (begin)
         begin();
     const int failed = _cmocka_run_group_tests("tests", tests, (size_t)n, NULL, NULL);

@@ -42,6 +42,8 @@ static void set_moving(struct sph *s, const double *U)
             for (int a = 0; a < q->dim && a < 3; a++)
                 y[q->dim + a] = y[at_mass(q->dim)] * U[a];
         }
+    for (int a = 0; a < 3; a++)
+        s->start.momentum[a] = s->start.mass * U[a];
     integrate_start(s);
 }
 
