@@ -231,6 +231,29 @@ static void stand_apart(struct sph *s)
     }
 }
 
+/* Out of what the other is, for the first body of the pair. */
+static void way_of(const struct touch *t, double *way)
+{
+    for (int a = 0; a < 3; a++)
+        way[a] = t->mine ? t->out[a] : -t->out[a];
+}
+
+static const double same_way = 0.7; /* cosine */
+
+/* The way on which a body stands off the walls at rest at the start; 0: it touches several. */
+static void note_way(struct walls *w, const struct pair *p)
+{
+    double *first = w->start_way[p->a], way[3];
+    memset(first, 0, 3 * sizeof *first);
+    if (p->n > 0)
+        way_of(p->touch, first);
+    for (int i = 1; i < p->n; i++) {
+        way_of(p->touch + i, way);
+        if (vec3_dot(way, first) < same_way)
+            memset(first, 0, 3 * sizeof *first);
+    }
+}
+
 /* With levels once for the state, which all share, and for each level's own copy of the distances.
  */
 void body_contacts_start(struct sph *s)
@@ -244,6 +267,8 @@ void body_contacts_start(struct sph *s)
         find(s, &p);
         for (int i = 0; i < p.n; i++)
             *from = fmin(*from, s->walls->bodies[p.a].contact.gap * s->dx - p.touch[i].depth);
+        if (p.b < 0)
+            note_way(s->walls, &p);
     }
     mem_free(p.touch);
 }
@@ -254,6 +279,16 @@ static double sag(const struct sph *s, const struct touch *t)
     const double down = (t->mine ? -1.0 : 1.0) * vec3_dot(s->run->scene.fluid.gravity, t->out),
                  rate = rate_of(s->walls);
     return fmax(down, 0.0) / (rate * rate);
+}
+
+/* Whether it touches the walls at rest elsewhere than where it stood at the start: what slides over
+ * a floor into a side has no spring of the floor's there. It went through. */
+static bool is_new(const struct walls *w, const struct pair *p, const struct touch *t)
+{
+    double way[3];
+    way_of(t, way);
+    return p->b < 0 && vec3_length(w->start_way[p->a]) > 0.0 &&
+           vec3_dot(way, w->start_way[p->a]) < same_way;
 }
 
 /* A pair that has been in contact since the start rests on the distance that it had there, by a
@@ -270,7 +305,8 @@ static void keep_start(struct sph *s, struct pair *p)
         return;
     for (int i = 0; i < p->n; i++) {
         p->touch[n] = p->touch[i];
-        p->touch[n].depth += sag(s, p->touch + i) - less;
+        if (!is_new(s->walls, p, p->touch + i))
+            p->touch[n].depth += sag(s, p->touch + i) - less;
         n += p->touch[n].depth > 0.0;
     }
     p->n = n;

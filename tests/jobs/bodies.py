@@ -68,6 +68,16 @@ run_case('draught', changed(TANK, time='end = 0.01;', sph='dx = 0.04;', bodies='
 close('lift of a shallow box at the start', column('draught', 'b force y')[0], 274.7, 0.01)
 check(abs(column('draught', 'b force x')[0]) < 1e-6, 'a shallow box is pushed aside at the start: %g N/m' % column('draught', 'b force x')[0])
 
+# What stands on the floor at the start and slides into a side is held before it, as what flies is: the floor's spring, which is
+# that of the distance at the start, is not the side's.
+for dim, case in (2, TANK), (3, changed(TANK, domain='dim = 3; max = (1, 0.4, 0.6);', fluid='gravity = (0, 0, -9.81);', walls=sides('x_min x_max y_min y_max z_min'))):
+    low, high = ('0', '0.2') if dim == 2 else ('0.1, 0', '0.3, 0.2')
+    run_case('slides', changed(case, time='end = 0.25;', sph='dx = 0.05;', shapes='{ box = ((0, 0%s), (0.4, %s)); }' % (('', '0.1') if dim == 2 else (', 0', '0.4, 0.1')),
+                               output='snapshots = false; series = 1;',
+                               bodies='{ name = "b"; box = ((0.6, %s), (0.8, %s)); free = true; density = 500; velocity = (1.7, 0); }' % (low, high)))
+    x, u = column('slides', 'b x'), column('slides', 'b u')
+    check(0.8 < max(x) < 0.89 and min(u) < -0.2, '%dD: a box slides into a side to x = %g m, back at %g m/s' % (dim, max(x), min(u)))
+
 # A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
 run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
 close('water around a block that begins elsewhere', column('begins', 'mass')[0], 460, 0.01)
