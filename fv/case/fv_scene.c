@@ -324,31 +324,6 @@ static void warn_of_level(const struct scene *s)
             s->initial.level, high, s->initial.level);
 }
 
-/* What lets waves out at either end, c (u - U) with U the mean over T = 2 L/c, takes a steady
- * difference g dz of levels for a wave: L du/dt = g dz - 2 c (u - U), (u - U)' = du/dt - (u - U)/T,
- * tends to a fifth, L du/dt = g dz/5. Out of water at rest nothing runs faster than sqrt(2 g dz):
- * u = sqrt(2 g dz) tanh(t/t_0), t_0 = 5 L sqrt(2/(g dz)). */
-static void warn_of_slow_start(const struct scene *s)
-{
-    const bool moves = scene_shapes_flow(s) ||
-                       (s->initial.field != FIELD_REST && vec3_length(s->initial.velocity) > 0.0);
-    for (int a = 0; a < s->domain.dim && !moves; a++) {
-        const struct scene_wall *w[2] = {wall_on(s, a, 0), wall_on(s, a, 1)};
-        if (!w[0] || !w[1] || !w[0]->has_level || !w[1]->has_level)
-            continue;
-        const double z[2] = {wall_level(w[0], 0.0), wall_level(w[1], 0.0)},
-                     push = vec3_length(s->fluid.gravity) * fabs(z[0] - z[1]),
-                     L = s->domain.max[a] - s->domain.min[a], t0 = 5.0 * L * sqrt(2.0 / push);
-        if (push > 0.0 && s->time.end < 2.0 * t0)
-            log_warn("walls: between the levels of %c_min and %c_max, %g and %g m, water at rest "
-                     "gains %.2g m/s in a second, a fifth of what they drive it by, for what lets "
-                     "waves out takes the rest; from tank to tank it reaches three quarters of "
-                     "%.3g m/s in %.3g s; start it with its velocity (initial.field = "
-                     "\"uniform\")",
-                     axes[a], axes[a], z[0], z[1], 0.2 * push / L, sqrt(2.0 * push), t0);
-    }
-}
-
 /* On cells and on blocks. What is looked at after gravity needs it. */
 void surface_check(const struct run *r, struct faults *f)
 {
@@ -373,7 +348,6 @@ void surface_check(const struct run *r, struct faults *f)
     if (s->nshapes == 0 && !scene_has_wave(s))
         params_fault(r->params, f, "fv.surface",
                      "where is the water? shapes say it, or a wave (initial.field)");
-    warn_of_slow_start(s);
     if (mesh_given_count == 0)
         check_aspect(r, f);
     if (prm->steady)
