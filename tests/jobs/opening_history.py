@@ -66,7 +66,7 @@ for folder, passed in ('river_sph', 60), ('drain', -60):
 # a tide of eleven transits: in a basin closed at its other end the level swings by cos(k x)/cos(k L) of it, x from that
 # end, k = w/c of long waves
 k = 2 * math.pi / PERIOD / math.sqrt(9.81 * 0.2)
-for program in 'fv', 'sph':
+for program in ('fv', 'sph') if lib.long else ('fv',):
     path = 'swing_%s/series.csv' % program
     alone(program, 'swing_' + program, tank(program, 1.5 * PERIOD, level % 'swing.csv', 0.02))
     waves = [z * cmath.exp(2j * math.pi * t / PERIOD) for t, z in zip(column(path, 't'), column(path, 'down ')) if t >= PERIOD / 2]

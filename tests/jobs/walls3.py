@@ -52,7 +52,7 @@ for way in 'x', 'y':
 # the cut within 3 %
 for name, body, lift, push in (
         ('ball', 'centre = (0.5, 0.5, 0); radius = 0.25', 9810 * 2 / 3 * math.pi * 0.25 ** 3, 9810 * 0.7 * math.pi * 0.25 ** 2),
-        ('pier', 'box = ((-0.3, 0.3, 0.2), (0.4, 0.7, 0.5))', 9810 * 0.3 * 0.4 * 0.3, None)):
+        ('pier', 'box = ((-0.3, 0.3, 0.2), (0.4, 0.7, 0.5))', 9810 * 0.3 * 0.4 * 0.3, None))[:2 if lib.long else 1]:
     run_case(name, changed(TANK3, time='end = 0.3;', domain='dim = 3; min = (0.1, 0.1, 0); max = (0.9, 0.9, 1);',
                            shapes='{ form = "below"; level = 0.7; }', bodies='{ name = "b"; %s; }' % body,
                            sph='dx = "1/15"; R_dx = 3.0;'), words='what of it is beyond closed sides or behind lines is left out')

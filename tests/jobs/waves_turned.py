@@ -42,8 +42,10 @@ def levels(folder):
 
 
 # along, up, sign of up, and the direction of the waves (degrees from the first horizontal axis towards the second)
-flat = (0, 1, 1, 0), (0, 1, -1, 0), (1, 0, 1, 0), (1, 0, -1, 0)
-solid = (0, 1, 1, 0), (0, 2, 1, 0), (0, 2, -1, 0), (1, 2, 1, 90), (2, 1, 1, 90), (1, 0, 1, 0), (2, 0, -1, 90)
+flat = (0, 1, 1, 0), (0, 1, -1, 0), (1, 0, -1, 0), (1, 0, 1, 0)
+solid = (0, 1, 1, 0), (0, 2, -1, 0), (1, 2, 1, 90), (2, 0, -1, 90), (0, 2, 1, 0), (2, 1, 1, 90), (1, 0, 1, 0)
+if not lib.long:  # each axis along the waves and upright, upwards and downwards
+    flat, solid = flat[:3], solid[:4]
 for program, dim, end, cells, ways in ('fv', 2, 1.6, 72, flat), ('sph', 2, 1.6, 0, flat), ('fv', 3, 1.2, 48, solid):
     first = None
     for way in ways:
