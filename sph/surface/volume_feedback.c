@@ -6,9 +6,8 @@
  * beside the same walls, as a Shepard density does at once, within 150 R/c0: long against sound and
  * short against the sinking. Particles that the surface sees have no sum to go by.
  * Water at rest and gentle waves deviate by less than 1 %. Violent flow leaves voids of 10 to 20 %,
- * most of all where water lands on a wall: the wall compresses the layer before it from R on, so
- * that it stops half a spacing too high, and hangs there under 1.6 times its weight until the void
- * is filled. What is beyond 1 % so goes within 25 R/c0 besides.
+ * where water lands on water or slowly on a wall (fast: wall_air_gap), which hangs under up to 1.6
+ * times its weight until they are filled. What is beyond 1 % so goes within 25 R/c0 besides.
  * Beside edges of levels sums count guards, which have others' volumes: what flows within R of one
  * keeps to div u, and with levels so does what is nearly at rest, for it is hardly shifted there. A
  * block that goes through water at 0.25 m/s lost 10 % of its lift with levels, 18 % after it had

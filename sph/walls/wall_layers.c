@@ -18,6 +18,8 @@ static double over_plane(const struct sph *s, double h, double (*f)(const struct
 
 static double kernel(const struct sph *s, double r) { return kernel_w(s->dim, r, s->R); }
 
+double wall_layers_plane(const struct sph *s, double h) { return over_plane(s, h, kernel); }
+
 /* What the function whose gradient the crowding vector sums [4.89] has more than the kernel. */
 static double excess(const struct sph *s, double r)
 {

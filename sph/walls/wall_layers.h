@@ -22,5 +22,7 @@ void wall_layers_crowding(const struct sph *s, int n, double *ratio);
  * is 0.11 dx from it instead of 0.25. Under a surface, where the shift follows the speed, water at
  * rest is a fifth less still with layers. */
 void wall_layers_tabulate(const struct sph *s, int n, double *ratio);
+/* 1/m: int W dS of a plane at the height h, m. */
+double wall_layers_plane(const struct sph *s, double h);
 
 #endif

@@ -29,8 +29,10 @@ struct nfm {
     struct wall_list list;
     double crowding[RATIOS + 1]; /* wall_layers.h */
     double mu; /* Pa s: that of the pairs whose sum the weight of friction closes, else rho0 nu */
-    double streams; /* 0 to 1: how much water streams, away from a surface */
-    double *room;   /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
+    double streams;     /* 0 to 1: how much water streams, away from a surface */
+    double *room;       /* [RATIOS + 1] wall_layers.h; NULL until somebody asks */
+    double row;         /* 1/m: int W dS of a plane as far away as a first row, dx/2 */
+    double (*empty)[3]; /* [list.n] of this stage, 0 without shift: see wall_air_gap */
     /* With levels [touches of list]: whether its force counts, see judge; of this list. */
     bool judged, *pushes;
     double (*q)[3], (*rub)[3]; /* N/m^dim: fluxes of the touches of the particle at hand; of these
@@ -42,6 +44,7 @@ static void *nfm_create(struct sph *s)
     struct nfm *m = NEW(struct nfm, 1);
     m->list.owner = m;
     wall_layers_tabulate(s, RATIOS, m->crowding);
+    m->row = 4.0 * s->dx / s->R * wall_layers_plane(s, 0.5 * s->dx);
     return m;
 }
 
@@ -50,8 +53,11 @@ static void list(struct sph *s)
 {
     struct nfm *m = s->walls->state;
     wall_list_build(s, &m->list);
-    for (int k = 0; k < m->list.n; k++)
+    ROOM_IN(m, m->empty, m->list.n);
+    for (int k = 0; k < m->list.n; k++) {
         s->list->beside[m->list.who[k]] = true;
+        memset(m->empty[k], 0, sizeof m->empty[k]);
+    }
     m->judged = false;
 }
 
@@ -151,7 +157,7 @@ static void shift_before_walls(const struct sph *s, const struct wall_list *l, i
 }
 
 /* Adds what the wall does to the crowding vector [4.89]. */
-static void add_crowding(const struct sph *s, const struct nfm *m, int k)
+static void add_crowding(const struct sph *s, struct nfm *m, int k)
 {
     const bool oger = s->prm.transport == TRANSPORT_TVO;
     const struct wall_list *l = &m->list;
@@ -170,8 +176,10 @@ static void add_crowding(const struct sph *s, const struct nfm *m, int k)
     const double R = oger ? fmin(2.0 * s->dx, s->R) : s->R;
     const double factor = (oger ? 1.0 : 2.0) * scheme_shift_speed(s, l->who[k]) * R;
     const double gamma = fmax(l->gamma[k], least_gamma);
-    for (int a = 0; a < dim; a++)
+    for (int a = 0; a < dim; a++) {
         u0[a] = u[a] + (u0[a] - u[a] - factor * sum[a]) / gamma;
+        m->empty[k][a] = factor > 0.0 && !oger ? (u0[a] - u[a]) / (factor * m->row) : 0.0;
+    }
     if (!s->surface)
         shift_before_walls(s, l, k);
 }
@@ -203,10 +211,11 @@ static void slopes(struct sph *s)
 struct seen {
     const double *x, *u, *u0, *grho, *gu;
     double rho, p, c, w, damped, mu, streams;
-    bool in_air; /* a layer one particle thick, or less */
-    double open; /* in air: see wall_air_open */
-    bool film;   /* near a free surface */
-    double edge; /* there: see wall_air_edge */
+    bool in_air;         /* a layer one particle thick, or less */
+    double open;         /* in air: see wall_air_open */
+    bool film;           /* near a free surface */
+    double edge;         /* there: see wall_air_edge */
+    const double *empty; /* see wall_air_gap */
     struct wall_friction *friction;
 };
 
@@ -353,6 +362,8 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
                  held = wave * share_of_wave(s, t, i->streams, film);
     const double past = wall_air_past(s, l, k, t, i->u, uw, i->edge, dim);
     across *= 1.0 - past;
+    if (s->surface && !i->in_air && across < 0.0)
+        across *= 1.0 - wall_air_gap(s, i->empty, t->n, across, dim);
     double P = i->p + wall_pressure(s, i, t->is.e, (1.0 - past) * near, held, uw, t->n, dim) -
                2.0 * i->damped;
     /* What walls do not hold: a drop under a roof falls, air comes between. */
@@ -580,6 +591,7 @@ INLINE double add_walls(struct sph *s, struct nfm *m, int k, const int dim)
     struct seen i = look(s, who, dim);
     struct wall_friction friction;
     i.friction = &friction;
+    i.empty = m->empty[k];
     i.mu = m->mu;
     i.streams = i.film ? 0.0 : m->streams;
     i.open = 1.0;
