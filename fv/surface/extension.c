@@ -219,7 +219,9 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
 
 /* A film has no slope worth knowing: a quadratic through it overshoots, each layer of dry cells
  * more than the last, and convection feeds on it. Flat water fills 0.6 of the window, two cells
- * 0.4. */
+ * 0.4. In 3D a number that water in the open has must not fail beside a slip side, where three of
+ * five layers are left: 3 THIN made such water uniform, and a slab between slip sides differed from
+ * one of a period. */
 static bool is_thin(const struct fv *s, const struct place *p, int layer)
 {
     if (window_reach(s, layer) == 1)
@@ -230,7 +232,7 @@ static bool is_thin(const struct fv *s, const struct place *p, int layer)
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
     if (surface_inclined(s, p->part) && p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
         return true;
-    return p->known < (s->dim == 2 ? THIN : 3 * THIN) || 2 * p->known < p->room;
+    return p->known < (s->dim == 2 ? THIN : 2 * THIN) || 2 * p->known < p->room;
 }
 
 /* Whether the second layer may be as slow as a film's: where viscosity crosses a cell while a wave

@@ -648,6 +648,34 @@ TEST(water_survives_impacts)
     }
 }
 
+/* Energy of a collapse in a slab, 6 cells wide. */
+static double energy_of_slab(const char *periodic)
+{
+    static const struct scene_shape column = {.form = SHAPE_BOX,
+                                              .box = {{0, 0, 0}, {0.4, 0.4, 0.15}}};
+    struct fv_case c;
+    fv_case_set(&c, MPI_COMM_WORLD,
+                (const char *const[]){SURFACE, "domain.dim=3", "fluid.nu=0",
+                                      "fluid.gravity=(0,-9.81,0)", "domain.max=(1.6,0.8,0.15)",
+                                      "fv.cells=(64,32,6)", periodic, NULL});
+    fv_case_close(&c, WALL_SLIP);
+    c.run.scene.shapes[c.run.scene.nshapes++] = column;
+    struct fv *s = fv_case_start(&c, NULL);
+    assert_true(fv_case_run(&c, SANITIZED ? 2 : 2000, 0.2));
+    const double K = surface_energy(s);
+    fv_free(&c.s);
+    return K;
+}
+
+/* A slip side is a plane of symmetry (0.6 % apart where water beside it was taken for a film). */
+TEST(a_slab_between_slip_sides_is_one_of_a_period)
+{
+    const double slip = energy_of_slab(CLOSED),
+                 periodic = energy_of_slab("domain.periodic=(false,false,true)");
+    print_message("slab: energy %.6g, of a period %.6g\n", slip, periodic);
+    assert_close(slip, periodic, 0.003 * periodic);
+}
+
 /* Water in a corner of a box of flat cells, its axes put on by `way'; most gets |u| along those of
  * the first. */
 static void collapse(int dim, int way, double *most)
