@@ -114,9 +114,10 @@ static inline double wall_air_edge(const struct sph *s, const struct wall_list *
     return share * fmin(1.0, fmax(0.0, 10.0 * back / (all * s->dx)));
 }
 
-/* 0 to 1: how much of a particle that comes to the piece of touch t with u - uw goes past it,
- * beside a convex edge of this share: all of it where it is dx/4 over what the edge has on its
- * other side (a row runs at dx/2), unless it comes to that as well. */
+/* 0 to 1: how much of a particle that comes to the piece of touch t with u - uw, or leaves it, goes
+ * past it, beside a convex edge of this share: all of it where it is dx/4 over what the edge has on
+ * its other side (a row runs at dx/2), unless it comes to that, or leaves it, as well. Both alike,
+ * else water that sways round an edge is pumped: what came was stopped no more, what left was. */
 static inline double wall_air_past(const struct sph *s, const struct wall_list *l, int k,
                                    const struct wall_touch *t, const double *u, const double *uw,
                                    double edge, const int dim)
@@ -137,7 +138,7 @@ static inline double wall_air_past(const struct sph *s, const struct wall_list *
     }
     for (int a = 0; a < dim; a++)
         here += (u[a] - uw[a]) * t->n[a];
-    if (!(all > 0.0) || !(here > 0.0))
+    if (!(all > 0.0) || here == 0.0)
         return 0.0;
     const double q = fmin(1.0, fmax(0.0, 4.0 * over / (all * s->dx)));
     return edge * q * q * (3.0 - 2.0 * q) * fmin(1.0, fmax(0.0, 1.0 - there / (all * here)));
@@ -161,6 +162,19 @@ static inline bool wall_air_runs_along(const struct sph *s, double square)
 {
     enum { WEIGHTS = 500 };
     return square >= 2.0 * WEIGHTS * vec3_length(s->gravity) * s->dx;
+}
+
+/* 1 to 0: how little a pressure p, Pa, is beside the weight of a row and rho |u - uw|^2/2: of what
+ * flies past an edge, for water that surrounds it, as at the corners of a box afloat, has more. */
+static inline double wall_air_light(const struct sph *s, double p, const double *u,
+                                    const double *uw, const int dim)
+{
+    double square = 0.0;
+    for (int a = 0; a < dim; a++)
+        square += (u[a] - uw[a]) * (u[a] - uw[a]);
+    const double least = fmax(vec3_length(s->gravity) * s->dx, 0.5 * square);
+    const double q = fmin(1.0, fmax(0.0, p) / (s->rho0 * least + 1e-300));
+    return 1.0 - q * q * (3.0 - 2.0 * q);
 }
 
 /* 0 to 1: how much of a pressure p, Pa, is tension beyond the weight of a row and the noise of
