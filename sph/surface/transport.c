@@ -73,16 +73,21 @@ struct shift_work {
     double inside;   /* of w g^2 |u|: what could give it back */
 };
 
-/* Collective. */
-static void sum_work(const struct sph *s, double g2, struct shift_work work[2])
+/* Of one particle: its inner speed, m/s, and what its shift lifts, as in shift_work. */
+struct shift {
+    double speed, power;
+};
+
+/* of: [n] of the locals, gets what each has. Collective. */
+static void sum_work(const struct sph *s, double g2, struct shift_work work[2], struct shift *of)
 {
     memset(work, 0, 2 * sizeof *work);
     for (int i = 0; i < s->p.n; i++) {
         struct shift_work *to = work + particles_is_guard(&s->p, i);
-        const double power = lift(s, i);
-        to->up += fmax(power, 0.0);
-        to->down += fmin(power, 0.0);
-        to->inside += prim_line(&s->p, i)[at_volume(s->dim)] * g2 * inner_speed(s, i);
+        of[i] = (struct shift){inner_speed(s, i), lift(s, i)};
+        to->up += fmax(of[i].power, 0.0);
+        to->down += fmin(of[i].power, 0.0);
+        to->inside += prim_line(&s->p, i)[at_volume(s->dim)] * g2 * of[i].speed;
     }
     MPI_Allreduce(MPI_IN_PLACE, work, (int)(sizeof *work / sizeof(double)) * (s->guards ? 2 : 1),
                   MPI_DOUBLE, MPI_SUM, s->run->comm);
@@ -107,7 +112,8 @@ static void make_workless(struct sph *s)
         g2 += g[a] * g[a];
     if (g2 == 0.0)
         return;
-    sum_work(s, g2, work);
+    struct shift *of = NEW(struct shift, s->p.n);
+    sum_work(s, g2, work, of);
     for (int k = 0; k < 2; k++) {
         const double power = work[k].up + work[k].down, most = 0.25 * work[k].inside / sqrt(g2);
         const double given = fmax(-most, fmin(power, most));
@@ -117,12 +123,13 @@ static void make_workless(struct sph *s)
     }
     for (int i = 0; i < s->p.n; i++) {
         const bool guard = particles_is_guard(&s->p, i);
-        const double *u = prim_line(&s->p, i) + dim, back = share[guard] * inner_speed(s, i);
+        const double *u = prim_line(&s->p, i) + dim, back = share[guard] * of[i].speed;
         double *u0 = slope_line(&s->p, i) + dim + dim * dim;
-        const double factor = lift(s, i) > 0.0 ? lifts[guard] : 1.0;
+        const double factor = of[i].power > 0.0 ? lifts[guard] : 1.0;
         for (int a = 0; a < dim; a++)
             u0[a] = u[a] + factor * (u0[a] - u[a]) + back * g[a];
     }
+    mem_free(of);
 }
 
 /* Share of the bound |u|/4 that counts with levels. Their numbers agree on average only where one

@@ -52,7 +52,7 @@ void volume_feedback_prepare(struct sph *s)
  * beyond +-calm the faster law is added. */
 static double rate_of(const struct sph *s, double less)
 {
-    const double beyond = less - fmax(-calm, fmin(less, calm));
+    const double beyond = less > calm ? less - calm : less < -calm ? less + calm : 0.0;
     return (less / slow + beyond / voids) * s->c0 / s->R;
 }
 
