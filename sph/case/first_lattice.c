@@ -62,12 +62,37 @@ double first_lattice_cells(double lo, double hi, double dx)
     return ceil((hi - lo) / dx - 1e-6); /* rounding makes no cell */
 }
 
-/* Where only the upper side has a wall rows must end there, as free fluid may end anywhere. */
+/* The lower end along axis a of the tank or the closed line that holds the water where the domain
+ * has no sides; INFINITY: none. */
+static double holder_begin(const struct scene *c, int a)
+{
+    double begin = INFINITY, lo[3], hi[3];
+    for (int k = 0; k < c->nbodies; k++) {
+        if (!c->bodies[k].tank)
+            continue;
+        if (c->domain.dim == 3)
+            trimesh_bounds(scene_body_mesh(c, k), lo, hi);
+        else
+            scene_body_box(c->bodies + k, lo, hi);
+        begin = fmin(begin, lo[a]);
+    }
+    for (int k = 0; k < c->nwalls; k++)
+        for (int i = 0; c->walls[k].closed && i < c->walls[k].points.n && a < 2; i++)
+            begin = fmin(begin, c->walls[k].points.x[i][a]);
+    return begin;
+}
+
+/* Where only the upper side has a wall rows must end there, as free fluid may end anywhere. Where
+ * neither has, a tank stands anywhere in its domain: half a spacing off its rows, it began with 7 %
+ * too little water, 12 % of the particles. */
 double first_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx)
 {
     const struct scene_wall *low = scene_wall_of(c, SIDE_X_MIN + 2 * a);
     const struct scene_wall *high = scene_wall_of(c, SIDE_X_MIN + 2 * a + 1);
     const double n = (hi - lo) / dx, whole = first_lattice_cells(lo, hi, dx);
+    const double holder = low || high || c->domain.periodic[a] ? INFINITY : holder_begin(c, a);
+    if (holder > lo && holder < hi)
+        return holder - floor((holder - lo) / dx + 1e-6) * dx;
     return high && !low && whole - n > 1e-6 ? hi - whole * dx : lo;
 }
 

@@ -78,6 +78,11 @@ for dim, case in (2, TANK), (3, changed(TANK, domain='dim = 3; max = (1, 0.4, 0.
     x, u = column('slides', 'b x'), column('slides', 'b u')
     check(0.8 < max(x) < 0.89 and min(u) < -0.2, '%dD: a box slides into a side to x = %g m, back at %g m/s' % (dim, max(x), min(u)))
 
+# A tank stands anywhere in its domain: rows begin on its floor and its sides, whether it is a body or a closed line.
+for what, tank in (('bodies', '{ name = "t"; box = ((0, 0), (1, 0.6)); }'), ('walls', '{ points = ((0, 0), (1, 0), (1, 0.6), (0, 0.6)); closed = true; }')):
+    run_case('anywhere', changed(changed(TANK, walls=''), time='end = 0.001;', domain='min = (-0.1, -0.14); max = (1.2, 1);', shapes='{ box = ((0, 0), (1, 0.4)); }', sph='dx = 0.04;', **{what: tank}))
+    close('water in a tank half a spacing off the rows of its domain (%s)' % what, column('anywhere', 'mass')[0], 400, 0.01)
+
 # A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
 run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
 close('water around a block that begins elsewhere', column('begins', 'mass')[0], 460, 0.01)
