@@ -63,15 +63,21 @@ static void check_level(const struct run *r, int k, struct faults *f)
     const struct scene_wall *w = r->scene.walls + k;
     const int up = scene_still_axis(&r->scene);
     const char *key = key_text("walls.[%d].kind", k);
+    const char *instead = w->kind == WALL_INFLOW
+                              ? "; a jet is a shape of water with a velocity"
+                              : ". Water leaves by a side that the case does not name";
     if (up < 0)
         params_fault(r->params, f, key,
                      "inlets and outlets under a free surface need gravity along one axis; "
-                     "shapes mean a free surface: leave them out where the fluid fills the domain");
+                     "shapes mean a free surface: leave them out where the fluid fills the "
+                     "domain%s",
+                     instead);
     else if ((w->side - SIDE_X_MIN) / 2 == up)
         params_fault(
             r->params, f, key,
             "gravity crosses this side: under a free surface inlets and outlets are upright, "
-            "on the sides whose water has a level");
+            "on the sides whose water has a level%s",
+            instead);
     else if (w->kind == WALL_ABSORBING)
         params_fault(
             r->params, f, key,

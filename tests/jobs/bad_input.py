@@ -244,6 +244,12 @@ tells('levels', 's/level = 0.48/discharge = 0.1/')
 holds(not told('between the levels'), 'a given discharge is taken for a level')
 write('levels.cfg', levels.replace('sph: {', 'fv: { cells = (40, 20); };\nlet: {').replace('let: { dx = 0.05; };', ''))
 holds(start('fv', 'levels.cfg', '--check') == 0 and told('between the levels of x_min and x_max'), 'fv: between two levels')
+# where inlets and outlets under a surface cannot be: what does instead
+jet = changed(lib.TANK, fluid='', walls='{ side = "y_min"; }, { side = "x_max"; kind = "outflow"; }', shapes='{ box = ((0.4, 0.5), (0.6, 1)); velocity = (0, -3); }')
+write('jet.cfg', jet)
+faulty('jet', 's/^$//', r'walls.\[1\].kind: .*Water leaves by a side that the case does not name', 'sph')
+write('jet.cfg', changed(jet, fluid='gravity = (0, -9.81);', walls='{ side = "y_min"; kind = "inflow"; velocity = (0, 3); }'))
+faulty('jet', 's/^$//', r'walls.\[0\].kind: gravity crosses this side.*; a jet is a shape of water with a velocity', 'sph')
 # outputs shorter than steps: accepted, with a word
 tells('sph', 's/every = 0.01/every = 1e-5/', 'output.every = 1e-05 s is far below a step of .* take .* s or more')
 tells('sph', 's/dx = 0.02/dx = 0.02; c0 = 1500/', r'sph.c0 = 1500 m/s takes 1.5e.02 times the steps of 10 m/s')
