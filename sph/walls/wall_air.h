@@ -114,16 +114,45 @@ static inline double wall_air_edge(const struct sph *s, const struct wall_list *
     return share * fmin(1.0, fmax(0.0, 10.0 * back / (all * s->dx)));
 }
 
+/* 0 to 1 from the height 0 to dx/4 on: a row runs at dx/2. */
+static inline double wall_air_over(const struct sph *s, double height)
+{
+    const double q = fmin(1.0, fmax(0.0, 4.0 * height / s->dx));
+    return q * q * (3.0 - 2.0 * q);
+}
+
+/* 0 to 1: how much particle k is beyond the end of the piece of touch t, where air comes to it: the
+ * foot of the particle on its plane lies off the piece and in front of all others. Behind one of
+ * them it would come to a wall that bends towards it. Both faces of a narrow slot are so, which
+ * wall_air_edge does not see: a film lost 7 % of its momentum over one of 2 dx, drawn down by the
+ * near face and stopped by the far one, now 0.7 as over one of 8 dx. */
+static inline double wall_air_beyond(const struct sph *s, const struct wall_list *l, int k,
+                                     const struct wall_touch *t, const int dim)
+{
+    double least = INFINITY;
+    if (t->foot)
+        return 0.0;
+    for (const struct wall_touch *o = l->touch + l->first[k]; o < l->touch + l->first[k + 1]; o++) {
+        double cosine = 0.0;
+        for (int a = 0; a < dim; a++)
+            cosine += o->n[a] * t->n[a];
+        if (o->is.W > 0.0 && o != t && (o->foot || cosine < 0.9))
+            least = fmin(least, o->height - cosine * t->height);
+    }
+    return isfinite(least) ? wall_air_over(s, least) : 0.0;
+}
+
 /* 0 to 1: how much of a particle that comes to the piece of touch t with u - uw, or leaves it, goes
- * past it, beside a convex edge of this share: all of it where it is dx/4 over what the edge has on
- * its other side (a row runs at dx/2), unless it comes to that, or leaves it, as well. Both alike,
- * else water that sways round an edge is pumped: what came was stopped no more, what left was. */
+ * past it: beside a convex edge of this share where it is dx/4 over what the edge has on its other
+ * side, and beyond the end of a piece, as over a slot both sides of which are in its support,
+ * unless it comes to the others, or leaves them, as well. Both alike, else water that sways round
+ * an edge is pumped: what came was stopped no more, what left was. */
 static inline double wall_air_past(const struct sph *s, const struct wall_list *l, int k,
                                    const struct wall_touch *t, const double *u, const double *uw,
-                                   double edge, const int dim)
+                                   double edge, double beyond, const int dim)
 {
     double all = 0.0, over = 0.0, here = 0.0, there = 0.0;
-    if (!(edge > 0.0)) /* as of most particles */
+    if (!(edge > 0.0) && !(beyond > 0.0)) /* as of most particles */
         return 0.0;
     for (const struct wall_touch *o = l->touch + l->first[k]; o < l->touch + l->first[k + 1]; o++) {
         double cosine = 0.0, comes = 0.0;
@@ -140,8 +169,8 @@ static inline double wall_air_past(const struct sph *s, const struct wall_list *
         here += (u[a] - uw[a]) * t->n[a];
     if (!(all > 0.0) || here == 0.0)
         return 0.0;
-    const double q = fmin(1.0, fmax(0.0, 4.0 * over / (all * s->dx)));
-    return edge * q * q * (3.0 - 2.0 * q) * fmin(1.0, fmax(0.0, 1.0 - there / (all * here)));
+    const double past = fmax(edge * wall_air_over(s, over / all), beyond);
+    return past * fmin(1.0, fmax(0.0, 1.0 - there / (all * here)));
 }
 
 /* |u - uw|^2 along a wall of normal n, m^2/s^2. */

@@ -360,9 +360,10 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
     const bool film = i->film && wall_air_runs_along(s, square);
     const double near = wave * share_of_wave(s, t, i->streams, false),
                  held = wave * share_of_wave(s, t, i->streams, film);
-    const double light =
-        i->edge > 0.0 ? wall_air_light(s, i->p - s->background, i->u, uw, dim) : 0.0;
-    const double past = wall_air_past(s, l, k, t, i->u, uw, light * i->edge, dim);
+    const double beyond = i->film ? wall_air_beyond(s, l, k, t, dim) : 0.0;
+    const double edge = fmax(i->edge, beyond);
+    const double light = edge > 0.0 ? wall_air_light(s, i->p - s->background, i->u, uw, dim) : 0.0;
+    const double past = wall_air_past(s, l, k, t, i->u, uw, light * i->edge, light * beyond, dim);
     across *= 1.0 - past;
     if (s->surface && !i->in_air && across < 0.0)
         across *= 1.0 - wall_air_gap(s, i->empty, t->n, across, dim);
@@ -375,9 +376,9 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
     } else if (i->film) {
         /* Nor does what parts from an edge follow the wall: stretched by it, the water beside it
          * had -10 kPa for 2 (dam break against a box four particles high). */
-        if (i->edge > 0.0 && across > 0.0)
-            across *= 1.0 - i->edge * wall_air_parted(s, 0.5 * P - s->background, square);
-        P = wall_air_tension(s, t->n, P, i->edge, square, dim);
+        if (edge > 0.0 && across > 0.0)
+            across *= 1.0 - edge * wall_air_parted(s, 0.5 * P - s->background, square);
+        P = wall_air_tension(s, t->n, P, edge, square, dim);
     }
     struct given to = {.w = W * across, .m = -W * m};
     for (int a = 0; a < dim; a++)
