@@ -121,6 +121,13 @@ static inline double wall_air_over(const struct sph *s, double height)
     return q * q * (3.0 - 2.0 * q);
 }
 
+/* On the piece or its rim: a foot on the diagonal of two triangles is on neither by the last digit.
+ */
+static inline bool wall_air_before(const struct sph *s, const struct wall_touch *t)
+{
+    return t->foot || t->distance < fabs(t->height) + 1e-6 * s->dx;
+}
+
 /* 0 to 1: how much particle k is beyond the end of the piece of touch t, where air comes to it: the
  * foot of the particle on its plane lies off the piece and in front of all others. Behind one of
  * them it would come to a wall that bends towards it. Both faces of a narrow slot are so, which
@@ -130,13 +137,13 @@ static inline double wall_air_beyond(const struct sph *s, const struct wall_list
                                      const struct wall_touch *t, const int dim)
 {
     double least = INFINITY;
-    if (t->foot)
+    if (wall_air_before(s, t))
         return 0.0;
     for (const struct wall_touch *o = l->touch + l->first[k]; o < l->touch + l->first[k + 1]; o++) {
         double cosine = 0.0;
         for (int a = 0; a < dim; a++)
             cosine += o->n[a] * t->n[a];
-        if (o->is.W > 0.0 && o != t && (o->foot || cosine < 0.9))
+        if (o->is.W > 0.0 && o != t && (cosine < 0.9 || wall_air_before(s, o)))
             least = fmin(least, o->height - cosine * t->height);
     }
     return isfinite(least) ? wall_air_over(s, least) : 0.0;

@@ -309,7 +309,7 @@ near('mean pressure of water that falls, Pa', impulse('lands', 'floor') / 1.5, d
 near('pressure of water that has fallen, Pa', lib.mean('lands', 'floor', 0.7), depth, 0.05 * depth, 'lands.txt')
 
 # A film of eight rows without weight goes straight on over a slot of 2 dx in its plate, and over a step of 2 dx down: it lost
-# 7 and 5 % of its momentum, drawn down by the face before and stopped by the one behind.
+# 8 and 4 % of its momentum, drawn down by the face before and stopped by the one behind.
 film = scene(0.25, 0.01, '''fluid: { }; domain: { min = (-0.4, 0); max = (0.64, 0.4); };
 walls: ( { points = ((-0.4, 0.1), (0.2, 0.1), (0.2, 0.02), (0.22, 0.02), (0.22, 0.1), (0.64, 0.1)); } );
 shapes: ( { box = ((-0.38, 0.1), (0.04, 0.18)); velocity = (2, 0); } );
