@@ -62,23 +62,49 @@ double first_lattice_cells(double lo, double hi, double dx)
     return ceil((hi - lo) / dx - 1e-6); /* rounding makes no cell */
 }
 
+/* The lower end of a closed line along axis a, where one of its segments lies on it; INFINITY: none
+ * does, as of a tank that is tilted. */
+static double line_begin(int n, const double (*x)[2], int a)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    bool flat = false;
+    for (int i = 0; i < n; i++) {
+        lo = fmin(lo, x[i][a]);
+        hi = fmax(hi, x[i][a]);
+    }
+    for (int i = 0; i < n; i++)
+        flat = flat || fmax(x[i][a], x[(i + 1) % n][a]) <= lo + 1e-6 * (hi - lo);
+    return flat ? lo : INFINITY;
+}
+
+/* The same of a mesh and its triangles. */
+static double mesh_begin(const struct trimesh *m, int a)
+{
+    double lo[3], hi[3];
+    bool flat = false;
+    trimesh_bounds(m, lo, hi);
+    for (int t = 0; t < m->ntriangles; t++) {
+        double most = -INFINITY;
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, m->x[m->vertex[t][k]][a]);
+        flat = flat || most <= lo[a] + 1e-6 * (hi[a] - lo[a]);
+    }
+    return flat ? lo[a] : INFINITY;
+}
+
 /* The lower end along axis a of the tank or the closed line that holds the water where the domain
  * has no sides; INFINITY: none. */
 static double holder_begin(const struct scene *c, int a)
 {
-    double begin = INFINITY, lo[3], hi[3];
-    for (int k = 0; k < c->nbodies; k++) {
-        if (!c->bodies[k].tank)
-            continue;
-        if (c->domain.dim == 3)
-            trimesh_bounds(scene_body_mesh(c, k), lo, hi);
-        else
-            scene_body_box(c->bodies + k, lo, hi);
-        begin = fmin(begin, lo[a]);
-    }
-    for (int k = 0; k < c->nwalls; k++)
-        for (int i = 0; c->walls[k].closed && i < c->walls[k].points.n && a < 2; i++)
-            begin = fmin(begin, c->walls[k].points.x[i][a]);
+    double begin = INFINITY;
+    for (int k = 0; k < c->nbodies; k++)
+        if (c->bodies[k].tank)
+            begin = fmin(begin, c->domain.dim == 3
+                                    ? mesh_begin(scene_body_mesh(c, k), a)
+                                    : line_begin(c->bodies[k].points.n, c->bodies[k].points.x, a));
+    for (int k = 0; k < c->nwalls && a < 2; k++)
+        if (c->walls[k].closed)
+            begin = fmin(begin, line_begin(c->walls[k].points.n, c->walls[k].points.x, a));
     return begin;
 }
 
