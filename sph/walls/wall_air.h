@@ -128,25 +128,40 @@ static inline bool wall_air_before(const struct sph *s, const struct wall_touch 
     return t->foot || t->distance < fabs(t->height) + 1e-6 * s->dx;
 }
 
+/* 0 to 1: how much what moves at u - uw flies past edges, faster than a fall of four rows: water
+ * that sways round a box, which surrounds them, would be pumped by them. By its pressure instead
+ * the particles beside a corner switched from step to step. */
+static inline double wall_air_flies(const struct sph *s, const double *u, const double *uw, int dim)
+{
+    double square = 0.0;
+    for (int a = 0; a < dim; a++)
+        square += (u[a] - uw[a]) * (u[a] - uw[a]);
+    const double fall = 8.0 * vec3_length(s->gravity) * s->dx;
+    return square > fall ? fmin(1.0, square / fmax(fall, 1e-300) - 1.0) : 0.0;
+}
+
 /* 0 to 1: how much particle k is beyond the end of the piece of touch t, where air comes to it: the
- * foot of the particle on its plane lies off the piece and in front of all others. Behind one of
- * them it would come to a wall that bends towards it. Both faces of a narrow slot are so, which
- * wall_air_edge does not see: a film lost 7 % of its momentum over one of 2 dx, drawn down by the
- * near face and stopped by the far one, now 0.7 as over one of 8 dx. */
+ * foot of the particle on its plane lies off the piece and in front of all others that weigh as
+ * much. Behind one of them it would come to a wall that bends towards it. Both faces of a narrow
+ * slot are so, which wall_air_edge does not see: a film lost 7 % of its momentum over one of 2 dx,
+ * drawn down by the near face and stopped by the far one, now 0.7 as over one of 8 dx. */
 static inline double wall_air_beyond(const struct sph *s, const struct wall_list *l, int k,
                                      const struct wall_touch *t, const int dim)
 {
-    double least = INFINITY;
-    if (wall_air_before(s, t))
+    double beyond = 1.0, most = 0.0;
+    if (t->foot || !(t->is.W > 0.0))
         return 0.0;
     for (const struct wall_touch *o = l->touch + l->first[k]; o < l->touch + l->first[k + 1]; o++) {
         double cosine = 0.0;
         for (int a = 0; a < dim; a++)
             cosine += o->n[a] * t->n[a];
-        if (o->is.W > 0.0 && o != t && (cosine < 0.9 || wall_air_before(s, o)))
-            least = fmin(least, o->height - cosine * t->height);
+        if (!(o->is.W > 0.0) || o == t || (!o->foot && cosine >= 0.9))
+            continue;
+        const double weighs = fmin(1.0, 10.0 * o->is.W / t->is.W);
+        beyond *= 1.0 - weighs * (1.0 - wall_air_over(s, o->height - cosine * t->height));
+        most = fmax(most, weighs);
     }
-    return isfinite(least) ? wall_air_over(s, least) : 0.0;
+    return most * beyond;
 }
 
 /* 0 to 1: how much of a particle that comes to the piece of touch t with u - uw, or leaves it, goes
@@ -198,19 +213,6 @@ static inline bool wall_air_runs_along(const struct sph *s, double square)
 {
     enum { WEIGHTS = 500 };
     return square >= 2.0 * WEIGHTS * vec3_length(s->gravity) * s->dx;
-}
-
-/* 1 to 0: how little a pressure p, Pa, is beside the weight of a row and rho |u - uw|^2/2: of what
- * flies past an edge, for water that surrounds it, as at the corners of a box afloat, has more. */
-static inline double wall_air_light(const struct sph *s, double p, const double *u,
-                                    const double *uw, const int dim)
-{
-    double square = 0.0;
-    for (int a = 0; a < dim; a++)
-        square += (u[a] - uw[a]) * (u[a] - uw[a]);
-    const double least = fmax(vec3_length(s->gravity) * s->dx, 0.5 * square);
-    const double q = fmin(1.0, fmax(0.0, p) / (s->rho0 * least + 1e-300));
-    return 1.0 - q * q * (3.0 - 2.0 * q);
 }
 
 /* 0 to 1: how much of a pressure p, Pa, is tension beyond the weight of a row and the noise of

@@ -44,7 +44,7 @@ obstacle = scene(1, 0.04, 'max = (2, 1.2);', DOWN, '{ points = ((0, 1.2), (0, 0)
                  box(0, 0, 0.5, 0.6))
 runs('corner', corner)
 runs('corner_ale', changed(corner, sph='dx = 0.04; scheme = "riemann_ale";'))
-runs('oblique', scene(0.7, 0.04, 'max = (2, 2);', '(0, 0)', sides('x_min y_min'), box(0.3, 0.8, 1.3, 1.2, 'velocity = (-1.8, -0.8);')))
+runs('oblique', scene(0.7, 0.042, 'max = (2, 2);', '(0, 0)', sides('x_min y_min'), box(0.3, 0.8, 1.3, 1.2, 'velocity = (-1.8, -0.8);')))
 runs('jets', jets)
 runs('jets_delta', changed(jets, sph='dx = 0.05; scheme = "delta";'))
 runs('pool', scene(0.7, 0.05, 'max = (2, 1.4);', DOWN, SIDES,

@@ -147,6 +147,7 @@ static const struct {
     {"domain.min", "bounds of blocks, which are checked"},
     {"domain.max", "bounds of blocks, which are checked"},
     {"fluid.rho", "of a scene whose energies vanish"},
+    {"walls.friction", "of a wall that is dry or beside water at rest: fv_bed.py"},
 };
 
 /* In a flow of one dimension nothing is to be projected and nothing biased. */
