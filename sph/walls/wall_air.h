@@ -144,7 +144,8 @@ static inline double wall_air_flies(const struct sph *s, const double *u, const 
  * foot of the particle on its plane lies off the piece and in front of all others that weigh as
  * much. Behind one of them it would come to a wall that bends towards it. Both faces of a narrow
  * slot are so, which wall_air_edge does not see: a film lost 7 % of its momentum over one of 2 dx,
- * drawn down by the near face and stopped by the far one, now 0.7 as over one of 8 dx. */
+ * drawn down by the near face and stopped by the far one, now 0.06. Where walls turn by more than
+ * 60 degrees, whole from 75 on: a wedge of 120 that enters water has both its faces at the tip. */
 static inline double wall_air_beyond(const struct sph *s, const struct wall_list *l, int k,
                                      const struct wall_touch *t, const int dim)
 {
@@ -159,7 +160,7 @@ static inline double wall_air_beyond(const struct sph *s, const struct wall_list
             continue;
         const double weighs = fmin(1.0, 10.0 * o->is.W / t->is.W);
         beyond *= 1.0 - weighs * (1.0 - wall_air_over(s, o->height - cosine * t->height));
-        most = fmax(most, weighs);
+        most = fmax(most, weighs * fmin(1.0, fmax(0.0, 2.0 - 4.0 * cosine)));
     }
     return most * beyond;
 }
