@@ -150,13 +150,13 @@ static inline double wall_air_beyond(const struct sph *s, const struct wall_list
                                      const struct wall_touch *t, const int dim)
 {
     double beyond = 1.0, most = 0.0;
-    if (t->foot || !(t->is.W > 0.0))
+    if (wall_air_before(s, t) || !(t->is.W > 0.0))
         return 0.0;
     for (const struct wall_touch *o = l->touch + l->first[k]; o < l->touch + l->first[k + 1]; o++) {
         double cosine = 0.0;
         for (int a = 0; a < dim; a++)
             cosine += o->n[a] * t->n[a];
-        if (!(o->is.W > 0.0) || o == t || (!o->foot && cosine >= 0.9))
+        if (!(o->is.W > 0.0) || o == t || (!wall_air_before(s, o) && cosine >= 0.9))
             continue;
         const double weighs = fmin(1.0, 10.0 * o->is.W / t->is.W);
         beyond *= 1.0 - weighs * (1.0 - wall_air_over(s, o->height - cosine * t->height));
