@@ -494,11 +494,15 @@ void refinement_restore_momentum(struct sph *s)
     const struct refinement *r = s->refinement;
     double sums[5] = {r->momentum[0], r->momentum[1], r->momentum[2], s->step.mass, r->gone};
     double gained = 0.0;
+    if (s->zones || !(s->periodic[0] || s->periodic[1] || (s->dim == 3 && s->periodic[2])))
+        return;
     MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    for (int a = 0; a < s->dim && !s->zones && sums[4] == 0.0; a++) {
+    for (int a = 0; a < s->dim && sums[4] == 0.0; a++) {
+        if (!s->periodic[a] || walls_push(s->walls, a))
+            continue;
         const double due = s->start.momentum[a] / r->mass0 + s->gravity[a] * s->t;
         const double by = returned * (sums[a] / sums[3] - due);
-        for (struct sph *q = s; q && s->periodic[a] && !walls_push(s->walls, a); q = q->finer)
+        for (struct sph *q = s; q; q = q->finer)
             for (int i = 0; i < q->p.n; i++) {
                 double *y = state_row(&q->p, q->p.y, i);
                 if (particles_is_guard(&q->p, i))

@@ -75,16 +75,16 @@ static void keep_unturned(const struct sph *s, int body, const double *d, const 
 {
     const struct body *b = s->walls->bodies + body;
     const enum body_form round = round_and_slips(s, b);
+    const bool ball = s->dim == 3 && round == FORM_ROUND;
     double arm[3] = {0.0}, axis[3] = {0.0, 0.0, 1.0}, turn[3];
     if (round == FORM_NONE)
         return;
     for (int a = 0; a < s->dim; a++)
         arm[a] = d[a] + body_centre(b, a) - s->walls->middle[body][a];
     vec3_cross(arm, F, turn);
-    if (s->dim == 3)
+    if (s->dim == 3 && !ball)
         axis_of(b, axis);
     const double about = vec3_dot(axis, turn);
-    const bool ball = s->dim == 3 && round == FORM_ROUND;
     for (int a = 0; a < 3; a++)
         M[a] -= ball ? turn[a] : about * axis[a];
 }
