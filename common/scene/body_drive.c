@@ -101,43 +101,68 @@ static void interpolate(const struct body_term *b, int columns, int column, doub
     *ddv = (2.0 * c2 + 6.0 * z * c3) / (h * h);
 }
 
-/* Value and two derivatives of a term that has one axis. */
-static void one_axis(const struct scene_motion *m, double t, double v[3])
-{
-    const double w = 2.0 * M_PI / m->period, z = w * t + m->phase;
-    if (m->kind == MOTION_HARMONIC) {
-        v[0] = m->amplitude * sin(z);
-        v[1] = m->amplitude * w * cos(z);
-        v[2] = -m->amplitude * w * w * sin(z);
-        return;
-    }
-    const bool within = t >= m->from && t < m->until;
-    const double T = (t < m->from ? m->from : t > m->until ? m->until : t) - m->from;
-    v[0] = v[1] = v[2] = 0.0;
-    for (int k = m->coefficients.n - 1; k >= 0; k--) { /* Horner, with derivatives */
-        v[2] = v[2] * T + 2.0 * v[1];
-        v[1] = v[1] * T + v[0];
-        v[0] = v[0] * T + m->coefficients.v[k];
-    }
-    if (!within)
-        v[1] = v[2] = 0.0;
-}
-
-/* s^3 (10 - 15 s + 6 s^2) and its derivatives. */
-static void ramp(double T, double t, double v[3])
+/* s^3 (10 - 15 s + 6 s^2) with s = t / T, within 0 and 1, and its derivatives. */
+static void ramp(double T, double t, double w[3])
 {
     const double s = T > 0.0 ? t / T : 1.0;
-    v[0] = 1.0;
-    v[1] = v[2] = 0.0;
-    if (s >= 1.0)
-        return;
-    if (s <= 0.0) {
-        v[0] = 0.0;
-        return;
+    const bool over = s >= 1.0, within = !over && s > 0.0;
+    w[0] = over ? 1.0 : within ? s * s * s * (10.0 + s * (6.0 * s - 15.0)) : 0.0;
+    w[1] = within ? 30.0 * s * s * (1.0 - s) * (1.0 - s) / T : 0.0;
+    w[2] = within ? 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (T * T) : 0.0;
+}
+
+/* c_0 + c_1 t + ... with two derivatives. */
+static void polynomial(const struct param_numbers *c, double t, double v[3])
+{
+    v[0] = v[1] = v[2] = 0.0;
+    for (int k = c->n - 1; k >= 0; k--) { /* Horner */
+        v[2] = v[2] * t + 2.0 * v[1];
+        v[1] = v[1] * t + v[0];
+        v[0] = v[0] * t + c->v[k];
     }
-    v[0] = s * s * s * (10.0 + s * (6.0 * s - 15.0));
-    v[1] = 30.0 * s * s * (1.0 - s) * (1.0 - s) / T;
-    v[2] = 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (T * T);
+}
+
+/* What a ramp that multiplies the rate of a polynomial takes from its displacement by time t: c_0
+ * comes as w, c_k t^k as the integral of w k c_k t^(k-1). */
+static double lag(const struct param_numbers *c, double T, double t)
+{
+    const double within = t < T ? t : T, s = T > 0.0 ? within / T : 0.0;
+    double behind = 0.0, power = 1.0;
+    for (int k = 1; k < c->n; k++) {
+        power *= within;
+        behind +=
+            c->v[k] * power *
+            (1.0 - k * s * s * s * (10.0 / (k + 3) + s * (6.0 * s / (k + 5) - 15.0 / (k + 4))));
+    }
+    return behind;
+}
+
+/* Value and two derivatives of a polynomial term. Its ramp multiplies the rate, so that what is
+ * towed at c_1 comes to that speed without passing it (by 1.7 times where it multiplied the
+ * displacement). */
+static void polynomial_term(const struct scene_motion *m, double t, double v[3])
+{
+    const double since = t - m->from, last = fmin(t, m->until) - m->from;
+    const struct param_numbers *c = &m->coefficients;
+    double w[3], p[3];
+    ramp(m->ramp, since, w);
+    polynomial(c, last > 0.0 ? last : 0.0, p);
+    v[0] = p[0] - c->v[0] * (1.0 - w[0]) - lag(c, m->ramp, last > 0.0 ? last : 0.0);
+    v[1] = c->v[0] * w[1];
+    v[2] = c->v[0] * w[2];
+    if (since >= 0.0 && t < m->until) {
+        v[1] += w[0] * p[1];
+        v[2] += w[0] * p[2] + w[1] * p[1];
+    }
+}
+
+/* The same of a harmonic term, whose displacement the ramp multiplies. */
+static void harmonic_term(const struct scene_motion *m, double t, double v[3])
+{
+    const double w = 2.0 * M_PI / m->period, z = w * t + m->phase;
+    v[0] = m->amplitude * sin(z);
+    v[1] = m->amplitude * w * cos(z);
+    v[2] = -m->amplitude * w * w * sin(z);
 }
 
 /* Column 0 is the time. */
@@ -146,27 +171,39 @@ static int axis_of_column(int columns, int column)
     return columns == 4 ? (column == 3 ? AXIS_RZ : column - 1) : column - 1;
 }
 
-/* By the product rule: (w f)'' = w f'' + 2 w' f' + w'' f, w the ramp. A file has all columns at
- * once, other terms one axis. */
+/* What a ramp that multiplies the displacement makes of it, by the product rule. */
+static void ramped(double T, double t, double f[3])
+{
+    double w[3];
+    ramp(T, t, w);
+    f[2] = w[0] * f[2] + 2.0 * w[1] * f[1] + w[2] * f[0];
+    f[1] = w[0] * f[1] + w[1] * f[0];
+    f[0] = w[0] * f[0];
+}
+
+/* A file has all columns at once, other terms one axis. */
 static void add_term(const struct body_drive *v, const struct body_term *term, double t, double *d,
                      double *dd, double *ddd)
 {
-    double f[3], w[3];
-    if (term->is->kind >= MOTION_PARTNER) /* says it by the course */
+    const struct scene_motion *m = term->is;
+    const bool file = m->kind == MOTION_FILE;
+    if (m->kind >= MOTION_PARTNER) /* says it by the course */
         return;
-    ramp(term->is->ramp, t, w);
-    for (int c = 1; c < v->columns; c++) {
-        const bool file = term->is->kind == MOTION_FILE;
-        const int a = file ? axis_of_column(v->columns, c) : term->is->axis;
-        if (file)
-            interpolate(term, v->columns, c, t, f, f + 1, f + 2);
-        else
-            one_axis(term->is, t, f);
-        d[a] += w[0] * f[0];
-        dd[a] += w[0] * f[1] + w[1] * f[0];
-        ddd[a] += w[0] * f[2] + 2.0 * w[1] * f[1] + w[2] * f[0];
-        if (!file)
-            return;
+    for (int c = 1; c < (file ? v->columns : 2); c++) {
+        const int a = file ? axis_of_column(v->columns, c) : m->axis;
+        double f[3];
+        if (m->kind == MOTION_POLYNOMIAL) {
+            polynomial_term(m, t, f);
+        } else {
+            if (file)
+                interpolate(term, v->columns, c, t, f, f + 1, f + 2);
+            else
+                harmonic_term(m, t, f);
+            ramped(m->ramp, t, f);
+        }
+        d[a] += f[0];
+        dd[a] += f[1];
+        ddd[a] += f[2];
     }
 }
 
@@ -358,11 +395,17 @@ static double file_step(const struct body_term *b, int columns)
     return fmax(2.0 * M_PI / PERIOD_STEPS * time, span / (b->n - 1));
 }
 
+/* A polynomial's begins where it does. */
+static double ramp_end(const struct scene_motion *m)
+{
+    return m->kind == MOTION_POLYNOMIAL && m->ramp > 0.0 ? m->from + m->ramp : m->ramp;
+}
+
 /* INFINITY: the term asks for no step of its own at t. */
 static double term_step(const struct body_term *b, int columns, double t)
 {
     const struct scene_motion *m = b->is;
-    double dt = t < m->ramp ? m->ramp / COURSE_STEPS : INFINITY;
+    double dt = t < ramp_end(m) ? m->ramp / COURSE_STEPS : INFINITY;
     if (m->kind == MOTION_HARMONIC)
         dt = lesser(dt, m->period / PERIOD_STEPS);
     else if (m->kind == MOTION_POLYNOMIAL && t >= m->from && t < m->until)
@@ -396,7 +439,7 @@ double body_drive_event(const struct body_drive *v, double t)
         const bool polynomial = b->is->kind == MOTION_POLYNOMIAL,
                    file = b->is->kind == MOTION_FILE && b->n > 1;
         const double last = file ? b->rows[(ptrdiff_t)v->columns * (b->n - 1)] : 0.0;
-        const double at[] = {b->is->ramp,
+        const double at[] = {ramp_end(b->is),
                              polynomial ? b->is->from
                              : file     ? b->rows[0]
                                         : 0.0,

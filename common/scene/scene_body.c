@@ -67,7 +67,7 @@ static const struct param motion_rows[] = {
           USED(ONLY(kind, ONE(MOTION_POLYNOMIAL), "only a polynomial has it"))),
     PARAM(P, until,     "s",   "1e9", 0, 1e9, "its end",
           USED(ONLY(kind, ONE(MOTION_POLYNOMIAL), "only a polynomial has it"))),
-    PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from zero within this time, with continuous velocity and acceleration",
+    PARAM(P, ramp,      "s",   "0.0", 0, 1e9, "the term grows from zero within this time, with continuous velocity and acceleration; a polynomial by its rate, from `from' on",
           USED(ONLY(kind, ~BY_PARTNER, "a partner says how its motion begins"))),
     PARAM(P, absorb,    "-",   "false", 0, 0, "of kind waves: the paddle takes up the waves that come back to it, by a gauge of the level 2 sph.dx before its face",
           USED(ONLY(kind, ONE(MOTION_WAVES), "only what makes waves (kind = \"waves\") absorbs them"))),

@@ -345,6 +345,29 @@ TEST(motion_is_differentiable)
     }
 }
 
+/* What is towed at c_1 from 0.4 s on with a ramp of 1.5 s stands until then, never goes faster than
+ * c_1, and is half a ramp behind at its end. */
+TEST(ramp_of_a_polynomial_is_that_of_its_rate)
+{
+    struct scene_body is = {.motion = {.n = 1}};
+    struct body_drive v;
+    is.motion.of[0] = (struct scene_motion){.kind = MOTION_POLYNOMIAL,
+                                            .axis = AXIS_X,
+                                            .coefficients = {2, {0.0, 3.0}},
+                                            .from = 0.4,
+                                            .until = 10.0,
+                                            .ramp = 1.5};
+    body_drive_create(&v, &is, 2, NULL);
+    for (double t = 0.0; t < 12.0; t += 0.1) {
+        struct body_motion m;
+        body_drive_motion(&v, t, &m);
+        assert_true(m.u[0] >= 0.0 && m.u[0] <= 3.0 * (1.0 + 1e-12));
+        if (t < 0.4 || t > 1.9)
+            assert_close(m.x[0], t < 0.4 ? 0.0 : 3.0 * (fmin(t, 10.0) - 0.4 - 0.75), 1e-12);
+    }
+    assert_close(body_drive_event(&v, 0.5), 1.9, 1e-12);
+}
+
 /* Whatever part of the run a period is: the largest speed is A omega, also of one that even
  * samples, a period apart, would show at rest. */
 TEST(no_period_hides_between_samples)
