@@ -26,6 +26,8 @@ for folder, end, velocity, height, inflow, outflow in (
         ('shallow', 5, 0.3, 0.16, 'discharge = 0.048', 'level = 0.16;'),
         ('still', 4, 0, 0.2, 'level = 0.2', 'level = 0.2;'),
         ('bore', 0.8, 0, 0.2, 'velocity = (0.35, 0)', '')):
+    if folder == 'level' and not lib.long:
+        continue
     alone('sph', folder, '''format = 1;
 time:    { end = %g; };
 fluid:   { gravity = (0, -9.81); };
@@ -41,21 +43,22 @@ output:  { snapshots = false; };
 ''' % (end, velocity, inflow, outflow, height))
     if says('^warning(?!.*sph.c0)', folder + '.txt'):
         bad(folder + ': warns', folder + '.txt')
-level('level', 0.2, 3, 5)
+if lib.long:
+    level('level', 0.2, 3, 5)
 level('shifted', 0.207, 3, 5)
 level('still', 0.2, 3, 4)
 # eight rows, what is in them: 160 kg and g h^2/(2 c0^2) for the weight of the water (-1.7 % where the pressure outside was
 # hydrostatic up to the surface, which particles exceed there)
 close('shallow: kg', mean('shallow', 'mass [', 3, 5), 160.31, 0.01, 'shallow.txt')
-close('level: kg that came in', number('level', 'through.x_min'), 350, 0.02)
-close('level: kg through the outlet', number('level', 'through.x_max'), -350, 0.02)
+close('shifted: kg that came in', number('shifted', 'through.x_min'), 362.25, 0.02)
+close('shifted: kg through the outlet', number('shifted', 'through.x_max'), -362.25, 0.02)
 for gauge in 'flow', 'slant':  # the same through any section, upright or not
-    close('level: m^2/s at ' + gauge, mean('level', gauge, 3, 5), 0.07, 0.02)
-near('level: mass lost or made', number('level', 'budget'), 0, 0.02)
+    close('shifted: m^2/s at ' + gauge, mean('shifted', gauge, 3, 5), 0.07245, 0.02)
+near('shifted: mass lost or made', number('shifted', 'budget'), 0, 0.02)
 near('water at rest: kg that come in', number('still', 'x_min'), 0, 1)
 # jump relations: u = (h2 - h1) sqrt(g (h1 + h2)/(2 h1 h2)) = 0.35 m/s
 close('bore: level', mean('bore', 'up', 0.35, 0.8), 0.2528, 0.02)
-start('sph', 'level.cfg', '--check', log='check.txt')
+start('sph', 'still.cfg', '--check', log='check.txt')
 told('check', 'x_max: water 0.2 m high outside')
 
 # over a sill of three rows behind it the level falls by no more than the velocity head over it, all of which may be lost:
