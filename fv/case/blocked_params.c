@@ -139,11 +139,17 @@ static bool has_friction(const struct run *r, const struct coarse *g, int a, int
     return box > 0 ? g->prm->boxes[box - 1].kind == WALL_NO_SLIP : w && w->kind == WALL_NO_SLIP;
 }
 
-/* Keeps the narrowest gap that is enough for the scheme; what is open to the air is none. */
-static void note_gap(const struct run *r, struct coarse *g, int a, int box, int cells, bool top)
+/* Whether the domain ends there in the air, without a wall of the case. */
+static bool is_air(const struct run *r, int a, int up)
 {
-    if (top && !scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + 1)))
-        return;
+    const struct scene_wall *w =
+        scene_wall_of(&r->scene, (enum scene_side)(SIDE_X_MIN + 2 * a + up));
+    return !w || w->assumed;
+}
+
+/* Keeps the narrowest gap that is enough for the scheme. */
+static void note_gap(struct coarse *g, int a, int box, int cells)
+{
     if (2 * cells < g->prm->cells[a] && (g->narrow == 0 || cells < g->narrow)) {
         g->narrow = cells;
         g->beside = box;
@@ -217,8 +223,9 @@ static void check_gaps(const struct run *r, struct coarse *g, int a, struct faul
                           at - from, "xyz"[a], least,
                           least > BLOCKED_GAP ? " between no-slip faces" : "");
                     told[k] = true;
-                } else if (k >= 0 && from >= 0 && at - from > 0 && is_passage(r, g, a, i, first, m))
-                    note_gap(r, g, a, k, at - from, end);
+                } else if (k >= 0 && from >= 0 && at - from > 0 && !(end && is_air(r, a, 1)) &&
+                           !(box == 0 && is_air(r, a, 0)) && is_passage(r, g, a, i, first, m))
+                    note_gap(g, a, k, at - from);
                 from = at + (end ? 0 : g->edge[a][i[a] + 1] - g->edge[a][i[a]]);
                 box = here;
                 first = m + 1;

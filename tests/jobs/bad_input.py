@@ -236,6 +236,8 @@ write('shafts.cfg', shafts)
 holds(start('fv', 'shafts.cfg', '--check') == 0 and not told('contracts too little'), 'shafts beside a box are taken for openings')
 write('shafts.cfg', shafts.replace('0.3, 0.3)', '0.3, 0.2)'))
 holds(start('fv', 'shafts.cfg', '--check') == 0 and told('8 cells along y .* contracts too little'), 'an opening of 8 cells is not told')
+write('shafts.cfg', shafts.replace('(0.7, 1)', '(0.7, 0.9)').replace('0.3, 0.3)', '0.3, 0.4)').replace('(20, 40)', '(60, 40)'))  # the air above it is none
+holds(start('fv', 'shafts.cfg', '--check') == 0 and not told('contracts too little'), 'the air over a box is taken for an opening')
 # between two given levels water at rest gathers speed slowly in both programs
 levels = changed(lib.TANK, domain='max = (2, 1);', walls='{ side = "x_min"; kind = "inflow"; level = 0.52; }, { side = "x_max"; kind = "outflow"; level = 0.48; }, { side = "y_min"; }', sph='dx = 0.05;')
 write('levels.cfg', levels)
