@@ -184,6 +184,15 @@ void scene_body_box(const struct scene_body *b, double lo[3], double hi[3])
 }
 
 /* Whether it ever moves: forces, a motion, or a constant velocity. */
+int scene_motions_turn(const struct scene_motions *m)
+{
+    int axes = 0;
+    for (int i = 0; i < m->n; i++)
+        if (m->of[i].kind == MOTION_HARMONIC || m->of[i].kind == MOTION_POLYNOMIAL)
+            axes |= m->of[i].axis >= AXIS_RX ? 1 << (m->of[i].axis - AXIS_RX) : 0;
+    return axes;
+}
+
 bool scene_body_moves(const struct scene_body *b)
 {
     bool any = b->free || b->motion.n > 0;

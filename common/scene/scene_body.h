@@ -129,6 +129,8 @@ extern const int scene_body_nrows;
 /* The rows of the list `motion', which fill a struct scene_motions, for groups of their own. */
 extern const struct param_list scene_motion_list;
 
+/* The axes about which terms turn, bits 1 << a; those of files are not among them. */
+int scene_motions_turn(const struct scene_motions *m);
 /* Whether the body ever moves: it is free, or has a velocity or terms of motion. */
 bool scene_body_moves(const struct scene_body *b);
 /* Box around its surface at the start, m; a body in the plane has 0 along the third axis, one

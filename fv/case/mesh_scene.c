@@ -248,11 +248,8 @@ enum { SWEEP_TIMES = 2000, SWEEP_CUTS = 12 };
 /* Whether it turns, as told by terms, and its centre is not given. */
 static bool turns_about_origin(const struct run *r, const struct mesh_block_params *b)
 {
-    const int k = (int)(b - mesh_given);
-    bool turns = false;
-    for (int i = 0; i < b->motion.n; i++)
-        turns = turns || (b->motion.of[i].kind != MOTION_FILE && b->motion.of[i].axis >= AXIS_RX);
-    return turns && !params_given(r->params, key_text("blocks.[%d].centre", k));
+    const char *key = key_text("blocks.[%d].centre", (int)(b - mesh_given));
+    return scene_motions_turn(&b->motion) && !params_given(r->params, key);
 }
 
 /* At one place of the run: false: faults were added. */

@@ -99,14 +99,9 @@ static bool is_free(const struct scene *c, const struct bound *b)
 static bool turns_about_origin(const struct run *r, int k, int *axes)
 {
     const struct scene_body *b = r->scene.bodies + k;
-    *axes = 0;
+    *axes = scene_motions_turn(&b->motion);
     for (int a = 0; a < 3; a++)
         *axes |= b->spin[a] != 0.0 ? 1 << a : 0;
-    for (int i = 0; i < b->motion.n; i++)
-        if ((b->motion.of[i].kind == MOTION_HARMONIC ||
-             b->motion.of[i].kind == MOTION_POLYNOMIAL) &&
-            b->motion.of[i].axis >= AXIS_RX)
-            *axes |= 1 << (b->motion.of[i].axis - AXIS_RX);
     return *axes && !b->free && !params_given(r->params, key_text("bodies.[%d].centre", k));
 }
 
