@@ -36,39 +36,50 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
 {
     const struct walls *w = s->walls;
     const struct sph *at = level_at(s, to->is.x);
-    double x[3] = {0.0, 0.0, 0.0}, out[3], most = 0.0;
+    double x[3] = {0.0, 0.0, 0.0}, out[3];
     for (int a = 0; a < s->dim; a++)
         x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
     to->level = at->level;
     to->lack = 1.0 - wall_share(at, body, x);
     to->room = to->lack;
-    to->dry = false;
     for (int k = -1; k < w->nbodies; k++) {
         const double share = k == body ? 0.0 : wall_share(at, k, x);
         const bool seals = k != body && walls_sealed(s, body, k) && (all || k < 0 || k > body);
         to->room -= share;
-        if (!seals) {
+        if (!seals)
             to->lack -= share;
+        if (!seals || !(share > 0.0) || to->nothers == SEAL_OTHERS)
             continue;
-        }
-        if (share > 0.0)
-            wall_share_weight(at, k, to->is.x, to->is.n, to->weight);
-        if (share > most) {
-            most = share;
-            to->other = k;
-        }
+        struct seal_other *o = to->other + to->nothers++;
+        *o = (struct seal_other){.body = k, .share = share};
+        wall_share_weight(at, k, to->is.x, to->is.n, o->weight);
         const double r = touch_distance(w, s->dim, k, to->is.x, close_by * at->dx, out);
-        to->dry =
-            to->dry || (r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat);
+        o->lies_on = r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat;
+        to->dry = to->dry || o->lies_on;
+        to->reached = fmax(to->reached, share);
     }
-    to->rim = most < open_share && !to->dry;
-    return most > 1e-6;
+    return to->reached > 1e-6;
+}
+
+/* The rim is open to the water, and the others hardly matter there. Of a body all of whose open
+ * faces they reach, as a block of R between a floor and another as wide, it is where they matter
+ * least: without one no water seeped in, and the upper block bore what is above it. */
+static void mark_rim(struct seal_point *of, int n)
+{
+    double least = INFINITY;
+    for (int k = 0; k < n; k++) {
+        of[k].rim = !of[k].dry && of[k].room > of[k].reached;
+        least = of[k].rim ? fmin(least, of[k].reached) : least;
+    }
+    for (int k = 0; k < n; k++)
+        of[k].rim = of[k].rim && of[k].reached < fmax(open_share, 1.5 * least);
 }
 
 /* How much a point goes by what is around it itself: the pressure of rows between two faces errs by
  * some per cent, that of the rim does not; but far from it the water in a slit flows. */
 static void find_far(const struct sph *s, struct seal_point *of, int n)
 {
+    mark_rim(of, n);
     for (int k = 0; k < n; k++) {
         const double R = level_at(s, of[k].is.x)->R;
         double least = INFINITY, e[3];
@@ -81,22 +92,36 @@ static void find_far(const struct sph *s, struct seal_point *of, int n)
     }
 }
 
-/* The points of a body that face others with which it is sealed (walls->sealed), of two bodies
- * those of the first alone, into *of, owned by the caller; returns their number. */
+/* Appends the points of a body that face others with which it is sealed (walls->sealed), of two
+ * bodies those of the first alone, or `all'. */
+static void add_points(const struct sph *s, int body, bool all, struct seal_point **of, int *n)
+{
+    const struct nodes nodes = body_nodes_lay(s, body);
+    ROOM_IN(NULL, *of, *n + nodes.n);
+    for (int k = 0; k < nodes.n; k++) {
+        struct seal_point *to = *of + *n;
+        *to = (struct seal_point){.is = nodes.node[k], .body = body};
+        to->is.around = true;
+        *n += measure(s, body, all, to);
+    }
+    mem_free(nodes.node);
+}
+
+/* The points of a body, and, for their rim, of the bodies with which it is sealed, into *of, owned
+ * by the caller; returns their number. A slab of 2 dx between blocks has no open face of its own.
+ */
 static int lay_points(const struct sph *s, int body, struct seal_point **of)
 {
-    struct nodes nodes = body_nodes_lay(s, body);
-    struct seal_point *to = NEW(struct seal_point, nodes.n);
-    int n = 0;
-    for (int k = 0; k < nodes.n; k++) {
-        to[n] = (struct seal_point){.is = nodes.node[k], .body = body};
-        to[n].is.around = true;
-        n += measure(s, body, false, to + n);
-    }
-    find_far(s, to, n);
-    mem_free(nodes.node);
-    *of = to;
-    return n;
+    int n = 0, kept = 0;
+    add_points(s, body, false, of, &n);
+    for (int k = 0, own = n; k < s->walls->nbodies && own > 0; k++)
+        if (k != body && walls_sealed(s, body, k))
+            add_points(s, k, true, of, &n);
+    find_far(s, *of, n);
+    for (int k = 0; k < n; k++)
+        if ((*of)[k].body == body || (*of)[k].rim)
+            (*of)[kept++] = (*of)[k];
+    return kept;
 }
 
 /* Share of the water at a point that particles are there for, 0 to 1. */
@@ -175,20 +200,29 @@ static struct seep water_at(const struct sph *s, const struct seal_point *p,
     return is;
 }
 
-/* q is what the point lacks: 2 p (1 - b_y), or where the other lies on it p (1 - 2 b_y), less what
+/* q is what the point lacks: 2 p (1 - b_y), or where another lies on it p (1 - 2 b_y), less what
  * particles give already; the rest is what the water's weight changes of that (wall_share_weight).
- */
+ * Of several others each gives by its share of the kernel, what lies on the point what is left: to
+ * a slab of 1 dx on the floor the block on it would else be given the floor's part. */
 static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
                   const struct seep *is)
 {
-    double f[3], back[3];
-    for (int a = 0; a < 3; a++) {
-        const double q = 2.0 * p->lack * is->p - (p->dry ? is->p : 2.0 * d->said.P);
-        f[a] = d->area * (q * d->n[a] + is->wet * s->rho0 * p->weight[a]);
-        back[a] = -f[a];
+    const double q = 2.0 * p->lack * is->p - (p->dry ? is->p : 2.0 * d->said.P);
+    double f[3], back[3], shares = 0.0;
+    for (int k = 0; k < p->nothers; k++)
+        shares += p->other[k].share;
+    for (int k = 0; k < p->nothers; k++) {
+        const struct seal_other *o = p->other + k;
+        double by = o->share / shares * q;
+        if (p->dry)
+            by = 2.0 * o->share * is->p + (o->lies_on ? q - 2.0 * shares * is->p : 0.0);
+        for (int a = 0; a < 3; a++) {
+            f[a] = d->area * (by * d->n[a] + is->wet * s->rho0 * o->weight[a]);
+            back[a] = -f[a];
+        }
+        forces_add(s, p->body, d->x, f);
+        forces_add(s, o->body, d->x, back);
     }
-    forces_add(s, p->body, d->x, f);
-    forces_add(s, p->other, d->x, back);
 }
 
 /* The nearest of those whose faces it may be on. */
@@ -227,14 +261,15 @@ static struct seep *find_water(const struct sph *s, const struct seal_point *of,
     return is;
 }
 
-/* Presses the points [n] of one body, and their others with the opposite. Collective; rank 0 alone
- * reports forces, for points are the same on all ranks. */
+/* Presses those of the points [n] that are of the first's body, and their others with the opposite.
+ * Collective; rank 0 alone reports forces, for points are the same on all ranks. */
 static void press_points(struct sph *s, const struct seal_point *of, int n)
 {
     struct nodes at;
     struct seep *is = find_water(s, of, n, &at);
     for (int k = 0; k < n && s->run->rank == 0; k++)
-        press(s, of + k, at.node + k, is + k);
+        if (of[k].body == of->body)
+            press(s, of + k, at.node + k, is + k);
     FREE(is, at.node);
 }
 
@@ -329,7 +364,7 @@ static bool is_as_measured(const struct sph *s, int body, const struct seal_rest
 static const struct seal_rest *rest_of(const struct sph *s, int body)
 {
     struct walls *w = s->walls;
-    struct seal_point *of;
+    struct seal_point *of = NULL;
     if (w->rest[body] && is_as_measured(s, body, w->rest[body]))
         return w->rest[body];
     mem_free(w->rest[body]);

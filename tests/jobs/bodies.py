@@ -308,6 +308,15 @@ for name, up, n in ('pile', 'y', 6), ('cubes', 'z', 2):
         found = last(name + '/series.csv', 'b%d %s ' % (k, up))
         check(abs(found - 0.1 - k % 3 * 0.2) < 0.01, '%s: block %d stands at %g m' % (name, k, found))
 
+# Blocks on each other under water bear their weight less their buoyancy each, as wide and no higher than R, too, and slabs of a spacing.
+for name, heights in ('stack', (0.1, 0.1)), ('slab', (0.025, 0.15)), ('between', (0.15, 0.025, 0.15)):
+    tops = [sum(heights[:k + 1]) for k in range(len(heights))]
+    run_case(name, changed(TANK, time='end = 0.5;', domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
+                           bodies=', '.join('{ name = "b%d"; free = true; density = 2000; %s }' % (k, points(0.5, top - h, 0.75, top))
+                                            for k, (h, top) in enumerate(zip(heights, tops)))))
+    for k, h in enumerate(heights):
+        close('%s, block %d: contact' % (name, k), mean(name + '/series.csv', 'b%d contact' % k, 0.25), 9810 * 0.25 * h, 0.06)
+
 # A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
 # round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
 FREE = 'free = true; density = 1000; contact = { restitution = %g; friction = 0.2; gap = %g; };'
