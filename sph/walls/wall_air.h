@@ -144,8 +144,10 @@ static inline double wall_air_flies(const struct sph *s, const double *u, const 
  * foot of the particle on its plane lies off the piece and in front of all others that weigh as
  * much. Behind one of them it would come to a wall that bends towards it. Both faces of a narrow
  * slot are so, which wall_air_edge does not see: a film lost 7 % of its momentum over one of 2 dx,
- * drawn down by the near face and stopped by the far one, now 0.06. Where walls turn by more than
- * 60 degrees, whole from 75 on: a wedge of 120 that enters water has both its faces at the tip. */
+ * drawn down by the near face and stopped by the far one, now 0.06. So is the face of a step down
+ * of less than a spacing, over which water from five rows on knows of no surface: it was held back
+ * there by rho c u, 10 % of the momentum of eight rows. Where walls turn by more than 60 degrees,
+ * whole from 75 on: a wedge of 120 that enters water has both its faces at the tip. */
 static inline double wall_air_beyond(const struct sph *s, const struct wall_list *l, int k,
                                      const struct wall_touch *t, const int dim)
 {

@@ -360,15 +360,17 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
     const bool film = i->film && wall_air_runs_along(s, square);
     const double near = wave * share_of_wave(s, t, i->streams, false),
                  held = wave * share_of_wave(s, t, i->streams, film);
-    const double flies = i->film ? wall_air_flies(s, i->u, uw, dim) : 0.0;
+    const double flies = s->walls->near_surface ? wall_air_flies(s, i->u, uw, dim) : 0.0;
     const double beyond = flies > 0.0 ? flies * wall_air_beyond(s, l, k, t, dim) : 0.0;
     const double edge = fmax(i->edge, beyond);
     const double past = wall_air_past(s, l, k, t, i->u, uw, flies * i->edge, beyond, dim);
     across *= 1.0 - past;
     if (s->surface && !i->in_air && across < 0.0)
         across *= 1.0 - wall_air_gap(s, i->empty, t->n, across, dim);
-    double P = i->p + wall_pressure(s, i, t->is.e, (1.0 - past) * near, held, uw, t->n, dim) -
-               2.0 * i->damped;
+    double P =
+        i->p +
+        wall_pressure(s, i, t->is.e, (1.0 - past) * near, (1.0 - past) * held, uw, t->n, dim) -
+        2.0 * i->damped;
     /* What walls do not hold: a drop under a roof falls, air comes between. */
     if (i->in_air && !wall_air_runs_along(s, square)) {
         P = fmax(P, 0.0);

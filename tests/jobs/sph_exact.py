@@ -312,15 +312,16 @@ depth = 9810 * 0.35
 near('mean pressure of water that falls, Pa', impulse('lands', 'floor') / 1.5, depth, 0.08 * depth, 'lands.txt')
 near('pressure of water that has fallen, Pa', lib.mean('lands', 'floor', 0.7), depth, 0.05 * depth, 'lands.txt')
 
-# A film of eight rows without weight goes straight on over a slot of 2 dx in its plate, and over a step of 2 dx down: it lost
-# 8 and 4 % of its momentum, drawn down by the face before and stopped by the one behind.
+# A film of eight rows without weight goes straight on over a slot of 2 dx in its plate, and over steps of 2 dx and dx/2 down: it lost
+# 8, 4 and 10 % of its momentum, drawn down by the face before and stopped by the one behind.
 film = scene(0.25, 0.01, '''fluid: { }; domain: { min = (-0.4, 0); max = (0.64, 0.4); };
 walls: ( { points = ((-0.4, 0.1), (0.2, 0.1), (0.2, 0.02), (0.22, 0.02), (0.22, 0.1), (0.64, 0.1)); } );
 shapes: ( { box = ((-0.38, 0.1), (0.04, 0.18)); velocity = (2, 0); } );
 ''')
 run_case('over_slot', film)
 run_case('over_step', varied(film, '(0.2, 0.02), (0.22, 0.02), (0.22, 0.1), (0.64, 0.1)', '(0.2, 0.08), (0.64, 0.08)'))
-for case in 'over_slot', 'over_step':
+run_case('over_half', varied(film, '(0.2, 0.02), (0.22, 0.02), (0.22, 0.1), (0.64, 0.1)', '(0.2, 0.095), (0.64, 0.095)'))
+for case in 'over_slot', 'over_step', 'over_half':
     first, *_, end = column(case + '/series.csv', 'momentum x')
     near('momentum of a film, %s' % case, end / first, 1, 0.005, case + '.txt')
 
