@@ -17,8 +17,8 @@
 #include "bodies.h"
 #include "body_touch.h"
 
-static const double enough = 0.5, open_share = 0.02; /* - */
-static const double close_by = 0.1, flat = 0.9995;   /* dx; -: faces that lie on each other */
+static const double enough = 0.5, open_share = 0.02, open_room = 0.1; /* - */
+static const double close_by = 0.1, flat = 0.9995; /* dx; -: faces that lie on each other */
 
 /* Level of refinement that flows at x. */
 static const struct sph *level_at(const struct sph *s, const double *x)
@@ -68,7 +68,7 @@ static void mark_rim(struct seal_point *of, int n)
 {
     double least = INFINITY;
     for (int k = 0; k < n; k++) {
-        of[k].rim = !of[k].dry && of[k].room > of[k].reached;
+        of[k].rim = !of[k].dry && of[k].room > fmax(of[k].reached, open_room);
         least = of[k].rim ? fmin(least, of[k].reached) : least;
     }
     for (int k = 0; k < n; k++)

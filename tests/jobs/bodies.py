@@ -4,7 +4,7 @@ import math
 import re
 
 import lib
-from lib import TANK, box_stl, changed, check, close, column, last, mean, number, run_case, sides, write
+from lib import TANK, box_stl, changed, check, close, column, last, mean, near, number, run_case, sides, write
 
 lib.scratch()
 
@@ -315,14 +315,17 @@ for name, up, n in ('pile', 'y', 6), ('cubes', 'z', 2):
         found = last(name + '/series.csv', 'b%d %s ' % (k, up))
         check(abs(found - 0.1 - k % 3 * 0.2) < 0.01, '%s: block %d stands at %g m' % (name, k, found))
 
-# Blocks on each other under water bear their weight less their buoyancy each, as wide and no higher than R, too, and slabs of a spacing.
-for name, heights in ('stack', (0.1, 0.1)), ('slab', (0.025, 0.15)), ('between', (0.15, 0.025, 0.15)):
-    tops = [sum(heights[:k + 1]) for k in range(len(heights))]
-    run_case(name, changed(TANK, time='end = 0.5;', domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
-                           bodies=', '.join('{ name = "b%d"; free = true; density = 2000; %s }' % (k, points(0.5, top - h, 0.75, top))
-                                            for k, (h, top) in enumerate(zip(heights, tops)))))
-    for k, h in enumerate(heights):
-        close('%s, block %d: contact' % (name, k), mean(name + '/series.csv', 'b%d contact' % k, 0.25), 9810 * 0.25 * h, 0.06)
+# Blocks on or beside each other under water bear their weight less their buoyancy each, and nothing pushes them aside: as wide
+# and no higher than R, slabs of a spacing, two in a row, a pile of three.
+for name, boxes in (('stack', ((0.5, 0, 0.75, 0.1), (0.5, 0.1, 0.75, 0.2))), ('slab', ((0.5, 0, 0.75, 0.025), (0.5, 0.025, 0.75, 0.175))),
+                    ('between', ((0.5, 0, 0.75, 0.15), (0.5, 0.15, 0.75, 0.175), (0.5, 0.175, 0.75, 0.325))),
+                    ('row', ((0.4, 0, 0.6, 0.3), (0.6, 0, 0.8, 0.2))), ('heap', ((0.4, 0, 0.6, 0.15), (0.6, 0, 0.8, 0.15), (0.5, 0.15, 0.7, 0.3)))):
+    run_case(name, changed(TANK, time='end = 0.4;', domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
+                           bodies=', '.join('{ name = "b%d"; free = true; density = 2000; %s }' % (k, points(*box)) for k, box in enumerate(boxes))))
+    for k, (left, low, right, top) in enumerate(boxes):
+        bears = 9810 * (right - left) * (top - low)
+        close('%s, block %d: contact' % (name, k), mean(name + '/series.csv', 'b%d contact' % k, 0.2), bears, 0.06)
+        near('%s, block %d: force aside' % (name, k), mean(name + '/series.csv', 'b%d force x' % k, 0.2), 0, 0.03 * bears)
 
 # A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
 # round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
