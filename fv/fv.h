@@ -86,7 +86,7 @@ struct fv_output;      /* what outputs keep from row to row; output/output.h */
 
 /* Gravity as the equations hold it; boundary/still.h. */
 struct gravity {
-    double periodic[3];    /* m/s^2: along periodic axes, where it drives the flow */
+    double periodic[3];    /* m/s^2: where it drives the flow, along periodic axes and channels */
     double hydrostatic[3]; /* m/s^2: across closed sides, where the pressure takes it up */
     double level;          /* m: height at which that pressure is 0 */
 };

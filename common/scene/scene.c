@@ -189,7 +189,7 @@ static const struct param shape_rows[] = {
 #define P struct scene_probe
 static const struct param probe_rows[] = {
     PARAM(P, name, "-", "probe#", 0, 0, "its name in series.csv"),
-    CHOICE(P, kind, "pressure|level|shore|discharge|velocity", "pressure", "what it reads: pressure at a point; height against gravity of the surface in the column over it, which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D); discharge through the line from at to `to`, to its right-hand side, in 3D through the rectangle between these corners, along the axis across it (sph: an oblique line goes on 2 dx beyond the floor; a section closer than 3 dx to an open side is read that far from it), and the volume at the end: what overtops a wall goes through a line over its crest; velocity at a point, nan where no water is"),
+    CHOICE(P, kind, "pressure|level|shore|discharge|velocity", "pressure", "what it reads: pressure at a point; height against gravity of the surface in the column over it (where gravity leans: along the axis with most of it, from the origin), which stands on the floor or body next below it (sph); height of the water's edge on a beach, to both sides of a place in the water (sph in 2D); discharge through the line from at to `to`, to its right-hand side, in 3D through the rectangle between these corners, along the axis across it (sph: an oblique line goes on 2 dx beyond the floor; a section closer than 3 dx to an open side is read that far from it), and the volume at the end: what overtops a wall goes through a line over its crest; velocity at a point, nan where no water is"),
     PARAM(P, at,   "m", NULL, -1e9, 1e9, "place"),
     PARAM(P, to,   "m",   "(0.0, 0.0, 0.0)", -1e9, 1e9, "of a discharge: the other end of its line, the other corner of its rectangle",
           USED(ONLY(kind, ONE(PROBE_DISCHARGE), "only a discharge goes through a line"))),
@@ -397,6 +397,8 @@ static bool is_filled(const struct scene *s)
     for (int a = 0; a < d->dim; a++)
         for (int end = 0; end < 2; end++)
             shut = shut && (d->periodic[a] || scene_side_is_wall(s, SIDE_X_MIN + 2 * a + end));
+    if (!shut) /* heights ask for a surface where a channel is open */
+        return false;
     scene_heights(s, &low, &high);
     for (int k = 0; k < s->nshapes; k++) {
         const struct scene_shape *h = s->shapes + k;
@@ -409,7 +411,7 @@ static bool is_filled(const struct scene *s)
         all = all || (h->form == SHAPE_BELOW && h->level >= high - 1e-9 * (high - low));
         filled = !h->hole && (filled || all);
     }
-    return shut && filled;
+    return filled;
 }
 
 bool scene_has_surface(const struct scene *s)

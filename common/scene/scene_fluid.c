@@ -6,12 +6,38 @@
 #include "scene_lines.h"
 #include "scene_mesh.h"
 
-/* What water at rest has: along a period gravity is a body force that drives it. */
+/* Whether water comes in or goes out at an end of the axis and no closed side stops it there. */
+static bool is_channel(const struct scene *s, int a)
+{
+    bool opens = false, stops = false;
+    for (int k = 0; k < s->nwalls; k++) {
+        const struct scene_wall *w = s->walls + k;
+        const bool across = w->side != SIDE_NONE && (w->side - SIDE_X_MIN) / 2 == a;
+        const bool open = w->kind == WALL_INFLOW || w->kind == WALL_OUTFLOW;
+        opens = opens || (across && open);
+        stops = stops || (across && !open && w->kind != WALL_FALLS);
+    }
+    return opens && !stops;
+}
+
+bool scene_is_driven_along(const struct scene *s, int a)
+{
+    bool steeper = false;
+    if (s->domain.periodic[a])
+        return true;
+    for (int b = 0; b < s->domain.dim; b++)
+        steeper =
+            steeper || (!s->domain.periodic[b] &&
+                        fabs(s->fluid.gravity[b]) > fabs(s->fluid.gravity[a]) && !is_channel(s, b));
+    return steeper && s->fluid.gravity[a] != 0.0 && is_channel(s, a) && scene_has_surface(s);
+}
+
+/* What water at rest has: elsewhere gravity is a body force that drives it. */
 double scene_still_gravity(const struct scene *s, double still[3])
 {
     double g2 = 0.0;
     for (int a = 0; a < 3; a++) {
-        still[a] = a < s->domain.dim && !s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
+        still[a] = a < s->domain.dim && !scene_is_driven_along(s, a) ? s->fluid.gravity[a] : 0.0;
         g2 += still[a] * still[a];
     }
     return sqrt(g2);

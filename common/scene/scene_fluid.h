@@ -7,8 +7,12 @@
 #include "exact.h"
 #include "scene_groups.h"
 
-/* The part of gravity that a hydrostatic pressure balances, m/s^2: without that along periodic
- * axes, which drives a flow instead. Returns its magnitude. */
+/* Whether gravity along axis a drives a flow and tilts nothing: along a period, and along a channel
+ * whose slope leaning gravity gives, which has an inlet or an outlet under a free surface at one
+ * end and no closed side at the other. Heights are across the bed then. */
+bool scene_is_driven_along(const struct scene *s, int a);
+/* The part of gravity that a hydrostatic pressure balances, m/s^2: without that along axes where it
+ * drives a flow. Returns its magnitude. */
 double scene_still_gravity(const struct scene *s, double still[3]);
 /* The axis along which that gravity has its largest component, the last of equal ones; -1: it is
  * zero. */

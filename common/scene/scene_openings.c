@@ -320,6 +320,7 @@ static void warn_of_ends(const struct motion_file *m, const char *file, double e
  * u = sqrt(2 g dz) tanh(t/t_0), t_0 = 5 L sqrt(2/(g dz)). */
 static void warn_of_slow_start(const struct scene *s)
 {
+    double still[3];
     const bool moves = scene_shapes_flow(s) ||
                        (s->initial.field != FIELD_REST && vec3_length(s->initial.velocity) > 0.0);
     for (int a = 0; a < s->domain.dim && !moves; a++) {
@@ -328,8 +329,10 @@ static void warn_of_slow_start(const struct scene *s)
         if (!w[0] || !w[1] || !w[0]->has_level || !w[1]->has_level)
             continue;
         const double z[2] = {wall_level(w[0], 0.0), wall_level(w[1], 0.0)},
-                     push = vec3_length(s->fluid.gravity) * fabs(z[0] - z[1]),
-                     L = s->domain.max[a] - s->domain.min[a], t0 = 5.0 * L * sqrt(2.0 / push);
+                     L = s->domain.max[a] - s->domain.min[a],
+                     bed = scene_is_driven_along(s, a) ? s->fluid.gravity[a] * L : 0.0,
+                     push = fabs(scene_still_gravity(s, still) * (z[0] - z[1]) + bed),
+                     t0 = 5.0 * L * sqrt(2.0 / push);
         if (push > 0.0 && s->time.end < 2.0 * t0)
             log_warn("walls: between the levels of %c_min and %c_max, %g and %g m, water at rest "
                      "gains %.2g m/s in a second, a fifth of what they drive it by, for what lets "

@@ -149,12 +149,12 @@ static double body_speed(const struct scene *s, bool free)
     return speed;
 }
 
-/* Gravity along the axes that are not periodic, unless it is in the reference of the pressure. */
+/* Gravity along the axes where it drives nothing, unless it is in the reference of the pressure. */
 static double weight(const struct scene *s, double g[3])
 {
     const struct scene_reference of = scene_reference(s);
     for (int a = 0; a < 3; a++)
-        g[a] = a < s->domain.dim && !s->domain.periodic[a] && of.slope[a] == 0.0
+        g[a] = a < s->domain.dim && !scene_is_driven_along(s, a) && of.slope[a] == 0.0
                    ? s->fluid.gravity[a]
                    : 0.0;
     return vec3_length(g);
@@ -239,6 +239,16 @@ static void room_of(const struct scene *s, double lo[3], double hi[3])
             tank_box(s->bodies + k, lo, hi);
 }
 
+/* Height by which a channel's bed falls where leaning gravity gives its slope. */
+static double drop_of(const struct scene *s, double weight)
+{
+    double drop = 0.0;
+    for (int a = 0; a < s->domain.dim; a++)
+        if (scene_is_driven_along(s, a) && !s->domain.periodic[a])
+            drop += fabs(s->fluid.gravity[a]) * extent(s, a) / weight;
+    return drop;
+}
+
 /* Depth of the water and the height that it can fall. */
 static void find_fall(const struct scene *s, double *depth, double *fall)
 {
@@ -263,7 +273,7 @@ static void find_fall(const struct scene *s, double *depth, double *fall)
     for (int k = 0; k < s->nwalls; k++) /* it can run out, but by a side that waves keep full */
         still = still && (s->walls[k].kind < WALL_OUTFLOW || s->walls[k].zone != ZONE_NONE);
     if (scene_has_surface(s) || !still)
-        *fall = still && s->nshapes > 0 ? 0.0 : *depth;
+        *fall = (still && s->nshapes > 0 ? 0.0 : *depth) + drop_of(s, weight(s, g));
     if (s->has_waves && still) { /* crests and troughs of a standing wave, before a wall */
         *depth += 2.0 * s->waves.made.crest;
         *fall = 4.0 * s->waves.made.crest;

@@ -14,8 +14,9 @@ struct gravity still_split(const struct scene *scene)
     double g = 0.0, top = 0.0;
     for (int a = 0; a < scene->domain.dim; a++) {
         const double ga = scene->fluid.gravity[a];
-        const double across = scene->domain.periodic[a] ? 0.0 : ga;
-        split.periodic[a] = scene->domain.periodic[a] ? ga : 0.0;
+        const bool drives = scene_is_driven_along(scene, a);
+        const double across = drives ? 0.0 : ga;
+        split.periodic[a] = drives ? ga : 0.0;
         split.hydrostatic[a] = across;
         g += across * across;
         top -= across * (across > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);

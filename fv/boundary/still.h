@@ -14,8 +14,8 @@ double fv_still_pressure(const struct fv *s, const double *x);
  * Pa. */
 double fv_still_in_exact(const struct fv *s, const double *x);
 
-/* still.c: splits gravity, m/s^2: along a periodic axis it drives the flow; across closed sides a
- * hydrostatic pressure balances it, which is 0 at the height of its level, m. */
+/* still.c: splits gravity, m/s^2: along a periodic axis or a channel it drives the flow; across
+ * closed sides a hydrostatic pressure balances it, which is 0 at the height of its level, m. */
 struct gravity still_split(const struct scene *scene);
 /* scene_still_axis; without gravity that is balanced the last axis. */
 int still_upright(const struct scene *scene);

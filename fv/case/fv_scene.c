@@ -17,13 +17,14 @@ static const struct scene_wall *wall_on(const struct scene *s, int a, int up)
 void fv_scene_complete(struct run *r)
 {
     struct scene *s = &r->scene;
-    const double *g = s->fluid.gravity;
+    double g[3];
     if (!surface_wanted(r))
         return;
+    (void)scene_still_gravity(s, g);
     openings_resolve(s);
     for (int a = 0; a < s->domain.dim && mesh_given_count == 0; a++) {
         const int up = g[a] < 0.0;
-        if (g[a] != 0.0 && !s->domain.periodic[a] && !wall_on(s, a, up) && s->nwalls < WALLS_MAX)
+        if (g[a] != 0.0 && !wall_on(s, a, up) && s->nwalls < WALLS_MAX)
             s->walls[s->nwalls++] = (struct scene_wall){.side = SIDE_X_MIN + 2 * a + up,
                                                         .kind = WALL_SLIP,
                                                         .level = LEVEL_TOP,
@@ -186,8 +187,8 @@ void fv_fault_falls(const struct run *r, struct faults *f)
 static void check_falling(const struct run *r, struct faults *f)
 {
     const struct scene *s = &r->scene;
-    const double *g = s->fluid.gravity;
-    double least = INFINITY, most = -INFINITY, size = 0.0;
+    double g[3], least = INFINITY, most = -INFINITY, size = 0.0;
+    (void)scene_still_gravity(s, g);
     for (int k = 0; k < s->nwalls; k++) {
         const struct scene_wall *w = s->walls + k;
         if (w->kind != WALL_OUTFLOW || w->carried || w->side == SIDE_NONE)
@@ -197,7 +198,7 @@ static void check_falling(const struct run *r, struct faults *f)
         for (int a = 0; a < s->domain.dim; a++) {
             const double lo = s->domain.min[a], hi = s->domain.max[a];
             const double x = a != side / 2 ? 0.5 * (lo + hi) : side % 2 ? hi : lo;
-            height -= s->domain.periodic[a] ? 0.0 : g[a] * x;
+            height -= g[a] * x;
             size += fabs(g[a]) * (hi - lo);
         }
         least = fmin(least, height);
@@ -237,11 +238,14 @@ static void check_water_opening(const struct run *r, struct faults *f, int k)
     const struct scene_wall *w = r->scene.walls + k;
     if (w->side == SIDE_NONE || (w->kind != WALL_INFLOW && w->kind != WALL_OUTFLOW))
         return;
-    if (w->kind == WALL_OUTFLOW && r->scene.fluid.gravity[(w->side - SIDE_X_MIN) / 2] != 0.0)
+    double still[3];
+    (void)scene_still_gravity(&r->scene, still);
+    if (w->kind == WALL_OUTFLOW && still[(w->side - SIDE_X_MIN) / 2] != 0.0)
         wall_fault(r, f, k,
                    "water would fall out of it: with a free surface an outflow stands "
-                   "upright; a side that is open to the air above it needs no wall, and a channel "
-                   "that slopes a bed that slopes (a block of mapping \"file\"), not gravity");
+                   "upright, or across a channel with an opening at its other end, too, along "
+                   "which gravity leans by less than 45 degrees; a side that is open to the air "
+                   "above it needs no wall");
     if (w->pressure != 0.0)
         wall_fault(
             r, f, k,

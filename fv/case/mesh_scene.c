@@ -69,6 +69,8 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
     const struct mesh_block *b = m->block + k;
     const int a = side / 2, p1 = b->n[(a + 1) % 3], q1 = b->n[(a + 2) % 3];
     struct total sum = {.height = INFINITY, .height_most = -INFINITY};
+    double still[3];
+    (void)scene_still_gravity(&r->scene, still);
     for (int q = 0; q < q1; q++)
         for (int p = 0; p < p1; p++) {
             const struct scene_face f = face_at(m, b, side, p, q);
@@ -86,9 +88,9 @@ static struct total sum_side(const struct run *r, const struct mesh *m, int k, i
                 wS += w[c] * f.S[c];
                 w2 += w[c] * w[c];
                 S2 += f.S[c] * f.S[c];
-                gS += r->scene.fluid.gravity[c] * f.S[c];
-                g2 += r->scene.fluid.gravity[c] * r->scene.fluid.gravity[c];
-                height -= r->scene.domain.periodic[c] ? 0.0 : r->scene.fluid.gravity[c] * f.x[c];
+                gS += still[c] * f.S[c];
+                g2 += still[c] * still[c];
+                height -= still[c] * f.x[c];
             }
             sum.any = true;
             sum.flux += wS;

@@ -449,7 +449,8 @@ double limits_next_motion(const struct fv *s) { return grid_motion_event(&s->gri
  * make. */
 double fv_speed(const struct fv *s, int a)
 {
-    const bool driven = s->gravity.periodic[a] != 0.0 || (s->bc && s->bc->driven);
+    const bool falls = s->gravity.periodic[a] != 0.0 && s->run->scene.domain.periodic[a],
+               driven = falls || (s->bc && s->bc->driven);
     return fmax(fmax(s->max.u[a], s->bc ? s->bc->speed_along[a] : 0.0),
                 driven ? s->speed.scene : 0.0);
 }

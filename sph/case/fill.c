@@ -406,7 +406,8 @@ static void set_slopes(struct sph *s, const struct exact *e)
         exact_point(e, x, 0.0, u, &p, NULL);
         const bool falls = rho == eos_rho(p, s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim && !falls; a++)
-            slope_line(&s->p, i)[a] = s->periodic[a] ? 0.0 : rho * s->gravity[a] / (c * c);
+            slope_line(&s->p, i)[a] =
+                scene_is_driven_along(&s->run->scene, a) ? 0.0 : rho * s->gravity[a] / (c * c);
     }
 }
 

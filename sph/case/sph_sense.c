@@ -408,30 +408,21 @@ static bool moves_by_name(const struct scene *c, const char *name)
     return any;
 }
 
-/* Columns of levels go along an axis; beaches are read over y. */
+/* Columns of levels go along the axis with most of gravity; beaches are read over y. */
 static void check_gauges(const struct run *r, const struct sph_params *used, struct faults *f)
 {
     const struct scene *c = &r->scene;
     double g[3];
-    int axes = 0;
     (void)scene_still_gravity(c, g);
-    for (int a = 0; a < c->domain.dim; a++)
-        axes += g[a] != 0.0;
     for (int k = 0; k < c->nprobes; k++) {
         if (c->probes[k].body[0] && !moves_by_name(c, c->probes[k].body))
             params_fault(r->params, f, key_text("probes.[%d].body", k), "%s: no body `%s' moves",
                          c->probes[k].name, c->probes[k].body);
         const char *key = key_text("probes.[%d].kind", k);
         const int kind = c->probes[k].kind;
-        if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && axes > 1)
-            params_fault(r->params, f, key,
-                         "%s: gauges of levels read columns along gravity, which must point along "
-                         "an axis (its part along a periodic one does not count). A pressure gauge "
-                         "stands anywhere",
-                         c->probes[k].name);
-        else if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && used->surface != SURFACE_YES)
+        if ((kind == PROBE_LEVEL || kind == PROBE_SHORE) && used->surface != SURFACE_YES)
             params_fault(r->params, f, key, PROBE_NO_SURFACE, c->probes[k].name);
-        else if (kind == PROBE_SHORE && !(g[1] < 0.0))
+        else if (kind == PROBE_SHORE && (g[0] != 0.0 || !(g[1] < 0.0)))
             params_fault(r->params, f, key, "%s: a shore is read where gravity points along -y",
                          c->probes[k].name);
     }

@@ -130,7 +130,8 @@ static void look_around(const struct gap_filling *f, const struct gap_places *ne
             is.x[a] = f->origin[a] + (is.cell[a] + 0.5) * s->dx;
             way[a] = is.x[a] - from->x[a];
             is.far2 += way[a] * way[a];
-            is.rho += s->periodic[a] ? 0.0 : from->rho * s->gravity[a] * way[a] / (c * c);
+            if (!scene_is_driven_along(&s->run->scene, a))
+                is.rho += from->rho * s->gravity[a] * way[a] / (c * c);
         }
         if (is.far2 < reach * reach && !is_taken(near, &is, empty * s->dx) && has_water(f, is.x) &&
             walls_meet(s, from->x, way) >= 1.0)

@@ -4,7 +4,7 @@
  * the domain to which gravity draws. Where walls stand in the column it ends there, and where the
  * floor falls off as a cliff, below which there may be air; what of solids above the place lies
  * below the level counts as water, where no air is left below them. Heights are against gravity,
- * along its axis, from the origin.
+ * along the axis with most of it, from the origin.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "level_gauge.h"
 

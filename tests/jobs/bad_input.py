@@ -598,7 +598,6 @@ faulty('tank', 's/gravity = (0, -9.81)/nu = 0.0/; /^bodies/d', 'fluid.gravity: .
 faulty('tank', 's/at = (1, 0.1)/at = (1, -0.1)/', r'case.cfg:9: probes.\[0\].at: p: y = -0.1 m is outside', 'sph')
 faulty('tank', 's/at = (1, 0.1)/at = (1, 0.3)/', r'probes.\[0\].at: p is inside body b', 'sph')
 faulty('tank', 's/at = (1, 0.1); }/at = (1, 0.1); }, { name = "p"; at = (1.5, 0.1); }/', r'probes.\[1\].name: p is the name of gauge 1 already: give this one another', 'sph')
-faulty('tank', 's/at = (1, 0.1)/at = (1, 0.1); kind = "level"/; s/(0, -9.81)/(1, -9.81)/', r'probes.\[0\].kind: p: gauges of levels read', 'sph')
 faulty('tank', 's/gravity = (0, -9.81)/gravity = (0, 0, -9.81)/', 'fluid.gravity: .*as in (0, -9.81)', 'sph')
 faulty('tank', 's/max = (2, 1)/max = (2, 1, 3)/', 'domain.max: z component 3', 'sph')
 faulty('tank', 's/U = 3.0/U = 0.0/', 'case.cfg:5: initial.U: 0 m', 'sph')
