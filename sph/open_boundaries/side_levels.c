@@ -1,7 +1,8 @@
 /* side_levels.c - see side_levels.h. Under a free surface an open side does not know how high the
  * water outside stands. Here it is measured in a band of the free zone beside the transition (as
  * long as that), in the sense of level gauges (level_window.h), and smoothed over `memory'; or it
- * is given, and then waves that leave raise it. Pressure outside is hydrostatic below that level.
+ * is given, and then waves that leave raise it; that of the start where more comes in than waves
+ * could run against. Pressure outside is hydrostatic below that level.
  * Updated at each stage's start, the same on all ranks.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "side_levels.h"
@@ -26,7 +27,7 @@ struct side_water {
     const struct scene_wall *is; /* NULL: not open */
     union {
         struct {
-            double given;      /* m: level; NAN: that inside */
+            double given;      /* m: level, of a torrent that of the start; NAN: that inside */
             double level;      /* m: of the water outside */
             double rate;       /* m/s: at which it rises */
             double inside;     /* m: level of the water inside */
@@ -243,6 +244,30 @@ static void let_waves_out(const struct sph *s, const struct side_levels *l, stru
     of->level = of->given + c / l->g * (of->mean - of->past);
 }
 
+/* m/s: into the domain, of an opening whose velocity or discharge is given, through an area. */
+static double velocity_in(const struct sph *s, const struct side_water *of, int side, double area)
+{
+    if (of->is->has_discharge)
+        return (of->is->kind == WALL_INFLOW ? 1.0 : -1.0) * wall_discharge(of->is, s->t) /
+               fmax(area, 0.5 * s->dx * of->width);
+    return openings_inward(side) * of->is->velocity[side / 2];
+}
+
+/* Whether water that stands there comes in faster than waves could run against it: then nothing of
+ * the level inside is known there, and an inlet that follows it all the same lets it sink, and a
+ * jump run into it. */
+static bool is_torrent(const struct sph *s, const struct side_levels *l,
+                       const struct side_water *of, int side)
+{
+    const double area = section_below(s, l, of, of->inside), depth = of->inside - of->bed,
+                 u = of->is->kind == WALL_INFLOW ? velocity_in(s, of, side, area) : 0.0;
+    if (!(depth > s->dx && u > sqrt(l->g * depth)))
+        return false;
+    log_say("%s: %.3g m/s, faster than its waves: the level in it stays that of the start, %.4g m",
+            scene_side_names[side], u, of->inside);
+    return true;
+}
+
 /* rate is what a level that is free to move does; with a given level it does not enter. It follows
  * over the time of a wave as long as the depth: what the band holds trembles by a thousandth of
  * dx as particles enter and leave, which over T would be a velocity like that of sound, upwards
@@ -266,7 +291,10 @@ static void update_side(const struct sph *s, const struct side_levels *l, struct
             of->given = of->inside;
         let_waves_out(s, l, of, side, band[BAND_BASIN], dt);
     } else {
-        of->level = of->inside;
+        if (!l->started && is_torrent(s, l, of, side))
+            of->given = of->inside;
+        of->rate = isnan(of->given) ? of->rate : 0.0;
+        of->level = isnan(of->given) ? of->inside : of->given;
     }
     of->depth = of->level - of->bed;
     of->area = section_below(s, l, of, of->level);
@@ -299,15 +327,6 @@ void side_levels_surface(const struct sph *s, const struct side_levels *l, int n
         gphi[i] = i % 3 == l->up ? l->sign : 0.0;
 }
 
-/* m/s: into the domain, of an opening whose velocity or discharge is given. */
-static double velocity_in(const struct sph *s, const struct side_water *of, int side)
-{
-    if (of->is->has_discharge)
-        return (of->is->kind == WALL_INFLOW ? 1.0 : -1.0) * wall_discharge(of->is, s->t) /
-               fmax(of->area, 0.5 * s->dx * of->width);
-    return openings_inward(side) * of->is->velocity[side / 2];
-}
-
 /* Outside a given level stands water at rest, out of which nothing comes faster than its head
  * allows: that keeps water which runs back from gaining; beside what leaves still less. The level
  * of an inflow is in the opening. As the level rises the water between x and the place whose
@@ -333,7 +352,7 @@ void side_levels_eval(const struct sph *s, const struct side_levels *l, int side
     } else {
         for (int a = 0; a < s->dim; a++)
             u[a] = of->is->has_discharge ? 0.0 : of->is->velocity[a];
-        u[n] = sense * velocity_in(s, of, side);
+        u[n] = sense * velocity_in(s, of, side, of->area);
         u[l->up] += l->sign * stretch * fmax(0.0, fmin(height - of->bed, of->depth));
     }
     u[n] -= sense * stretch * deeper;
