@@ -136,6 +136,21 @@ static void say_turned(const struct scene *c)
                     k + 1, c->bodies[k].name);
 }
 
+/* Of a box that reaches beyond the domain, which ends it. */
+static void say_cut_box(const struct run *r)
+{
+    const struct scene_domain *d = &r->scene.domain;
+    double box[2][3];
+    if (!crossing_box(r, r->name, box))
+        return;
+    for (int a = 0; a < d->dim; a++) {
+        const double near = 1e-6 * (d->max[a] - d->min[a]);
+        if (!d->periodic[a] && (box[0][a] < d->min[a] - near || box[1][a] > d->max[a] + near))
+            log_say("%s.box: %c from %g to %g m ends at the domain's sides, %g to %g m", r->name,
+                    "xyz"[a], box[0][a], box[1][a], d -> min[a], d -> max[a]);
+    }
+}
+
 static void describe_scene(const struct run *r)
 {
     static const char *const schemes[] = {"Riemann ALE (Vila)", "Riemann without mass flux (Leduc)",
@@ -162,6 +177,7 @@ static void describe_scene(const struct run *r)
         zones_free_box(r, prm, box[0], box[1]);
         log_say("free zone %s m, transition %g m, buffer %g m, around it: %s",
                 zones_extent(r->scene.domain.dim, box), transition, buffer, outers[prm->outer]);
+        say_cut_box(r);
     }
     if (wave_stream_wanted(r, prm))
         log_say(

@@ -46,6 +46,7 @@ accepts('dam_break_crossing', '', 'Riemann ALE')
 accepts(lib.changed(lib.TANK, shapes='{ form = "box"; box = ((0, 0), (0.3, 0.5)); }', fv='cells = (40, 40);', sph='dx = 0.02; box = ((0.4, 0), (1, 1));'),
         '', 'sph.box is dry at the start')
 silent('no water at the start')
+accepts('dam_break_crossing', 'sph.box=((0,-1),(0.8,9))', r'sph.box: y from -1 to 9 m ends at the domain')
 accepts('waves_crossing')  # waves want their cells
 silent('times sph.dx')
 gain = '''format = 1;
