@@ -491,7 +491,7 @@ static void update_row(const struct fraction *f, int a, int64_t c, int64_t d, do
     }
 }
 
-/* per: 1/s, over the time of the advance. */
+/* per: 1/s, over the time of both advances of a step. */
 static void sweep(struct fv *s, int a, double dt, double per)
 {
     struct fraction *f = s->surface->fraction;
@@ -542,6 +542,13 @@ static void balance(struct fv *s)
     surface_mirror(s, f->C);
 }
 
+void fraction_count_anew(struct fraction *f, int64_t size)
+{
+    for (int a = 0; a < 3 && f->passed[a]; a++)
+        memset(f->passed[a], 0, (size_t)size * sizeof(double));
+    f->has_passed = f->passed[0] != NULL;
+}
+
 /* n parts of dt; in each all axes, the first one in turns, so that none comes first for ever. */
 void fraction_advance(struct fv *s, double dt, int n)
 {
@@ -550,12 +557,9 @@ void fraction_advance(struct fv *s, double dt, int n)
     f->has_flows = false;
     f->entered = 0.0;
     f->excess = excess_of(s, dt);
-    for (int a = 0; a < s->dim && f->passed[a]; a++)
-        memset(f->passed[a], 0, (size_t)s->size * sizeof(double));
-    f->has_passed = f->passed[0] != NULL;
     for (int k = 0; k < n; k++) {
         for (int a = 0; a < s->dim; a++)
-            sweep(s, ((int)f->first + a) % s->dim, dt / n, 1.0 / dt);
+            sweep(s, ((int)f->first + a) % s->dim, dt / n, 0.5 / dt);
         f->first = ((int)f->first + 1) % s->dim;
         fraction_bound(s);
     }

@@ -42,7 +42,7 @@ struct fraction {
     double *height[3], *cosine[3][3];
     double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;
-    /* m^dim/s: water through the lower faces in the last advance, for gauges; NULL without any. */
+    /* m^dim/s: water through the lower faces in the last step, for gauges; NULL without any. */
     double *passed[3];
     bool has_passed;
     int64_t nair;
@@ -73,7 +73,11 @@ void fraction_take(const struct fv *s);
 void fraction_note_layers(const struct fv *s);
 /* U is no longer that of the last advance: takes has_flows back. */
 void fraction_forget_flows(const struct fv *s);
-/* Advects the shares by dt, s, in n parts, with the fluxes U as they are. Collective. */
+/* Forgets what crossed faces in the step before. Both halves of a step count: sweeps of one begin
+ * with the same axis in each step, so that one alone has other flows than the mean. */
+void fraction_count_anew(struct fraction *f, int64_t size);
+/* Advects the shares by dt, s, half a step, in n parts, with the fluxes U as they are.
+ * Collective. */
 void fraction_advance(struct fv *s, double dt, int n);
 /* Volume of water, m^dim, over all ranks. Collective. */
 double fraction_volume(const struct fv *s);

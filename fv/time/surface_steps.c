@@ -326,6 +326,7 @@ static void keep_water(struct fv *s)
         surface_keep_volume(s);
     } else if (!is_carried(s) && !calm) {
         fraction_take(s);
+        f->has_passed = false; /* before the next step */
         f->carries = 1.0;
     }
 }
@@ -351,6 +352,8 @@ void surface_first_half(struct fv *s, double dt)
     flows(s, s->surface->through);
     if (!is_carried(s))
         outflow_count_flows(s, 0.5 * dt, share_that_counts);
+    else
+        fraction_count_anew(s->surface->fraction, s->size);
     if (s->moving)
         moving_begin_surface(s, dt);
     advance_water(s, s->t + 0.5 * dt, 0.5 * dt);
