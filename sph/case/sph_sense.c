@@ -62,6 +62,8 @@ static void check_level(const struct run *r, int k, struct faults *f)
 {
     const struct scene_wall *w = r->scene.walls + k;
     const int up = scene_still_axis(&r->scene);
+    double still[3];
+    const double g = scene_still_gravity(&r->scene, still);
     const char *key = key_text("walls.[%d].kind", k);
     const char *instead = w->kind == WALL_INFLOW
                               ? "; a jet is a shape of water with a velocity"
@@ -78,6 +80,10 @@ static void check_level(const struct run *r, int k, struct faults *f)
             "gravity crosses this side: under a free surface inlets and outlets are upright, "
             "on the sides whose water has a level%s",
             instead);
+    else if (fabs(still[up]) < (1.0 - 1e-9) * g)
+        params_fault(r->params, f, key,
+                     "the water of a tank that leans has no level beside an opening; gravity gives "
+                     "the slope of a channel where no closed side stands at its other end");
     else if (w->kind == WALL_ABSORBING)
         params_fault(
             r->params, f, key,
