@@ -115,14 +115,18 @@ static double pressure(const struct exact *e, const double *c, const double *h)
 }
 
 /* Channel flow from rest under a body force (Poiseuille), or with the upper wall at U (Couette):
- * the steady profile and its decaying Fourier series. */
+ * the steady profile and its decaying Fourier series, which at t = 0 is a jump at the wall that
+ * moves: any finite part of it would leave the first layers a share of that wall's velocity. */
 static void channel(const struct exact *e, double y, double t, double *u, double *w)
 {
     const double H = e->height, z = (y - e->bottom) / H, rate = e->nu * M_PI * M_PI / (H * H);
     const bool forced = e->field == FIELD_POISEUILLE;
     const double scale = forced ? e->force * H * H / (2.0 * e->nu) : e->U;
     double v = forced ? z * (1.0 - z) : z, dv = forced ? 1.0 - 2.0 * z : 1.0;
-    for (int n = 1; n < 400 && rate * n * n * t < 40.0; n += forced ? 2 : 1) {
+    *u = *w = 0.0;
+    if (t <= 0.0)
+        return;
+    for (int n = 1; n < 4000 && rate * n * n * t < 40.0; n += forced ? 2 : 1) {
         const double k = M_PI * n, decay = exp(-rate * n * n * t);
         const double a = forced ? -8.0 / (k * k * k) : 2.0 * (n % 2 ? -1.0 : 1.0) / k;
         v += a * decay * sin(k * z);
