@@ -70,25 +70,14 @@ struct riemann_sums {
     vec q[3], w, m;
 };
 
-/* How much of the water passes through a region: from 0 where the mean flow is a quarter as fast as
- * what is relative to it to 1 where it is half as fast. */
-static double passes(const struct sph *s)
-{
-    if (!(s->step.stray > 0.0))
-        return 0.0;
-    const double share = 4.0 * vec3_length(s->step.drift) / s->step.stray - 1.0;
-    return fmax(0.0, fmin(share, 1.0));
-}
-
 /* Over c0: jumps of u that limiters let pass. Small extrema, but not in a region with open sides
- * that has walls (a contraction there loses 2 % more of its pressure) or a surface, and with a
- * partner as much as water passes through: what enters is smoother then (two modes carried by (0.6,
- * 0.25) U err by 0.019 instead of 0.029 %, their pressure by 1.3 instead of 2.3 %; vortices of Re
- * 1000 by 0.039 instead of 0.047 %), while vortices at rest err by 0.037 instead of 0.034 %. Under
- * a surface what friction holds: no wiggle grows out of jumps whose Reynolds number by dx is below
- * 1. Where the limiter cut them, a standing wave of 12 rows got back a tenth of what friction took
- * from it. Not beside dissipation of third order, which with 25 rows is nearer as it is (1.9, else
- * 5.1 % off; with 12 rows 30, else 4.7). */
+ * that has walls (a contraction there loses 2 % more of its pressure, vortices between slip walls
+ * err by 1.1 instead of 0.4 %) or a surface. Extrema that limiters cut gain energy by the way they
+ * are moved: two modes at rest in a coupled box with 22 spacings to a wave erred by 1.3 instead of
+ * 0.5 %. Under a surface what friction holds: no wiggle grows out of jumps whose Reynolds number by
+ * dx is below 1. Where the limiter cut them, a standing wave of 12 rows got back a tenth of what
+ * friction took from it. Not beside dissipation of third order, which with 25 rows is nearer as it
+ * is (1.9, else 5.1 % off; with 12 rows 30, else 4.7). */
 static double slack(const struct sph *s)
 {
     const double small = 0.02;
@@ -96,9 +85,7 @@ static double slack(const struct sph *s)
         return s->zones || s->prm.dissipation_order == DISSIPATION_THIRD
                    ? 0.0
                    : fmin(small, s->nu / (s->c0 * s->dx));
-    if (s->zones && s->walls)
-        return 0.0;
-    return s->zones && s->prm.outer == OUTER_PARTNER ? passes(s) * small : small;
+    return s->zones && s->walls ? 0.0 : small;
 }
 
 /* The least share of the dissipation, -. It takes c0 times a jump, which in a stream slower than
