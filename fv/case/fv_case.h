@@ -86,8 +86,7 @@ void fv_make_fields(struct fv *s);
  * flow of the scene in them. Collective. */
 void mesh_state_create(struct fv *s);
 /* shape_velocity.c: adds to u what the scene's shapes do, the mean over a cell of edges h (m)
- * around x, or over a face, whose h is 0 across it; h NULL: at x. Nothing where fv has a surface.
- */
+ * around x, or over a face, whose h is 0 across it. Nothing where fv has a surface. */
 void fv_shape_velocity(const struct fv *s, const double *x, const double *h, double *u);
 /* Projects the velocities of the start, where they need it. Collective. */
 void fv_project_start(struct fv *s);

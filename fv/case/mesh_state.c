@@ -12,6 +12,21 @@
 #include "../watch/fv_watch.h"
 #include "fv_case.h"
 
+/* Edges of the box around a cell, m. */
+static void extent(const struct mesh_block *b, int dim, const int *at, double *h)
+{
+    for (int a = 0; a < 3; a++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (int k = 0; k < 1 << dim; k++) {
+            const double *x =
+                b->x[mesh_vertex(b, at[0] + (k & 1), at[1] + (k >> 1 & 1), at[2] + (k >> 2))];
+            lo = fmin(lo, x[a]);
+            hi = fmax(hi, x[a]);
+        }
+        h[a] = hi - lo;
+    }
+}
+
 /* Cells of holes may be computed later where blocks or a partner's box move: there they are filled,
  * too. */
 static void fill(struct fv *s)
@@ -25,7 +40,7 @@ static void fill(struct fv *s)
         const struct part *p = m->part + q;
         int i[3];
         PART_CELLS (p, i, c) {
-            double u[3], pr;
+            double u[3], h[3], pr;
             if (m->status[c] == CELL_HOLE && !all)
                 continue;
             cell_exact(s, p, i, 0.0, u, &pr, NULL);
@@ -33,7 +48,8 @@ static void fill(struct fv *s)
                 memset(u, 0, sizeof u);
             const struct mesh_block *b = m->block + p->block;
             const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-            fv_shape_velocity(s, b->centre[mesh_cell(b, at)], NULL, u);
+            extent(b, m->dim, at, h);
+            fv_shape_velocity(s, b->centre[mesh_cell(b, at)], h, u);
             for (int a = 0; a < m->dim; a++)
                 s->u[a][c] = u[a];
             pr -= scene_has_wave(&s->run->scene) ? fv_still_pressure(s, b->centre[mesh_cell(b, at)])
