@@ -84,6 +84,15 @@ for keys in 'fv.cfl=0.15', 'time.end=1':
     accepts(couette, keys, program='fv')
     silent(sudden)
 
+# a wall that drags water through open sides from the start on
+dragged = varied(couette, '(0.25, 1)', '(1, 1)', 'nu = 1.0', 'nu = 0.1', 'cells = (4, 20); integrator = "newton"', 'cells = (32, 32)') + \
+    'sph: { dx = 0.02; c0 = 10.0; box = ((0.1, 0.4), (0.9, 1)); };\n'
+holds = r'warning: walls..1.: it moves at once, along open sides'
+accepts(dragged, '', holds)
+for keys in 'coupling.steps=1', 'sph.box=((0,0.4),(1,1))', 'sph.box=((0.1,0),(0.9,0.6))':
+    accepts(dragged, keys)
+    silent(holds)
+
 # scenes without a place for the coupling
 refuses('sph.free: 0.3 to 0.7 m along x is too short: .* 0.27 to 0.73 m would do', 'taylor_green', 'coupling.overlap=0.19')
 accepts('taylor_green', 'coupling.overlap=0.19 sph.free=((0.27,0.27),(0.73,0.73))')
