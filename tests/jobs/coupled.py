@@ -208,6 +208,11 @@ job('couette', varied(channel, 'gravity = (0.8, 0)', 'gravity = (0, 0)', 'poiseu
 for folder in 'poiseuille', 'couette':
     error_below(folder, 0.005)
 
+# in the first coupling step fv knows no past of what sph gives it: at open sides across the channel it holds back what starts from rest
+# (1.3 % where those steps are as long as the flow allows)
+job('at_wall', channel, 'time.end=0.2 sph.box=((0.1,0),(0.9,0.6)) sph.dx=0.02')
+error_below('at_wall', 0.005)
+
 # times of outputs that no coupling step fits: as many steps as without, and one for each output at most
 for every in 0.0317, 0.0071:
     job('outputs', 'taylor_green', 'sph.dx=0.025 fv.cells=(16,16) coupling.steps=0 coupling.overlap=0.08 time.end=0.1 '
