@@ -468,17 +468,21 @@ static void share_levels(struct sph *s, struct sph **all)
     }
 }
 
-/* Sets the guards of all levels, or of these what is about to flow (waking). */
+/* Sets the guards of all levels, or of these what is about to flow (waking). A partner takes all of
+ * the coarsest level at the end of a step, where deep guards have what they were given in its first
+ * stage: a vortex that passed a refined box erred by ten times as much in fv. */
 static void set_all(struct sph *s, bool waking)
 {
     struct sph *all[APR_LEVELS_MAX + 1];
     share_levels(s, all);
     timer_start(&s->run->timers, "guards");
     for (struct sph *q = s; q; q = q->finer)
-        if (waking)
-            give(all, q, q->guards->nshallow, true);
-        else
+        if (!waking)
             update_level(all, q);
+        else if (q == s && s->prm.outer == OUTER_PARTNER)
+            give(all, q, q->guards->n, false);
+        else
+            give(all, q, q->guards->nshallow, true);
     timer_stop(&s->run->timers, "guards");
 }
 
