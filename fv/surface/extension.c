@@ -12,7 +12,7 @@
 #include "mesh_view.h"
 #include "near_water.h"
 
-enum { TERMS = 10, THIN = 9, WEDGE = 12 };
+enum { TERMS = 10, WEDGE = 12 };
 
 /* Normal equations of a fit over a stencil. */
 struct least_squares {
@@ -217,12 +217,28 @@ static void gradient_weights(const struct fv *s, const struct place *p, double *
     }
 }
 
+/* Where viscosity crosses a cell while a wave does. */
+static bool is_slow(const struct fv *s, double h)
+{
+    return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1;
+}
+
+/* Whether the window, in the cell's own column, ends at a side across gravity or on a box. */
+static bool meets_floor(const struct fv *s, const struct place *p, int64_t c)
+{
+    const unsigned char *none = s->surface->none + c;
+    bool meets = false;
+    for (int i = -2; i <= 2; i++)
+        meets = meets || none[(p->shift[p->upright] + i) * p->part->stride[p->upright]];
+    return meets;
+}
+
 /* A film has no slope worth knowing: a quadratic through it overshoots, each layer of dry cells
  * more than the last, and convection feeds on it. Flat water fills 0.6 of the window, two cells
- * 0.4. In 3D a number that water in the open has must not fail beside a slip side, where three of
- * five layers are left: 3 THIN made such water uniform, and a slab between slip sides differed from
- * one of a period. */
-static bool is_thin(const struct fv *s, const struct place *p, int layer)
+ * 0.4. Over a floor, where tongues run, all of the 0.6 is asked for, unless friction gives films
+ * their slope; at sides along gravity no more than in the open, for they are planes of symmetry: a
+ * half of a column is as the whole one, and a slab between two as one of a period. */
+static bool is_thin(const struct fv *s, const struct place *p, int64_t c, int layer)
 {
     if (window_reach(s, layer) == 1)
         return 2 * p->known < p->room;
@@ -232,15 +248,18 @@ static bool is_thin(const struct fv *s, const struct place *p, int layer)
     /* in the wedge between a slanting wall and the surface a slope from few cells grows */
     if (surface_inclined(s, p->part) && p->known < (s->dim == 2 ? WEDGE : 4 * WEDGE))
         return true;
-    return p->known < (s->dim == 2 ? THIN : 2 * THIN) || 2 * p->known < p->room;
+    if (2 * p->known < p->room)
+        return true;
+    return 5 * p->known < 3 * p->room && meets_floor(s, p, c) &&
+           !is_slow(s, s->surface->window->size(s, c));
 }
 
-/* Whether the second layer may be as slow as a film's: where viscosity crosses a cell while a wave
- * does. Faster water, rough as it is, wants the bound: a column that splashes made pressures odd
- * and even; and on blocks that lean rough water at rest grows faster without. */
+/* Whether the second layer may be as slow as a film's. Faster water, rough as it is, wants the
+ * bound: a column that splashes made pressures odd and even; and on blocks that lean rough water at
+ * rest grows faster without. */
 static bool may_slow(const struct fv *s, double h)
 {
-    return still_creep(s->gravity.hydrostatic, s->nu, h) > 0.1 && !surface_any_inclined(s);
+    return is_slow(s, h) && !surface_any_inclined(s);
 }
 
 /* Whether fluxes through the faces of water, of stencils along an axis, read cell c of the second
@@ -294,7 +313,7 @@ static void add_carry(struct fv *s, const struct part *part, int64_t c, int row,
     double *w = f->weight + f->nstencil;
     for (int k = 0; k < p.n; k++)
         f->at[f->nstencil + k] = p.step[k];
-    const bool thin = is_thin(s, &p, layer);
+    const bool thin = is_thin(s, &p, c, layer);
     const int order = fit(s, &p, thin ? 0 : layer <= 2 ? 2 : 1, layer == 1, p.self, &q);
     terms_at(dim, order, layer == 1, p.self, e);
     weights(&q, p.n, e, w);
@@ -342,7 +361,7 @@ static void add_alike(struct fv *s, const struct part *part, int64_t c, int row,
     p.mixed = false;
     find_normal(s, c, row, &p);
     struct pattern_key key = f->window->pattern(s, c, layer, &p);
-    key.order = is_thin(s, &p, layer) ? 0 : layer <= 2 ? 2 : 1;
+    key.order = is_thin(s, &p, c, layer) ? 0 : layer <= 2 ? 2 : 1;
     struct pattern *x = patterns_find(f, &f->patterns, &key);
     if (x->n < 0)
         learn(s, c, layer, &p, x);

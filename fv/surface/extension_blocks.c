@@ -13,6 +13,29 @@ static double mean_size(const struct fv *s, int64_t c)
     return s->dim == 2 ? sqrt(s->m->V[c]) : cbrt(s->m->V[c]);
 }
 
+/* The shift of a window and the index along which the cell's faces are most across gravity. */
+static void lie(const struct fv *s, int64_t c, struct place *p)
+{
+    const struct mesh *m = s->m;
+    double most = -1.0;
+    for (int a = 0; a < 3; a++) {
+        double along = 0.0, size = 0.0, down = 0.0;
+        p->shift[a] = 0;
+        for (int k = 0; k < m->dim && a < m->dim; k++) {
+            const double S = m->S[a][k][c] + m->S[a][k][c + p->part->stride[a]];
+            along += p->e[0][k] * S;
+            down += s->gravity.hydrostatic[k] * S;
+            size += S * S;
+        }
+        if (a < m->dim)
+            p->shift[a] = -(int)lround(1.2 * along / sqrt(size));
+        if (a < m->dim && fabs(down) > most * sqrt(size)) {
+            most = fabs(down) / sqrt(size);
+            p->upright = a;
+        }
+    }
+}
+
 /* The window is moved by 1.2 cells against the normal, along the indices that lead into the water;
  * places are measured from the foot point in the frame of the surface, in cells. */
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
@@ -21,17 +44,10 @@ static void look_around(const struct fv *s, int64_t c, int layer, struct place *
     const struct surface_mesh *w = s->surface->mesh;
     const struct part *part = p->part;
     const int reach = window_reach(s, layer), deep = m->dim == 3 ? reach : 0;
-    int shift[3] = {0, 0, 0}, n = 0;
+    int n = 0;
     p->room = 0;
-    for (int a = 0; a < m->dim; a++) {
-        double along = 0.0, size = 0.0;
-        for (int k = 0; k < m->dim; k++) {
-            const double S = m->S[a][k][c] + m->S[a][k][c + part->stride[a]];
-            along += p->e[0][k] * S;
-            size += S * S;
-        }
-        shift[a] = -(int)lround(1.2 * along / sqrt(size));
-    }
+    lie(s, c, p);
+    const int *shift = p->shift;
     for (int k = -deep; k <= deep; k++)
         for (int j = -reach; j <= reach; j++)
             for (int i = -reach; i <= reach; i++) {

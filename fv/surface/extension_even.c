@@ -44,10 +44,11 @@ static double mean_size(const struct fv *s, int64_t c)
     return s->dim == 2 ? sqrt(volume) : cbrt(volume);
 }
 
-static void find_shift(const struct fv *s, const struct place *p, int *shift)
+static void find_shift(const struct fv *s, struct place *p)
 {
     for (int a = 0; a < 3; a++)
-        shift[a] = a < s->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
+        p->shift[a] = a < s->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
+    p->upright = still_upright(&s->run->scene);
 }
 
 /* The window of a cell whose middle is `shift' away. */
@@ -88,9 +89,8 @@ static void look_at(const struct fv *s, int64_t c, int layer, const int *shift, 
 
 static void look_around(const struct fv *s, int64_t c, int layer, struct place *p)
 {
-    int shift[3];
-    find_shift(s, p, shift);
-    look_at(s, c, layer, shift, p);
+    find_shift(s, p);
+    look_at(s, c, layer, p->shift, p);
 }
 
 /* All cells are equal, and none is hidden behind a box. */
@@ -123,8 +123,9 @@ static struct pattern_key pattern(const struct fv *s, int64_t c, int layer, stru
     const uint64_t ones = UINT64_C(0x0101010101010101), all = bytes_at(reach == 2 ? wide : narrow),
                    less = ones * (unsigned)(127 + layer);
     struct pattern_key key = {.layer = (signed char)lesser(layer, 3)};
-    int shift[3], lines = 0;
-    find_shift(s, p, shift);
+    const int *shift = p->shift;
+    int lines = 0;
+    find_shift(s, p);
     p->room = p->known = 0;
     for (int k = -deep; k <= deep; k++)
         for (int j = -reach; j <= reach; j++) {

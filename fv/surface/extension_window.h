@@ -17,6 +17,8 @@ struct place {
     int n, step[STENCIL];    /* known cells around; the last one again fills up the lanes */
     int known;               /* of them not again */
     int room;                /* how many the window could hold */
+    int shift[3];            /* cells: of the window's middle from this one */
+    int upright;             /* the axis, on blocks the index, that gravity is most along */
     bool mixed;              /* some of the known are other blocks' */
     double r[3][STENCIL];    /* their places in the frame, in units of h */
     double self[3], spacing; /* the cell's own; mean h (m), no axis before another */

@@ -617,6 +617,33 @@ TEST(rough_water_is_carried_on_within_bounds)
     assert_true(most[2] > 0.0 && most[2] <= 1.25 * 1.2501 * most[0]);
 }
 
+/* A film of two cells on a floor, whose upper half is twice as fast: nothing over it is faster
+ * (2.5 m/s before, by a quadratic). */
+TEST(films_are_carried_on_as_they_are)
+{
+    for (int dim = 2; dim <= 3; dim++) {
+        struct fv_case c;
+        double most = 0.0;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){SURFACE, "fluid.nu=0", "fluid.gravity=(0,-9.81,0)",
+                                          dim == 2 ? "domain.dim=2" : "domain.dim=3",
+                                          "domain.max=(1,1,1)", "fv.cells=(10,10,10)", NULL});
+        fv_case_close(&c, WALL_SLIP);
+        c.run.scene.shapes[c.run.scene.nshapes++] =
+            (struct scene_shape){.form = SHAPE_BELOW, .level = 0.19};
+        struct fv *s = fv_case_start(&c, NULL);
+        BLOCK_CELLS (&s->b, i, j, k, at)
+            s->u[0][at] = s->surface->layer[at] ? 0.0 : j == 0 ? 1.0 : 2.0;
+        extension_apply(s, s->u, EXTEND_FREE, LAYERS);
+        BLOCK_CELLS (&s->b, i, j, k, at)
+            most = fmax(most, s->u[0][at]);
+        most = ranks_max(MPI_COMM_WORLD, most);
+        fv_free(&c.s);
+        print_message("film in %dD: carried on with %.3g m/s\n", dim, most);
+        assert_close(most, 2.0, 1e-12);
+    }
+}
+
 /* Columns of water that fall and hit sides, lid and each other: on coarse cells, wet bed, drop. */
 TEST(water_survives_impacts)
 {
@@ -667,13 +694,14 @@ static double energy_of_slab(const char *periodic)
     return K;
 }
 
-/* A slip side is a plane of symmetry (0.6 % apart where water beside it was taken for a film). */
+/* A slip side is a plane of symmetry (0.6 % apart where water beside it was taken for a film); what
+ * is left are steps: 0.1 to 0.3 % at other ends. */
 TEST(a_slab_between_slip_sides_is_one_of_a_period)
 {
     const double slip = energy_of_slab(CLOSED),
                  periodic = energy_of_slab("domain.periodic=(false,false,true)");
     print_message("slab: energy %.6g, of a period %.6g\n", slip, periodic);
-    assert_close(slip, periodic, 0.003 * periodic);
+    assert_close(slip, periodic, 0.004 * periodic);
 }
 
 /* Water in a corner of a box of flat cells, its axes put on by `way'; most gets |u| along those of
