@@ -208,7 +208,7 @@ static const char *const others[] = {"sph", "sph_*", "apr", "coupler", NULL};
 
 static struct program fv_program = {.name = "fv",
                                     .help = "implicit finite volumes, fourth order, 2D and 3D",
-                                    .meaning = 8,
+                                    .meaning = 9,
                                     .groups = fv_groups,
                                     .ngroups = FV_GROUPS,
                                     .other_groups = others,

@@ -195,8 +195,7 @@ void surface_summarise(struct fv *s)
     summary_real(to, "volume_lost", f->lost / surface_volume_scale(s));
     summary_real(to, "volume_gained", f->gained / surface_volume_scale(s));
     if (f->fraction) {
-        summary_real(to, "volume_moved",
-                     ranks_sum(s->comm, f->fraction->moved) / surface_volume_scale(s));
+        summary_real(to, "volume_moved", f->fraction->moved / surface_volume_scale(s));
         summary_real(to, "level_volume", surface_level_volume(s, NULL) / volume - 1.0);
     }
     summary_int(to, "reinitialisations", f->reinits);

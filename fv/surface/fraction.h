@@ -54,7 +54,7 @@ struct fraction {
     struct sweep_axes axes;
     double first;        /* axis of the next sweep */
     double first_before; /* at the start of a step */
-    /* m^dim: moved to neighbours, as cells were fuller than full or less than empty; this rank. */
+    /* m^dim: moved to neighbours, as cells were fuller than full or less than empty. */
     double moved;
     double entered; /* m^dim: through openings, of the last advance; over all ranks */
     double excess;  /* m^dim: volume error that the projection left, of this advance and rank */

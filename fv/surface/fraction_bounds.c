@@ -69,10 +69,11 @@ static double received(const struct fv *s, const struct part *p, int64_t i)
     return sum;
 }
 
-/* Cells give, and get into flux, which is scratch here. */
-static void exchange(struct fv *s)
+/* Cells give, and get into flux, which is scratch here; what they gave, m^dim, of this rank. */
+static double exchange(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
+    double moved = 0.0;
     double *const fields[2] = {f->work, f->next};
     grid_fill(&s->grid, 2, fields);
     FLOW_NEAR_AT (s, part, j, c, n)
@@ -82,12 +83,13 @@ static void exchange(struct fv *s)
         for (int64_t i = c; i < c + n; i++) {
             if (f->work[i] != 0.0 || f->next[i] != 0.0) {
                 const double e = excess(f->C[i]);
-                f->moved += fabs(e) * f->volume[i];
+                moved += fabs(e) * f->volume[i];
                 f->C[i] -= e;
             }
             f->C[i] += f->flux[i];
         }
     surface_mirror(s, f->C);
+    return moved;
 }
 
 /* What is left is rounding. */
@@ -110,7 +112,11 @@ void fraction_bound(struct fv *s)
     /* beyond periods and other ranks both are 0 unless they are sent */
     grid_clear_near(&s->grid, f->work);
     grid_clear_near(&s->grid, f->next);
-    for (int k = 0; k < PASSES && find_shares(s); k++)
-        exchange(s);
+    double moved = 0.0;
+    int k = 0;
+    for (; k < PASSES && find_shares(s); k++)
+        moved += exchange(s);
+    if (k > 0) /* of all ranks */
+        f->moved += ranks_sum(s->comm, moved);
     cut(s);
 }

@@ -87,17 +87,22 @@ static void add(struct kept_numbers *to, const char *of, const struct kept_numbe
 /* Volumes, fractions and a partner's surface as far as this run has them. */
 static void add_surface(struct kept_numbers *to, struct surface *f)
 {
-    const struct kept_number volumes[] = {
-        {"volume0", .real = &f->volume0},     {"returned", .real = &f->returned},
-        {"lost", .real = &f->lost},           {"gained", .real = &f->gained},
-        {"travelled", .real = &f->travelled}, {"passed", .real = &f->passed},
-        {"calm_steps", .real = &f->calm}};
+    const struct kept_number volumes[] = {{"volume0", .real = &f->volume0},
+                                          {"returned", .real = &f->returned},
+                                          {"lost", .real = &f->lost},
+                                          {"gained", .real = &f->gained},
+                                          {"travelled", .real = &f->travelled},
+                                          {"passed", .real = &f->passed},
+                                          {"calm_steps", .real = &f->calm},
+                                          {"reinitialisations", .count = &f->reinits},
+                                          {"steps_repeated", .count = &f->repeats}};
     ADD(to, "surface", volumes);
     if (f->fraction) {
         struct fraction *q = f->fraction;
         const struct kept_number shares[] = {{"carries", .real = &q->carries},
                                              {"calm", .real = &q->calm},
-                                             {"first_axis", .real = &q->first}};
+                                             {"first_axis", .real = &q->first},
+                                             {"moved", .real = &q->moved}};
         ADD(to, "shares of water", shares);
     }
     if (f->forced) {
