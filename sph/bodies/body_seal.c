@@ -31,7 +31,9 @@ static const struct sph *level_at(const struct sph *s, const double *x)
 }
 
 /* Shares of the kernel at a node, a little way into the fluid; of two bodies for the first alone,
- * or for all of them. false: the others are out of reach. */
+ * or for all of them. Where there is no room for particles they press by no other rule, so there
+ * all that the kernel reaches counts, as the floor below a slab of 2 dx and the block on it. false:
+ * the others are out of reach. */
 static bool measure(const struct sph *s, int body, bool all, struct seal_point *to)
 {
     const struct walls *w = s->walls;
@@ -40,23 +42,26 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
     for (int a = 0; a < s->dim; a++)
         x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
     to->level = at->level;
-    to->lack = 1.0 - wall_share(at, body, x);
-    to->room = to->lack;
+    double share[BODIES_MAX + 1];
+    to->lack = to->room = 1.0 - wall_share(at, body, x);
     for (int k = -1; k < w->nbodies; k++) {
-        const double share = k == body ? 0.0 : wall_share(at, k, x);
-        const bool seals = k != body && walls_sealed(s, body, k) && (all || k < 0 || k > body);
-        to->room -= share;
+        share[k + 1] = k == body ? 0.0 : wall_share(at, k, x);
+        to->room -= share[k + 1];
+    }
+    for (int k = -1; k < w->nbodies; k++) {
+        const bool seals = k != body && (all || k < 0 || k > body) &&
+                           (walls_sealed(s, body, k) || to->room < open_room);
         if (!seals)
-            to->lack -= share;
-        if (!seals || !(share > 0.0) || to->nothers == SEAL_OTHERS)
+            to->lack -= share[k + 1];
+        if (!seals || !(share[k + 1] > 0.0) || to->nothers == SEAL_OTHERS)
             continue;
         struct seal_other *o = to->other + to->nothers++;
-        *o = (struct seal_other){.body = k, .share = share};
+        *o = (struct seal_other){.body = k, .share = share[k + 1]};
         wall_share_weight(at, k, to->is.x, to->is.n, o->weight);
         const double r = touch_distance(w, s->dim, k, to->is.x, close_by * at->dx, out);
         o->lies_on = r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat;
         to->dry = to->dry || o->lies_on;
-        to->reached = fmax(to->reached, share);
+        to->reached = fmax(to->reached, share[k + 1]);
     }
     return to->reached > 1e-6;
 }
@@ -273,12 +278,18 @@ static void press_points(struct sph *s, const struct seal_point *of, int n)
     FREE(is, at.node);
 }
 
-void seal_nodes_fill(const struct sph *s, int body, struct nodes *nodes)
+/* Whether a body is sealed with anything. */
+static bool is_sealed(const struct walls *w, int body)
 {
     bool any = false;
     for (int k = 0; k <= BODIES_MAX; k++)
-        any = any || s->walls->sealed[body][k];
-    if (!any)
+        any = any || w->sealed[body][k];
+    return any;
+}
+
+void seal_nodes_fill(const struct sph *s, int body, struct nodes *nodes)
+{
+    if (!is_sealed(s->walls, body))
         return;
     struct seal_point *of = NEW(struct seal_point, nodes->n);
     int n = 0, *node = NEW(int, nodes->n);
@@ -300,9 +311,8 @@ void seal_nodes_fill(const struct sph *s, int body, struct nodes *nodes)
     FREE(of, node, is, at.node);
 }
 
-bool seals_mark(struct walls *w, int body)
+void seals_mark(struct walls *w, int body)
 {
-    bool any = false;
     for (int k = body; k <= BODIES_MAX; k++) {
         const bool first = k == BODIES_MAX || !w->bodies[k].free || w->bodies[body].free;
         const double gap = first ? w->start_gap[body][k] : w->start_gap[k][body];
@@ -310,9 +320,7 @@ bool seals_mark(struct walls *w, int body)
         if (!other || !(w->bodies[body].free || (k < w->nbodies && w->bodies[k].free)))
             continue;
         w->sealed[body][k] = w->sealed[k][body] = isfinite(gap);
-        any = any || isfinite(gap);
     }
-    return any;
 }
 
 /* Whether body k, or its image across a period, may be within R of the other. */
@@ -383,8 +391,10 @@ static const struct seal_rest *rest_of(const struct sph *s, int body)
 void body_seals_add(struct sph *s)
 {
     struct walls *w = s->walls;
+    for (int k = 0; w && w->any_free && k < w->nbodies; k++)
+        seals_mark(w, k);
     for (int k = 0; w && k < w->nbodies; k++) {
-        const bool sealed = w->any_free && seals_mark(w, k);
+        const bool sealed = w->any_free && is_sealed(w, k);
         const struct seal_rest *rest = sealed || w->wedged[k] ? rest_of(s, k) : NULL;
         if (rest && rest->n > 0)
             press_points(s, rest->of, rest->n);

@@ -39,9 +39,8 @@ struct seal_rest {
     struct seal_point of[];
 };
 
-/* Marks what free bodies rest on since the start as sealed; returns whether that is anything of
- * this body. */
-bool seals_mark(struct walls *w, int body);
+/* Marks what free bodies rest on since the start as sealed. */
+void seals_mark(struct walls *w, int body);
 
 /* Gives the asked points of a body the pressure of the water that seeps in between it and what it
  * is sealed with, where no particle comes; none where they lie on each other. Collective. */

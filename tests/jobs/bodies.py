@@ -317,7 +317,7 @@ for name, up, n in ('pile', 'y', 6), ('cubes', 'z', 2):
 
 # Blocks on or beside each other under water bear their weight less their buoyancy each, and nothing pushes them aside: as wide
 # and no higher than R, slabs of a spacing, two in a row, a pile of three.
-for name, boxes in (('stack', ((0.5, 0, 0.75, 0.1), (0.5, 0.1, 0.75, 0.2))), ('slab', ((0.5, 0, 0.75, 0.025), (0.5, 0.025, 0.75, 0.175))),
+for name, boxes in (('stack', ((0.5, 0, 0.75, 0.1), (0.5, 0.1, 0.75, 0.2))), ('slab', ((0.5, 0, 0.75, 0.0375), (0.5, 0.0375, 0.75, 0.1875))),
                     ('between', ((0.5, 0, 0.75, 0.15), (0.5, 0.15, 0.75, 0.175), (0.5, 0.175, 0.75, 0.325))),
                     ('row', ((0.4, 0, 0.6, 0.3), (0.6, 0, 0.8, 0.2))), ('heap', ((0.4, 0, 0.6, 0.15), (0.6, 0, 0.8, 0.15), (0.5, 0.15, 0.7, 0.3)))):
     run_case(name, changed(TANK, time='end = 0.4;', domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
