@@ -333,7 +333,10 @@ struct fv *fv_create(struct run *r, struct h5 *f)
             pressure_meet_surface(s);
     }
     s->watches->sum_before = s->max.u[0] + s->max.u[1] + s->max.u[2];
-    s->speed.reference = fmax(s->speed.reference, fv_fastest(s));
+    if (f)
+        s->speed.limit = 10.0 * s->speed.reference;
+    else
+        s->speed.reference = fmax(s->speed.reference, fv_fastest(s));
     return s;
 }
 

@@ -83,6 +83,16 @@ static void keep_samples(struct fv *s, struct h5 *f)
     mem_free(rows);
 }
 
+/* The layers of air as the last projection had them: with them the next step begins. */
+static void save_layers(const struct fv *s, struct h5 *f)
+{
+    double *layers = NEW(double, s->size);
+    for (int64_t i = 0; i < s->size; i++)
+        layers[i] = s->surface->layer[i];
+    h5_write_real(f, "layers", "-", s->size, 1, layers, false);
+    FREE(layers);
+}
+
 /* Collective; nothing in the state changes. */
 void fv_checkpoint(void *state, struct h5 *f)
 {
@@ -94,6 +104,8 @@ void fv_checkpoint(void *state, struct h5 *f)
     layout_save(f, "layout", grids, mine);
     for (int k = 0; k < n; k++)
         h5_write_real(f, names[k], "-", s->size, 1, fields[k], false);
+    if (s->surface)
+        save_layers(s, f);
     save_numbers(s, f);
     watches_restart(s->watches, f);
     moving_save(s, f);
@@ -117,22 +129,49 @@ static bool gather(const struct fv *s, const struct layout *l, struct h5 *f, con
     return good;
 }
 
-/* Fields with their ghosts: bit for bit on the same ranks, else gathered. */
+/* A field with its ghosts: bit for bit on the same ranks, else gathered. */
+static bool restore_field(const struct fv *s, struct h5 *f, const struct layout *l,
+                          const char *name, double *q)
+{
+    return layout_same_ranks(f, s->run->size) ? h5_read_real(f, name, s->size, 1, q)
+                                              : gather(s, l, f, name, q);
+}
+
 static bool restore_fields(struct fv *s, struct h5 *f, const struct layout *l)
 {
     double *fields[FV_RESTART_FIELDS];
     const char *names[FV_RESTART_FIELDS];
     const int n = fv_restart_fields(s, fields, names);
-    const bool same = layout_same_ranks(f, s->run->size);
     for (int k = 0; k < n; k++)
-        if (!(same ? h5_read_real(f, names[k], s->size, 1, fields[k])
-                   : gather(s, l, f, names[k], fields[k]))) {
+        if (!restore_field(s, f, l, names[k], fields[k])) {
             log_say("the restart file has no field %s of this shape: was it written by another "
                     "integrator (fv.integrator), or without a free surface?",
                     names[k]);
             return false;
         }
     return true;
+}
+
+/* The surface where it is; then the layers that the step before had, and the fields anew, for what
+ * is not near the surface of now has been cleared. */
+static bool restore_surface(struct fv *s, struct h5 *f)
+{
+    struct layout *l = layout_load(f, "layout");
+    double *layers = NEW(double, s->size);
+    surface_rebuild(s);
+    poisson_rebuild(s);
+    bool good = there(restore_field(s, f, l, "layers", layers), "layers of air");
+    if (good) {
+        for (int64_t i = 0; i < s->size; i++) {
+            s->surface->layer[i] = (unsigned char)layers[i];
+            if (s->m)
+                s->free[i] = s->m->status[i] == CELL_COMPUTED && layers[i] == 0.0;
+        }
+        near_water_find(s);
+        good = restore_fields(s, f, l);
+    }
+    FREE(layers, l);
+    return good;
 }
 
 /* false: another grid, or an older file of another number of ranks. */
@@ -159,10 +198,8 @@ bool fv_restore(struct fv *s, struct h5 *f)
         return false;
     if (!load_numbers(s, f) || !there(moving_restore(s, f), "cut of blocks that move"))
         return false;
-    if (s->surface) {
-        surface_rebuild(s);
-        poisson_rebuild(s);
-    }
+    if (s->surface && !restore_surface(s, f))
+        return false;
     outflow_restore(s);
     watches_restart(s->watches, f);
     keep_samples(s, f);

@@ -151,7 +151,8 @@ int fv_restart_numbers(struct fv *s, struct kept_number *of)
     const struct kept_number steps[] = {{"dt", .real = &s->step.dt},
                                         {"dt_old", .real = &s->step.dt_old}};
     const struct kept_number most[] = {{"max_cfl", .real = &s->totals.max_cfl},
-                                       {"fastest", .real = &s->totals.fastest}};
+                                       {"fastest", .real = &s->totals.fastest},
+                                       {"reference", .real = &s->speed.reference}};
     ADD(&all, "time step", steps);
     ADD(&all, "maxima of the run", most);
     if (s->newton)

@@ -90,6 +90,21 @@ family('slab', 'slab.cfg', 'sph 2', '1 3', 0.1)
 family('channel', 'channel.cfg', 'sph 2', '1', 0.4)
 family('sloshing', cases % 'sloshing_fv', 'fv 2', '1 3', 0.2)
 family('column', 'column.cfg', 'fv 2', '1 3', 0.4)
+# violent water past a post, by shifts, too: to the last digit on as many ranks
+POST = HEAD % '1.2, 0.8' + '''shapes: ( { form = "box"; box = ((0, 0), (0.3, 0.5)); } );
+walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
+blocked: ( { name = "post"; min = (0.6, 0); max = (0.75, 0.1); } );
+fv:      { cells = (48, 32); volume = "%s"; };'''
+for kept in 'fraction', 'shift':
+    write('post_%s.cfg' % kept, POST % kept)
+    family('post_' + kept, 'post_%s.cfg' % kept, 'fv 1', '1', 0.8, tolerance=0)
+# a tank that rolls, within the ramp of its motion
+write('rolls.cfg', HEAD.replace('(0, 0)', '(-0.7, -0.2)') % '0.7, 0.9' + '''shapes: ( { form = "below"; level = 0.4; } );
+blocks:  ( { name = "tank"; min = (-0.5, 0); max = (0.5, 0.7); cells = (32, 24); centre = (0, 0);
+             i_min = "slip"; i_max = "slip"; j_min = "slip"; j_max = "slip";
+             motion = ( { kind = "harmonic"; axis = "rz"; amplitude = 0.05; period = 1.2; ramp = 0.6; } ); } );
+fv:      {};''')
+family('rolls', 'rolls.cfg', 'fv 1', '1', 0.8, tolerance=1e-11, changes=['fluid.nu=1e-3'])
 # what the surface was counted for is of the whole run, too
 for key in 'reinitialisations', 'steps_repeated', 'volume_moved':
     lib.close('%s of a run that goes on' % key, *(lib.number(folder, key) for folder in ('column-1', 'column')), 1e-6)
