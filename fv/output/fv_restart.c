@@ -162,12 +162,12 @@ static bool restore_surface(struct fv *s, struct h5 *f)
     poisson_rebuild(s);
     bool good = there(restore_field(s, f, l, "layers", layers), "layers of air");
     if (good) {
-        for (int64_t i = 0; i < s->size; i++) {
+        for (int64_t i = 0; i < s->size; i++)
             s->surface->layer[i] = (unsigned char)layers[i];
-            if (s->m)
-                s->free[i] = s->m->status[i] == CELL_COMPUTED && layers[i] == 0.0;
-        }
         near_water_find(s);
+        FLOW_NEAR (s, c, n)
+            for (int64_t i = c; i < c + n && s->m; i++)
+                s->free[i] = s->m->status[i] == CELL_COMPUTED && layers[i] == 0.0;
         good = restore_fields(s, f, l);
     }
     FREE(layers, l);
