@@ -165,9 +165,8 @@ static bool restore_surface(struct fv *s, struct h5 *f)
         for (int64_t i = 0; i < s->size; i++)
             s->surface->layer[i] = (unsigned char)layers[i];
         near_water_find(s);
-        FLOW_NEAR (s, c, n)
-            for (int64_t i = c; i < c + n && s->m; i++)
-                s->free[i] = s->m->status[i] == CELL_COMPUTED && layers[i] == 0.0;
+        for (int64_t i = 0; i < s->size && s->m; i++)
+            s->free[i] = s->m->status[i] == CELL_COMPUTED && layers[i] == 0.0;
         good = restore_fields(s, f, l);
     }
     FREE(layers, l);

@@ -172,9 +172,8 @@ static void close_cells(struct fv *s)
 /* Dry cells take no part in the flow. */
 static void find_faces(struct fv *s)
 {
-    FLOW_NEAR (s, c, n)
-        for (int64_t i = c; i < c + n; i++)
-            s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
+    for (int64_t i = 0; i < s->size; i++)
+        s->free[i] = s->m->status[i] == CELL_COMPUTED && s->surface->layer[i] == 0;
     surface_mesh_find_faces(s);
 }
 
