@@ -231,32 +231,24 @@ static void stand_apart(struct sph *s)
     }
 }
 
-/* Out of what the other is, for the first body of the pair, in the other's frame. */
-static void way_of(const struct walls *w, const struct pair *p, const struct touch *t, double *way)
+/* Out of what the other is, for the first body of the pair. */
+static void way_of(const struct touch *t, double *way)
 {
     for (int a = 0; a < 3; a++)
         way[a] = t->mine ? t->out[a] : -t->out[a];
-    if (p->b >= 0)
-        turn_back3((double(*)[3])w->bodies[p->b].now.Q, way, way);
 }
 
 static const double same_way = 0.7; /* cosine */
 
-static double *start_way(struct walls *w, const struct pair *p)
-{
-    return w->start_way[p->a][p->b < 0 ? BODIES_MAX : p->b];
-}
-
-/* The way on which a body stands off the other, or the walls at rest, at the start; 0: it touches
- * several of its faces. */
+/* The way on which a body stands off the walls at rest at the start; 0: it touches several. */
 static void note_way(struct walls *w, const struct pair *p)
 {
-    double *first = start_way(w, p), way[3];
+    double *first = w->start_way[p->a], way[3];
     memset(first, 0, 3 * sizeof *first);
     if (p->n > 0)
-        way_of(w, p, p->touch, first);
+        way_of(p->touch, first);
     for (int i = 1; i < p->n; i++) {
-        way_of(w, p, p->touch + i, way);
+        way_of(p->touch + i, way);
         if (vec3_dot(way, first) < same_way)
             memset(first, 0, 3 * sizeof *first);
     }
@@ -275,7 +267,8 @@ void body_contacts_start(struct sph *s)
         find(s, &p);
         for (int i = 0; i < p.n; i++)
             *from = fmin(*from, s->walls->bodies[p.a].contact.gap * s->dx - p.touch[i].depth);
-        note_way(s->walls, &p);
+        if (p.b < 0)
+            note_way(s->walls, &p);
     }
     mem_free(p.touch);
 }
@@ -288,14 +281,14 @@ static double sag(const struct sph *s, const struct touch *t)
     return fmax(down, 0.0) / (rate * rate);
 }
 
-/* Whether it touches the other elsewhere than where it stood at the start: what slides over a floor
- * into a side has no spring of the floor's there. It went through. */
-static bool is_new(struct walls *w, const struct pair *p, const struct touch *t)
+/* Whether it touches the walls at rest elsewhere than where it stood at the start: what slides over
+ * a floor into a side has no spring of the floor's there. It went through. */
+static bool is_new(const struct walls *w, const struct pair *p, const struct touch *t)
 {
-    const double *first = start_way(w, p);
     double way[3];
-    way_of(w, p, t, way);
-    return vec3_length(first) > 0.0 && vec3_dot(way, first) < same_way;
+    way_of(t, way);
+    return p->b < 0 && vec3_length(w->start_way[p->a]) > 0.0 &&
+           vec3_dot(way, w->start_way[p->a]) < same_way;
 }
 
 /* A pair that has been in contact since the start rests on the distance that it had there, by a

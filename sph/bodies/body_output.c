@@ -164,8 +164,7 @@ bool bodies_restart(struct sph *s, struct h5 *f)
         return true;
     (void)h5_keep_rows(f, "contacts", "m/s", BODIES_MAX, BODIES_MAX + 1, &w->approach[0][0]);
     (void)h5_keep_rows(f, "contact gaps", "m", BODIES_MAX, BODIES_MAX + 1, &w->start_gap[0][0]);
-    (void)h5_keep_rows(f, "contact ways", "-", BODIES_MAX, 3 * (BODIES_MAX + 1),
-                       &w->start_way[0][0][0]);
+    (void)h5_keep_rows(f, "contact ways", "-", BODIES_MAX, 3, &w->start_way[0][0]);
     (void)h5_keep_rows(f, "contact friction", "N", BODIES_MAX, FRICTION, (double *)w->friction);
     if (!h5_writes(f))
         walls_move(s, s->t);

@@ -145,8 +145,8 @@ struct walls {
     } friction[BODIES_MAX][BODIES_MAX + 1]; /* of a pair in contact; body_contact.c */
     double start_gap[BODIES_MAX][BODIES_MAX + 1]; /* m: contact of a pair that has not parted since
                                                      the start begins here; INFINITY: it has */
-    double start_way[BODIES_MAX][BODIES_MAX + 1][3]; /* of that pair, in the other's frame, the way
-                                                        out of it; 0: several */
+    double start_way[BODIES_MAX]
+                    [3]; /* of that with walls at rest the way out of them; 0: several */
     /* Of two owners, last walls at rest: what their faces owe each other is body_seal.c's, not
      * wall_gap.c's. */
     bool sealed[BODIES_MAX + 1][BODIES_MAX + 1];

@@ -83,13 +83,6 @@ for what, tank in (('bodies', '{ name = "t"; box = ((0, 0), (1, 0.6)); }'), ('wa
     run_case('anywhere', changed(changed(TANK, walls=''), time='end = 0.001;', domain='min = (-0.1, -0.14); max = (1.2, 1);', shapes='{ box = ((0, 0), (1, 0.4)); }', sph='dx = 0.04;', **{what: tank}))
     close('water in a tank half a spacing off the rows of its domain (%s)' % what, column('anywhere', 'mass')[0], 400, 0.01)
 
-# The same on another body that has a side.
-run_case('slides', changed(TANK, time='end = 0.2;', sph='dx = 0.05;', domain='max = (1.2, 0.6);', shapes='{ box = ((0, 0), (0.1, 0.05)); }', output='snapshots = false; series = 1;',
-                           bodies='{ name = "ell"; points = ((0.2, 0), (0.2, 0.15), (0.85, 0.15), (0.85, 0.4), (1, 0.4), (1, 0)); }, '
-                                  '{ name = "b"; box = ((0.5, 0.15), (0.7, 0.35)); free = true; density = 500; velocity = (1.7, 0); }'))
-x, u = column('slides', 'b x'), column('slides', 'b u')
-check(0.65 < max(x) < 0.74 and min(u) < -0.2, 'a box slides into the side of an angle to x = %g m, back at %g m/s' % (max(x), min(u)))
-
 # A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
 run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
 close('water around a block that begins elsewhere', column('begins', 'mass')[0], 460, 0.01)
