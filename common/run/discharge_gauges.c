@@ -19,8 +19,8 @@ static void add_interval(double dt, double a, double b, double volume[2])
 }
 
 /* Sums one gauge over all rows and reports it; v[-ncolumns] is the row before. */
-static void judge_one(const struct scene *s, const struct scene_probe *g, const struct table *t,
-                      struct summary *summary)
+static void judge_one(const struct scene *s, const struct scene_probe *g, bool means,
+                      const struct table *t, struct summary *summary)
 {
     const int column = table_column(t, g->name);
     static const char *const what[] = {"volume", "forward", "back", "largest"};
@@ -29,7 +29,8 @@ static void judge_one(const struct scene *s, const struct scene_probe *g, const 
         const double *v = t->v + (size_t)row * t->ncolumns;
         largest = fmax(largest, fabs(v[column]));
         if (row > 0 && isfinite(v[column] + v[column - t->ncolumns])) /* nan: before a restart */
-            add_interval(v[0] - v[-t->ncolumns], v[column - t->ncolumns], v[column], volume);
+            add_interval(v[0] - v[-t->ncolumns], v[means ? column : column - t->ncolumns],
+                         v[column], volume);
     }
     const double all[] = {volume[0] - volume[1], volume[0], volume[1], largest};
     for (int k = 0; k < 4 && column >= 0; k++)
@@ -40,11 +41,12 @@ static void judge_one(const struct scene *s, const struct scene_probe *g, const 
                 g->name, all[0], s->domain.dim, all[1], all[2], largest, s->domain.dim);
 }
 
-void discharge_gauges_judge(const struct scene *s, const char *path, struct summary *summary)
+void discharge_gauges_judge(const struct scene *s, bool means, const char *path,
+                            struct summary *summary)
 {
     struct table *t = probe_any(s, PROBE_DISCHARGE) ? table_read(path) : NULL;
     for (int k = 0; t && k < s->nprobes; k++)
         if (s->probes[k].kind == PROBE_DISCHARGE)
-            judge_one(s, s->probes + k, t, summary);
+            judge_one(s, s->probes + k, means, t, summary);
     FREE(t);
 }

@@ -34,6 +34,7 @@ struct run {
     const struct partner *partner;    /* NULL when alone */
     void *partner_ctx;                /* its state (struct cpl *) */
     struct timers timers;
+    bool mean_discharges; /* in rows of series.csv, over the time since the row before: create */
     struct summary *summary;
     double t, dt; /* s: current time, last step */
     int64_t step;

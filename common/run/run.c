@@ -535,7 +535,7 @@ static void judge_gauges(const struct life *l)
         return;
     files_path(&l->r, "series.csv", path, sizeof path);
     wave_gauges_judge(&l->r.scene, path, l->r.dir, l->r.summary);
-    discharge_gauges_judge(&l->r.scene, path, l->r.summary);
+    discharge_gauges_judge(&l->r.scene, l->r.mean_discharges, path, l->r.summary);
 }
 
 /* From the end of the loop to the exit code. The last row comes even where the interval of rows

@@ -232,9 +232,11 @@ static void look_at_faces(const struct fv *s, const struct flow_samples *f, cons
 static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
 {
     (void)gauge;
-    const struct fraction *fraction = s->surface ? s->surface->fraction : NULL;
-    const bool faces = s->surface ? fraction && fraction->carries > 0.0 && fraction->has_passed
-                                  : s->blocked && s->step.dt > 0.0;
+    struct fraction *fraction = s->surface ? s->surface->fraction : NULL;
+    const bool faces =
+        s->surface ? fraction && fraction->passed_time > 0.0 : s->blocked && s->step.dt > 0.0;
+    if (fraction)
+        fraction->was_read = 1.0;
     struct flow_samples f = faces ? flow_samples_of_cells(s, g) : flow_samples_create(s, g);
     for (int k = 0; k < f.n; k++) {
         int i[3];

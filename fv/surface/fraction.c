@@ -191,6 +191,7 @@ void fraction_start(struct fv *s)
     s->surface->fraction = mem_own(s->surface, create(s));
     for (int a = 0; a < s->dim && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
         s->surface->fraction->passed[a] = NEW_IN(s->surface->fraction, double, s->size);
+    s->surface->fraction->was_read = 1.0;
     s->surface->fraction->boxes = has_boxes(s);
     s->surface->fraction->first = first_axis(s);
     order_axes(s->m, &s->surface->fraction->axes);
@@ -491,8 +492,7 @@ static void update_row(const struct fraction *f, int a, int64_t c, int64_t d, do
     }
 }
 
-/* per: 1/s, over the time of both advances of a step. */
-static void sweep(struct fv *s, int a, double dt, double per)
+static void sweep(struct fv *s, int a, double dt)
 {
     struct fraction *f = s->surface->fraction;
     find_planes(s);
@@ -500,7 +500,7 @@ static void sweep(struct fv *s, int a, double dt, double per)
     find_fluxes(s, a, dt);
     outflow_count_volumes(s, f->axes.axis[a], f->flux);
     for (int64_t i = 0; f->passed[a] && i < s->size; i++)
-        f->passed[a][i] += f->flux[i] * per;
+        f->passed[a][i] += f->flux[i];
     FLOW_NEAR_AT (s, part, j, c, n) {
         const int along = axis_of(s, part, a);
         const int64_t d = part->stride[along];
@@ -542,11 +542,15 @@ static void balance(struct fv *s)
     surface_mirror(s, f->C);
 }
 
-void fraction_count_anew(struct fraction *f, int64_t size)
+void fraction_count(struct fraction *f, int64_t size)
 {
-    for (int a = 0; a < 3 && f->passed[a]; a++)
-        memset(f->passed[a], 0, (size_t)size * sizeof(double));
-    f->has_passed = f->passed[0] != NULL;
+    if (f->was_read > 0.0) {
+        for (int a = 0; a < 3 && f->passed[a]; a++)
+            memset(f->passed[a], 0, (size_t)size * sizeof(double));
+        f->passed_time = f->was_read = 0.0;
+    }
+    if (f->carries == 0.0)
+        f->passed_time = -1.0;
 }
 
 /* n parts of dt; in each all axes, the first one in turns, so that none comes first for ever. */
@@ -559,10 +563,11 @@ void fraction_advance(struct fv *s, double dt, int n)
     f->excess = excess_of(s, dt);
     for (int k = 0; k < n; k++) {
         for (int a = 0; a < s->dim; a++)
-            sweep(s, ((int)f->first + a) % s->dim, dt / n, 0.5 / dt);
+            sweep(s, ((int)f->first + a) % s->dim, dt / n);
         f->first = ((int)f->first + 1) % s->dim;
         fraction_bound(s);
     }
+    f->passed_time += f->passed_time < 0.0 ? 0.0 : dt;
     balance(s);
 }
 
@@ -571,5 +576,5 @@ double fraction_passed(const struct fv *s, int64_t c, int a, double at)
     const struct fraction *f = s->surface->fraction;
     const double *flow = f->passed[a] + c;
     return ((1.0 - at) * flow[0] + at * flow[s->grid.part[0].stride[a]]) *
-           fraction_height(s, c, a) / f->volume[c];
+           fraction_height(s, c, a) / (f->volume[c] * f->passed_time);
 }

@@ -34,6 +34,11 @@ int fv_restart_fields(const struct fv *s, double **f, const char **names)
             names[n++] = "C";
             f[n] = s->surface->fraction->layer;
             names[n++] = "layer";
+            for (int a = 0; a < s->dim && s->surface->fraction->passed[a]; a++) {
+                static const char *const passed[] = {"passed0", "passed1", "passed2"};
+                f[n] = s->surface->fraction->passed[a];
+                names[n++] = passed[a];
+            }
         }
         for (int k = 0; k < 2 && s->surface->forced; k++) {
             f[n] = s->surface->forced->phi[k];
@@ -99,10 +104,10 @@ static void add_surface(struct kept_numbers *to, struct surface *f)
     ADD(to, "surface", volumes);
     if (f->fraction) {
         struct fraction *q = f->fraction;
-        const struct kept_number shares[] = {{"carries", .real = &q->carries},
-                                             {"calm", .real = &q->calm},
-                                             {"first_axis", .real = &q->first},
-                                             {"moved", .real = &q->moved}};
+        const struct kept_number shares[] = {
+            {"carries", .real = &q->carries},         {"calm", .real = &q->calm},
+            {"first_axis", .real = &q->first},        {"moved", .real = &q->moved},
+            {"passed_time", .real = &q->passed_time}, {"was_read", .real = &q->was_read}};
         ADD(to, "shares of water", shares);
     }
     if (f->forced) {

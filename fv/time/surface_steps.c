@@ -326,7 +326,7 @@ static void keep_water(struct fv *s)
         surface_keep_volume(s);
     } else if (!is_carried(s) && !calm) {
         fraction_take(s);
-        f->has_passed = false; /* before the next step */
+        f->passed_time = -1.0;
         f->carries = 1.0;
     }
 }
@@ -352,8 +352,8 @@ void surface_first_half(struct fv *s, double dt)
     flows(s, s->surface->through);
     if (!is_carried(s))
         outflow_count_flows(s, 0.5 * dt, share_that_counts);
-    else
-        fraction_count_anew(s->surface->fraction, s->size);
+    if (s->surface->fraction)
+        fraction_count(s->surface->fraction, s->size);
     if (s->moving)
         moving_begin_surface(s, dt);
     advance_water(s, s->t + 0.5 * dt, 0.5 * dt);
@@ -411,8 +411,11 @@ void surface_keep_state(struct fv *s)
     s->surface->calm_before = s->surface->calm;
     levels_keep(s);
     outflow_keep_budget(s);
-    if (s->surface->fraction)
+    if (s->surface->fraction) {
         s->surface->fraction->first_before = s->surface->fraction->first;
+        s->surface->fraction->passed_before = s->surface->fraction->passed_time;
+        s->surface->fraction->read_before = s->surface->fraction->was_read;
+    }
 }
 
 void surface_back(struct fv *s)
@@ -429,8 +432,11 @@ void surface_back(struct fv *s)
     s->surface->travelled = s->surface->travelled_before;
     s->surface->calm = s->surface->calm_before;
     levels_back(s);
-    if (s->surface->fraction)
+    if (s->surface->fraction) {
         s->surface->fraction->first = s->surface->fraction->first_before;
+        s->surface->fraction->passed_time = s->surface->fraction->passed_before;
+        s->surface->fraction->was_read = s->surface->fraction->read_before;
+    }
     if (s->moving) {
         moving_back(s);
         surface_mesh_update(s);

@@ -94,6 +94,7 @@ family('column', 'column.cfg', 'fv 2', '1 3', 0.4)
 POST = HEAD % '1.2, 0.8' + '''shapes: ( { form = "box"; box = ((0, 0), (0.3, 0.5)); } );
 walls:   ( { side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { side = "y_max"; } );
 blocked: ( { name = "post"; min = (0.6, 0); max = (0.75, 0.1); } );
+probes:  ( { name = "through"; kind = "discharge"; at = (0.9, 0); to = (0.9, 0.8); } );
 fv:      { cells = (48, 32); volume = "%s"; };'''
 for kept in 'fraction', 'shift':
     write('post_%s.cfg' % kept, POST % kept)
