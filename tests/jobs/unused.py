@@ -17,7 +17,7 @@ VALUES = '''
 time: end 0.043
 fluid: rho 700 | nu 0.02 | gravity (0.3,-7) | central 2
 domain: dim 3 | min (-1.2,-0.8) | max (1.2,1.2) | periodic (true,false)
-initial: field couette | U 1.7 | L 0.7 | velocity (0.1,0.2) | amplitude 0.03 | L_z 0.5 | level 0.9
+initial: field taylor_green | U 1.7 | L 0.7 | velocity (0.1,0.2) | amplitude 0.03 | L_z 0.5 | level 0.9
     seed ((0.9,0.9,0.9)) | crest 0.3
 coupling: steps 7 | transition 0.15 | buffer 0.15 | overlap 0.15 | memory 3 | keep_mass false | mapping shepard
     interpolation linear | in_time linear | blend all | deadline 7
