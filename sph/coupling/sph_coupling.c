@@ -12,6 +12,7 @@
 #include "../open_boundaries/sph_open_boundaries.h"
 #include "../parallel/domain.h"
 #include "../particles/sph_particles.h"
+#include "body_water.h"
 #include "overlap.h"
 #include "windows.h"
 
@@ -21,7 +22,9 @@ struct sph_link {
     int dim, particles, velocity, pressure, patch_velocity, patch_pressure;
     int budget, water;  /* one point, at the free zone's corner; wet_faces_water */
     int place, way;     /* of a box that moves: a point where it starts, how far it is from there */
-    int one, patch_phi; /* where a surface crosses: how much of a kernel particles fill; fv's */
+    int one, patch_phi; /* where a surface crosses: how much of a kernel water fills; fv's */
+    int filled; /* the set of `one': the particles, beside bodies these and points in them */
+    struct body_water *in_bodies; /* owned by this; NULL: the case has none */
     double *x, *u, *p, *w, *ones;
     int64_t *id;
     int capacity;
@@ -126,8 +129,13 @@ void sph_coupling_create(struct sph *s)
     partner_check(k->c, cpl_field(k->c, k->particles, "fv.pressure", "Pa", 1, CPL_GET, how,
                                   &k->patch_pressure));
     if (s->run->crossed) {
+        k->filled = k->particles;
+        if (s->run->scene.nbodies > 0) {
+            k->in_bodies = NEW_IN(k, struct body_water, 1);
+            partner_check(k->c, cpl_points(k->c, named(s->run, "filled"), s->dim, 0.0, &k->filled));
+        }
         partner_check(
-            k->c, cpl_field(k->c, k->particles, named(s->run, "one"), "-", 1, CPL_PUT, 0, &k->one));
+            k->c, cpl_field(k->c, k->filled, named(s->run, "one"), "-", 1, CPL_PUT, 0, &k->one));
         partner_check(k->c, cpl_field(k->c, k->particles, "fv.phi", "m", 1, CPL_GET, CPL_LINEAR,
                                       &k->patch_phi));
         partner_check(k->c, cpl_points(k->c, named(s->run, "budget"), s->dim, 0.0, &k->budget));
@@ -237,14 +245,35 @@ static void give_way(struct sph *s, double t)
     give_one(s, k->place, k->way, t, v);
 }
 
-/* Where the n particles are that are given: ones; and how much water the free zone holds. The first
- * put needs no new positions: those of the particles have just been moved. */
+/* Adds what of the bodies is below the level to the n particles that are given, in a set of its
+ * own: bodies have no part in velocities and pressures. Returns the number of points. */
+static int add_bodies(struct sph *s, int n)
+{
+    struct sph_link *k = s->zones->ctx;
+    struct body_water *b = k->in_bodies;
+    const struct scene_domain *d = &s->run->scene.domain;
+    const double volume = pow(s->dx, s->dim);
+    body_water_find(s, b);
+    room(k, n + b->n);
+    for (int i = 0; i < b->n; i++) {
+        for (int a = 0; a < 3; a++)
+            k->x[3 * (n + i) + a] =
+                a < s->dim ? scene_image_from(d, a, d->min[a], b->x[3 * i + a]) : 0.0;
+        k->w[n + i] = volume;
+        k->id[n + i] = b->id[i];
+    }
+    partner_check(k->c, cpl_move(k->c, k->filled, n + b->n, k->x, k->id, k->w));
+    return n + b->n;
+}
+
+/* Where the n particles are that are given: ones; and how much water the free zone holds. */
 static void give_surface(struct sph *s, int n, double t)
 {
     const struct sph_link *k = s->zones->ctx;
+    const int filled = k->in_bodies ? add_bodies(s, n) : n;
     double water[2];
     wet_faces_water(s, water);
-    partner_check(k->c, cpl_put(k->c, k->one, t, n, k->ones, NULL));
+    partner_check(k->c, cpl_put(k->c, k->one, t, filled, k->ones, NULL));
     give_one(s, k->budget, k->water, t, water);
 }
 

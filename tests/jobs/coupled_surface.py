@@ -3,7 +3,7 @@ any number of ranks, restart, what is refused. SPDX-License-Identifier: BSD-3-Cl
 import glob
 
 import lib
-from lib import alone, bad, below, close, column, last, near, number, refused_by, restarted, root, says, start, told, varied
+from lib import alone, bad, below, close, column, dataset, last, near, number, refused_by, restarted, root, says, start, told, varied
 
 lib.scratch()
 
@@ -345,6 +345,15 @@ lifted('own_blocks')
 for program in boxes:
     told('own_blocks', 'outline_1', 'own_blocks/%s_walls.xdmf' % program)  # a body of its own
 keeps_water('own_blocks')
+
+# a post through the surface is a wall of the water: to fv's cells there it is water up to the level, not air (0.11 m of it)
+post = water + 'bodies: ( { name = "post"; points = ((1.85, -0.2), (1.85, 1.6), (2.15, 1.6), (2.15, -0.2)); } );'
+job('post', post, 'time.end=0.1 sph.dx=0.05 fv.cells=(40,14) sph.box=((0.7,0),(3.3,1.4))')
+phi = dataset(max(glob.glob('post/fv_[0-9]*.h5')), 'level_set')
+for row in range(14):
+    below('post: phi of a cell in it, times that of its place', -phi[40 * row + 20] * (row - 9.5), 0.0)
+for row in 9, 10:  # beside the surface the distance is exact by symmetry
+    near('post: height over the surface of a cell in it', phi[40 * row + 20], 0.1 * (row - 9.5), 0.01)
 
 # walls that but one of the programs has
 for folder, old, new, words in (
