@@ -160,7 +160,7 @@ void helmholtz_next(struct helmholtz_course *k)
 /* From cosh(n arcosh sigma) >= sqrt(rr/goal). */
 int helmholtz_steps(const struct helmholtz *h, double rr, double goal)
 {
-    return (int)ceil(acosh(sqrt(rr / goal)) / acosh(course_of(h).sigma));
+    return rr > goal ? (int)ceil(acosh(sqrt(rr / goal)) / acosh(course_of(h).sigma)) : 0;
 }
 
 /* Exchanges the roles of two sets of fields. */

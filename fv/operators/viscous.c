@@ -423,6 +423,11 @@ bool viscous_solve(struct fv *s, double c, double *const delta[3], double *const
     const double rr = sums[0], goal = tol * tol * (viscous_keeps_increment(s) ? sums[1] : rr);
     if (rr <= goal) /* the tolerance is relative to no start at all */
         return true;
+    if (!(goal > 0.0) && rr == rr) { /* a flow that is steady to the last digit */
+        for (int k = 0; k < s->dim; k++)
+            memset(delta[k], 0, (size_t)s->size * sizeof(double));
+        return true;
+    }
     if (s->surface && helmholtz_is_weak(&h, tol)) {
         helmholtz_once(&h, delta, rhs);
         return rr == rr;
