@@ -89,6 +89,7 @@ struct gravity {
     double periodic[3];    /* m/s^2: where it drives the flow, along periodic axes and channels */
     double hydrostatic[3]; /* m/s^2: across closed sides, where the pressure takes it up */
     double level;          /* m: height at which that pressure is 0 */
+    int upright;           /* the axis that hydrostatic is most along; without any the last */
 };
 
 /* The step under way and the last ones; time/ makes them. */

@@ -144,10 +144,10 @@ static void say_cut_box(const struct run *r)
     if (!crossing_box(r, r->name, box))
         return;
     for (int a = 0; a < d->dim; a++) {
-        const double near = 1e-6 * (d->max[a] - d->min[a]);
-        if (!d->periodic[a] && (box[0][a] < d->min[a] - near || box[1][a] > d->max[a] + near))
+        const double lo = d->min[a], hi = d->max[a], near = 1e-6 * (hi - lo);
+        if (!d->periodic[a] && (box[0][a] < lo - near || box[1][a] > hi + near))
             log_say("%s.box: %c from %g to %g m ends at the domain's sides, %g to %g m", r->name,
-                    "xyz"[a], box[0][a], box[1][a], d -> min[a], d -> max[a]);
+                    "xyz"[a], box[0][a], box[1][a], lo, hi);
     }
 }
 

@@ -153,10 +153,9 @@ static double body_speed(const struct scene *s, bool free)
 static double weight(const struct scene *s, double g[3])
 {
     const struct scene_reference of = scene_reference(s);
+    (void)scene_still_gravity(s, g);
     for (int a = 0; a < 3; a++)
-        g[a] = a < s->domain.dim && !scene_is_driven_along(s, a) && of.slope[a] == 0.0
-                   ? s->fluid.gravity[a]
-                   : 0.0;
+        g[a] = of.slope[a] == 0.0 ? g[a] : 0.0;
     return vec3_length(g);
 }
 

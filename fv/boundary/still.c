@@ -10,21 +10,18 @@
  * gravity. */
 struct gravity still_split(const struct scene *scene)
 {
-    struct gravity split = {.level = 0.0};
-    double g = 0.0, top = 0.0;
+    struct gravity split = {.upright = still_upright(scene)};
+    const double g = scene_still_gravity(scene, split.hydrostatic);
+    double top = 0.0;
     for (int a = 0; a < scene->domain.dim; a++) {
-        const double ga = scene->fluid.gravity[a];
-        const bool drives = scene_is_driven_along(scene, a);
-        const double across = drives ? 0.0 : ga;
-        split.periodic[a] = drives ? ga : 0.0;
-        split.hydrostatic[a] = across;
-        g += across * across;
+        const double across = split.hydrostatic[a];
+        split.periodic[a] = scene->fluid.gravity[a] - across;
         top -= across * (across > 0.0 ? scene->domain.min[a] : scene->domain.max[a]);
     }
     if (scene->initial.level < LEVEL_TOP)
         split.level = scene->initial.level;
     else if (g > 0.0)
-        split.level = top / sqrt(g);
+        split.level = top / g;
     return split;
 }
 

@@ -332,8 +332,7 @@ struct fv *fv_create(struct run *r, struct h5 *f)
         if (!s->run->coupled) /* a partner gives its cells later: coupling_first */
             pressure_meet_surface(s);
     }
-    r->mean_discharges =
-        !s->m && s->surface && s->surface->fraction && s->surface->fraction->passed[0];
+    r->mean_discharges = s->surface && s->surface->fraction && s->surface->fraction->passed[0];
     s->watches->sum_before = s->max.u[0] + s->max.u[1] + s->max.u[2];
     if (f)
         s->speed.limit = 10.0 * s->speed.reference;

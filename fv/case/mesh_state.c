@@ -33,6 +33,7 @@ static void fill(struct fv *s)
 {
     const struct mesh *m = s->m;
     const bool at_rest = s->run->scene.initial.field == FIELD_REST || s->prm.ring;
+    const bool shapes_move = scene_shapes_move(&s->run->scene);
     const bool all =
         m->moves || s->partners.moves[0] || s->partners.moves[1] || s->partners.moves[2];
     double least = INFINITY, most = 0.0;
@@ -48,8 +49,10 @@ static void fill(struct fv *s)
                 memset(u, 0, sizeof u);
             const struct mesh_block *b = m->block + p->block;
             const int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]};
-            extent(b, m->dim, at, h);
-            fv_shape_velocity(s, b->centre[mesh_cell(b, at)], h, u);
+            if (shapes_move) {
+                extent(b, m->dim, at, h);
+                fv_shape_velocity(s, b->centre[mesh_cell(b, at)], h, u);
+            }
             for (int a = 0; a < m->dim; a++)
                 s->u[a][c] = u[a];
             pr -= scene_has_wave(&s->run->scene) ? fv_still_pressure(s, b->centre[mesh_cell(b, at)])

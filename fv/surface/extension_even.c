@@ -48,7 +48,7 @@ static void find_shift(const struct fv *s, struct place *p)
 {
     for (int a = 0; a < 3; a++)
         p->shift[a] = a < s->dim ? -(int)lround(p->e[0][a] * 1.2) : 0;
-    p->upright = still_upright(&s->run->scene);
+    p->upright = s->gravity.upright;
 }
 
 /* The window of a cell whose middle is `shift' away. */

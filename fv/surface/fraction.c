@@ -189,7 +189,7 @@ static bool has_boxes(const struct fv *s)
 void fraction_start(struct fv *s)
 {
     s->surface->fraction = mem_own(s->surface, create(s));
-    for (int a = 0; a < s->dim && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
+    for (int a = 0; a < s->dim && !s->m && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
         s->surface->fraction->passed[a] = NEW_IN(s->surface->fraction, double, s->size);
     s->surface->fraction->was_read = 1.0;
     s->surface->fraction->boxes = has_boxes(s);
@@ -523,16 +523,17 @@ static double excess_of(const struct fv *s, double dt)
 }
 
 /* What the projection's tolerance left goes from, or to, the mixed cells, in proportion to how
- * mixed they are: a millionth of the water. */
-static void balance(struct fv *s)
+ * mixed they are: a millionth of the water. moved: this rank's, of this advance. */
+static void balance(struct fv *s, double moved)
 {
     struct fraction *f = s->surface->fraction;
-    double sums[3] = {f->entered, f->excess, 0.0};
+    double sums[4] = {f->entered, f->excess, 0.0, moved};
     FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n; i++)
             sums[2] += fraction_is_mixed(f->C[i]) ? f->C[i] * (1.0 - f->C[i]) * f->volume[i] : 0.0;
-    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->comm);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, s->comm);
     f->entered = sums[0];
+    f->moved += sums[3];
     const double part = sums[2] > 10.0 * fabs(sums[1]) ? -sums[1] / sums[2] : 0.0;
     FLOW_NEAR (s, c, n)
         for (int64_t i = c; i < c + n && part != 0.0; i++)
@@ -561,14 +562,15 @@ void fraction_advance(struct fv *s, double dt, int n)
     f->has_flows = false;
     f->entered = 0.0;
     f->excess = excess_of(s, dt);
+    double moved = 0.0;
     for (int k = 0; k < n; k++) {
         for (int a = 0; a < s->dim; a++)
             sweep(s, ((int)f->first + a) % s->dim, dt / n);
         f->first = ((int)f->first + 1) % s->dim;
-        fraction_bound(s);
+        moved += fraction_bound(s);
     }
     f->passed_time += f->passed_time < 0.0 ? 0.0 : dt;
-    balance(s);
+    balance(s, moved);
 }
 
 double fraction_passed(const struct fv *s, int64_t c, int a, double at)

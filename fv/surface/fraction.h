@@ -42,7 +42,8 @@ struct fraction {
     double *height[3], *cosine[3][3];
     double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;
-    /* m^dim: water through the lower faces since gauges were read last; NULL without gauges. */
+    /* m^dim: water through the lower faces since gauges were read last; NULL without gauges, and on
+     * blocks, whose gauges read the flow at one time. */
     double *passed[3];
     double passed_time; /* s: since then; -1: shares did not carry all of the water */
     double was_read;    /* 1: gauges have been read, so that the next step counts anew */
@@ -88,8 +89,9 @@ void fraction_set_flows(struct fv *s);
 /* Water that crosses a plane normal to axis a in the uniform cell c, `at' of the way from its lower
  * to its upper face, per area, m/s, the mean over passed_time > 0; between the faces linear. */
 double fraction_passed(const struct fv *s, int64_t c, int a, double at);
-/* fraction_bounds.c: moves what cells have beyond 1 or below 0 to cells around. Collective. */
-void fraction_bound(struct fv *s);
+/* fraction_bounds.c: moves what cells have beyond 1 or below 0 to cells around; returns how much,
+ * m^dim, of this rank. Collective. */
+double fraction_bound(struct fv *s);
 /* fraction_level.c: corrects phi towards the planes that have the shares. */
 void fraction_correct_level(struct fv *s);
 /* Whether phi resolves all of the surface and agrees with the shares. Collective. */

@@ -106,17 +106,15 @@ static void cut(struct fv *s)
     surface_mirror(s, f->C);
 }
 
-void fraction_bound(struct fv *s)
+double fraction_bound(struct fv *s)
 {
     struct fraction *f = s->surface->fraction;
     /* beyond periods and other ranks both are 0 unless they are sent */
     grid_clear_near(&s->grid, f->work);
     grid_clear_near(&s->grid, f->next);
     double moved = 0.0;
-    int k = 0;
-    for (; k < PASSES && find_shares(s); k++)
+    for (int k = 0; k < PASSES && find_shares(s); k++)
         moved += exchange(s);
-    if (k > 0) /* of all ranks */
-        f->moved += ranks_sum(s->comm, moved);
     cut(s);
+    return moved;
 }

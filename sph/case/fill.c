@@ -382,22 +382,21 @@ struct fill *fill_lattice(struct sph *s)
     return f;
 }
 
-/* Whether the masses of the first particles are those of a fluid at rest. */
-static bool is_weighed(const struct sph *s)
+/* Whether the masses of the first particles are those of a fluid at rest; still: weight_of. */
+static bool is_weighed(const struct sph *s, double still[3])
 {
     const struct scene *c = &s->run->scene;
-    double still[3];
     return weight_of(s, still) != 0.0 && !scene_has_wave(c) && c->initial.field != FIELD_POISEUILLE;
 }
 
-/* Slopes that children are born with: those of water at rest where its weight counts. */
-static void set_slopes(struct sph *s, const struct exact *e)
+/* Slopes that children are born with: those of water at rest where its weight counts (still: that
+ * gravity, m/s^2, else NULL). */
+static void set_slopes(struct sph *s, const struct exact *e, const double *still)
 {
     const int dim = s->dim;
-    const bool weighed = is_weighed(s);
     if (s->p.n > 0)
         memset(s->p.slope, 0, (size_t)s->p.n * s->p.nslope * sizeof(double));
-    for (int i = 0; i < s->p.n && weighed; i++) {
+    for (int i = 0; i < s->p.n && still; i++) {
         const double *y = state_row(&s->p, s->p.y, i);
         const double rho = y[at_mass(dim)] / y[at_volume(dim)];
         const double c = eos_c(rho, s->rho0, s->c0, s->gamma);
@@ -406,8 +405,7 @@ static void set_slopes(struct sph *s, const struct exact *e)
         exact_point(e, x, 0.0, u, &p, NULL);
         const bool falls = rho == eos_rho(p, s->rho0, s->c0, s->gamma);
         for (int a = 0; a < dim && !falls; a++)
-            slope_line(&s->p, i)[a] =
-                scene_is_driven_along(&s->run->scene, a) ? 0.0 : rho * s->gravity[a] / (c * c);
+            slope_line(&s->p, i)[a] = rho * still[a] / (c * c);
     }
 }
 
@@ -476,8 +474,9 @@ void fill_check(struct sph *s, const struct fill *f)
 void fill_finer(struct sph *s, const struct fill *f)
 {
     const struct exact e = exact_create(&s->run->scene);
-    const bool weighed = is_weighed(s);
-    set_slopes(s, &e);
+    double still[3];
+    const bool weighed = is_weighed(s, still);
+    set_slopes(s, &e, weighed ? still : NULL);
     if (!s->finer) {
         mixed_start(s);
         set_fields(s, &e, true, weighed, NULL, 1.0);

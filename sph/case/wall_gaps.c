@@ -103,6 +103,7 @@ struct gap_filling {
     const struct regions *regions;
     struct exact exact;
     double origin[3], lo[3], hi[3]; /* m: the lattice, this rank's part */
+    double still[3];                /* m/s^2: scene_still_gravity */
 };
 
 static bool has_water(const struct gap_filling *f, const double *x)
@@ -130,8 +131,7 @@ static void look_around(const struct gap_filling *f, const struct gap_places *ne
             is.x[a] = f->origin[a] + (is.cell[a] + 0.5) * s->dx;
             way[a] = is.x[a] - from->x[a];
             is.far2 += way[a] * way[a];
-            if (!scene_is_driven_along(&s->run->scene, a))
-                is.rho += from->rho * s->gravity[a] * way[a] / (c * c);
+            is.rho += from->rho * f->still[a] * way[a] / (c * c);
         }
         if (is.far2 < reach * reach && !is_taken(near, &is, empty * s->dx) && has_water(f, is.x) &&
             walls_meet(s, from->x, way) >= 1.0)
@@ -184,6 +184,9 @@ void wall_gaps_fill(struct sph *s)
         return;
     struct gap_filling f = {
         .s = s, .regions = coarsest->refinement->regions, .exact = exact_create(&s->run->scene)};
+    (void)scene_still_gravity(&s->run->scene, f.still);
+    for (int a = 0; a < 3; a++) /* nothing where the reference of the pressure has it */
+        f.still[a] = s->gravity[a] != 0.0 ? f.still[a] : 0.0;
     for (int a = 0; a < 2; a++)
         f.origin[a] = first_lattice_begin(&s->run->scene, a, s->lo[a], s->hi[a], s->dx);
     domain_bounds(s->domain, f.lo, f.hi);

@@ -9,12 +9,8 @@
 
 static void add(struct body_water *b, const double *x, int64_t id)
 {
-    if (b->n == b->capacity) {
-        const int old = b->capacity;
-        b->capacity = 2 * old + 64;
-        GROW_IN(b, b->x, 3 * old, 3 * b->capacity);
-        GROW_IN(b, b->id, old, b->capacity);
-    }
+    ROOM_IN(b, b->x, 3 * (b->n + 1));
+    ROOM_IN(b, b->id, b->n + 1);
     memcpy(b->x + 3 * b->n, x, 3 * sizeof *x);
     b->id[b->n++] = id;
 }

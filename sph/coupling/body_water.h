@@ -8,7 +8,7 @@
 #include "../sph.h"
 
 struct body_water {
-    int n, capacity;
+    int n;
     double *x;   /* [n][3] m; each stands for dx^dim */
     int64_t *id; /* < 0, the same on any number of ranks */
 };

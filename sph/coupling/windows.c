@@ -341,8 +341,7 @@ static void warn_of_drag(const struct run *r, const struct sph_params *prm, cons
         for (int a = 0; a < dim; a++)
             drags = drags || (wall->velocity[a] != 0.0 && (open[2 * a] || open[2 * a + 1]));
         if (drags && wall->kind == WALL_NO_SLIP && side >= 0 && c->fluid.nu > 0.0 &&
-            prm->box[side % 2][side / 2] ==
-                (side % 2 ? c->domain.max[side / 2] : c->domain.min[side / 2]))
+            sph_params_reaches(&c->domain, prm, side))
             log_warn("walls.[%d]: it moves at once, along open sides of sph.box, where fv has the "
                      "water of the start during the first coupling step: velocities lack some per "
                      "cent of it for as long as the flow is new; coupling.steps = 1 has a third "
