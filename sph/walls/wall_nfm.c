@@ -366,7 +366,7 @@ INLINE struct given flux(const struct sph *s, const struct wall_list *l, int k,
     const double past = wall_air_past(s, l, k, t, i->u, uw, flies * i->edge, beyond, dim);
     across *= 1.0 - past;
     if (s->surface && !i->in_air && across < 0.0)
-        across *= 1.0 - wall_air_gap(s, i->empty, t->n, across, dim);
+        across *= 1.0 - wall_air_gap(s, i->empty, t->n, across, i->p, dim);
     double P =
         i->p +
         wall_pressure(s, i, t->is.e, (1.0 - past) * near, (1.0 - past) * held, uw, t->n, dim) -
