@@ -113,14 +113,10 @@ $(preloaded): $(B)/tests/%.so: tests/jobs/%.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(filter-out -MMD,$(CFLAGS)) -shared -fPIC -o $@ $< -ldl
-$(B)/tests/properties_scene: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/properties/*.c)) # knows no other code
-	@mkdir -p $(@D)
-	@echo "LD $@"
-	@cc $(SAN) -o $@ $^ -lm
 # the tests' own lines take little of their time, and more than half of the compiler's if it is to make them fast
 $(B)/o/tests/unit/%.o: CFLAGS += -O0 -DUNIT=$(basename $(@F))
 units: $(filter $(B)/tests/units $(B)/tests/toy%,$(tests_bin))
-tests: all $(tests_bin) $(mocks) $(examples) $(preloaded) $(B)/tests/properties_scene
+tests: all $(tests_bin) $(mocks) $(examples) $(preloaded)
 # (a pointer that overflows is one past memory, too; nothing is warned of twice)
 asan:
 	@$(MAKE) --no-print-directory B=$(B)/asan OPT="-Og -march=native -fno-math-errno" WARN=-w \
@@ -141,7 +137,7 @@ check-long: # the same with all random scenes and finer ones
 test-fast: # units alone, for development
 	@$(MAKE) --no-print-directory -j2 tests
 	@FAST=1 tests/run $(B)
-properties: all $(B)/tests/properties_scene $(preloaded) # SEED=, N= or MINUTES=, JOBS=, KEEP=
+properties: all $(preloaded) # SEED=, N= or MINUTES=, JOBS=, KEEP=
 	@tests/properties/run $(B)
 report: all
 	@cases/report
