@@ -2,6 +2,7 @@
 #include "params_hints.h"
 
 #include <ctype.h>
+#include <regex.h>
 
 #include "../base/base.h"
 
@@ -305,69 +306,6 @@ static const char *line_at(const char *text, int line, char *copy, size_t size)
     return copy;
 }
 
-/* Whether a number is followed by a word: a unit. */
-static bool has_unit(const char *s)
-{
-    for (const char *c = strchr(s, '='); c; c = strchr(c + 1, '=')) {
-        const char *d = c + 1 + strspn(c + 1, " \t");
-        const size_t n = strspn(d, "+-0123456789.eE");
-        const char *after = d + n + strspn(d + n, " \t");
-        if (n > 0 && isalpha((unsigned char)*after) && *after != 'L')
-            return true;
-    }
-    return false;
-}
-
-/* Only before a digit, as vectors have commas, too; and only behind the sign =. */
-static bool has_decimal_comma(const char *s)
-{
-    for (const char *c = strchr(s, '='); c; c = strchr(c + 1, '=')) {
-        const char *d = c + 1 + strspn(c + 1, " \t"), *e = d + strspn(d, "+-0123456789");
-        if (e > d && *e == ',' && isdigit((unsigned char)e[1]))
-            return true;
-    }
-    return false;
-}
-
-/* yes, no, on, off as a bare word after = , or ( */
-static bool has_bare_word(const char *s)
-{
-    static const char *const words[] = {"yes", "no", "on", "off", "True", "False"};
-    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
-        const char *at = strstr(s, words[k]);
-        const size_t n = strlen(words[k]);
-        for (; at; at = strstr(at + 1, words[k]))
-            if (at > s && strchr("=(, \t[", at[-1]) && !isalnum((unsigned char)at[n]))
-                return true;
-    }
-    return false;
-}
-
-/* 1.0.0 */
-static bool has_two_points(const char *s)
-{
-    bool number = false;
-    for (int points = 0; *s; s++) {
-        number = isdigit((unsigned char)*s) || (number && *s == '.');
-        points = number ? points + (*s == '.') : 0;
-        if (points > 1)
-            return true;
-    }
-    return false;
-}
-
-/* (0 -9.81) */
-static bool has_two_numbers(const char *s)
-{
-    for (; *s; s++) {
-        const char *next = s + 1 + strspn(s + 1, " \t");
-        if ((isdigit((unsigned char)*s) || *s == '.') && next > s + 1 &&
-            (isdigit((unsigned char)*next) || strchr("-+.", *next)) && *next)
-            return true;
-    }
-    return false;
-}
-
 /* More ( than ), or less. */
 static int open_vectors(const char *s)
 {
@@ -377,29 +315,9 @@ static int open_vectors(const char *s)
     return open;
 }
 
-/* apr.levels = 1: a name with a point. */
-static bool has_dotted_name(const char *s)
-{
-    for (const char *c = s; *c; c++)
-        if (*c == '.' && c > s && isalpha((unsigned char)c[-1]) && isalpha((unsigned char)c[1]))
-            return true;
-    return false;
-}
-
 static const char OPEN_QUOTE[] = "a quote \" is opened and not closed";
 
 static const char *after_blanks(const char *s) { return s + strspn(s, " \t\r"); }
-
-/* Whether the mark after one of those in a is of those in b. */
-static bool has_marks(const char *s, const char *a, const char *b)
-{
-    for (; *s; s++) {
-        const char next = *after_blanks(s + 1);
-        if (strchr(a, *s) && next && strchr(b, next))
-            return true;
-    }
-    return false;
-}
 
 static bool has_open_quote(const char *s)
 {
@@ -425,51 +343,58 @@ static bool has_bare_text(const char *s)
     return false;
 }
 
-/* time { ... }: a name whose group or list follows without a mark between. */
-static bool has_no_colon(const char *s)
+/* What is likely wrong in a line that has the pattern, a regular expression, or passes the test;
+ * most certain first. quoted: the line with what stands in quotes. */
+static const struct slip {
+    const char *pattern;
+    bool (*test)(const char *);
+    bool quoted;
+    const char *hint;
+} slips[] = {
+    /* only behind the sign =, as vectors have commas, too */
+    {"=[ \t]*[-+0-9]+,[0-9]", .hint = "decimal numbers take a point, as in 0.01"},
+    {"\\[.*,", .hint = "use ( ) for vectors: [ ] needs all numbers of one kind"},
+    {"[=(, \t[](yes|no|on|off|True|False)([^[:alnum:]]|$)",
+     .hint = "truth values are true and false; text stands in quotes"},
+    /* a unit is no exponent and no L */
+    {"=[ \t]*[-+0-9.eE]+([A-DF-KM-Za-df-z]|[ \t]+[A-KM-Za-z])",
+     .hint = "numbers are plain SI, without a unit, as in 0.01"},
+    {"[0-9]\\.[0-9]*\\.", .hint = "a number has one point"},
+    {.test = has_open_quote, .quoted = true, .hint = OPEN_QUOTE},
+    {"[[:alpha:]]\\.[[:alpha:]]",
+     .hint = "a key within a group: fv: { cfl = 1.0; }; not fv.cfl = 1.0"},
+    {"\xe2\x80(\x9c|\x9d)", .quoted = true,
+     .hint = "quotes are straight ones, \", not those of a text program"},
+    {"[0-9)][ \t\r]*[*/+]", .hint = "an expression stands in quotes, as in dx = \"0.3/15\""},
+    {.test = has_bare_text, .hint = "text stands in quotes, as in kind = \"slip\""},
+    {"^[ \t\r]*[[:alpha:]][[:alnum:]_]*[ \t\r]*[{(]",
+     .hint = "a name takes : or = before what it holds, as in time: { end = 1.0; };"},
+    {",[ \t\r]*[])},;]", .hint = "a comma stands between two values, none after the last"},
+    {"[})][ \t\r]*[{(]",
+     .hint = "a comma is missing between two elements, as in ( { ... }, { ... } )"},
+    {"[0-9.][ \t]+[-+.0-9]", .hint = "a comma is missing between two numbers, as in (0, -9.81)"},
+    {"[{][ \t\r]*[{]",
+     .hint = "several groups are a list in ( ), as in walls: ( { ... }, { ... } );"},
+};
+
+static bool has_pattern(const char *s, const char *pattern)
 {
-    const char *name = after_blanks(s), *end = name;
-    while (isalnum((unsigned char)*end) || *end == '_')
-        end++;
-    return end > name && isalpha((unsigned char)*name) && *after_blanks(end) &&
-           strchr("{(", *after_blanks(end));
+    regex_t compiled;
+    require(regcomp(&compiled, pattern, REG_EXTENDED | REG_NOSUB) == 0);
+    const bool found = regexec(&compiled, s, 0, NULL, 0) == 0;
+    regfree(&compiled);
+    return found;
 }
 
-/* What is likely wrong in a line s, most certain first; NULL: nothing that is known. all: the line
- * with what stands in quotes. */
+/* NULL: nothing that is known. all: the line s with what stands in quotes. */
 static const char *slip(const char *s, const char *all)
 {
-    const char *open = strchr(s, '[');
-    if (has_decimal_comma(s))
-        return "decimal numbers take a point, as in 0.01";
-    if (open && strchr(open, ','))
-        return "use ( ) for vectors: [ ] needs all numbers of one kind";
-    if (has_bare_word(s))
-        return "truth values are true and false; text stands in quotes";
-    if (has_unit(s))
-        return "numbers are plain SI, without a unit, as in 0.01";
-    if (has_two_points(s))
-        return "a number has one point";
-    if (has_open_quote(all))
-        return OPEN_QUOTE;
-    if (has_dotted_name(s))
-        return "a key within a group: fv: { cfl = 1.0; }; not fv.cfl = 1.0";
-    if (strstr(all, "\xe2\x80\x9c") || strstr(all, "\xe2\x80\x9d"))
-        return "quotes are straight ones, \", not those of a text program";
-    if (has_marks(s, "0123456789)", "*/+"))
-        return "an expression stands in quotes, as in dx = \"0.3/15\"";
-    if (has_bare_text(s))
-        return "text stands in quotes, as in kind = \"slip\"";
-    if (has_no_colon(s))
-        return "a name takes : or = before what it holds, as in time: { end = 1.0; };";
-    if (has_marks(s, ",", ")}],;"))
-        return "a comma stands between two values, none after the last";
-    if (has_marks(s, "})", "{("))
-        return "a comma is missing between two elements, as in ( { ... }, { ... } )";
-    if (has_two_numbers(s))
-        return "a comma is missing between two numbers, as in (0, -9.81)";
-    if (has_marks(s, "{", "{"))
-        return "several groups are a list in ( ), as in walls: ( { ... }, { ... } );";
+    for (size_t k = 0; k < sizeof slips / sizeof slips[0]; k++) {
+        const struct slip *is = slips + k;
+        const char *line = is->quoted ? all : s;
+        if (is->test ? is->test(line) : has_pattern(line, is->pattern))
+            return is->hint;
+    }
     return NULL;
 }
 
