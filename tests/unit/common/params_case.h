@@ -5,7 +5,6 @@
 
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../common/params/parameter_table.h"
 
 enum { ITEMS = 3 };

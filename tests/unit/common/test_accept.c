@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include "../../../common/files/table.h"
 #include "../../../common/run/accept.h"
 
 enum { N = 201 };

@@ -4,7 +4,6 @@
 
 #include <hdf5.h>
 
-#include "../../../common/base/mem.h"
 #include "../../../common/base/ranks.h"
 #include "../../../common/files/h5.h"
 

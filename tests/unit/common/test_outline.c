@@ -3,7 +3,6 @@
  * cannot be read says why. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../common/geometry/outline.h"
 
 static char path[512], why[256];

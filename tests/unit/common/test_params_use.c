@@ -2,7 +2,6 @@
  * list of a list, too. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../common/params/params_use.h"
 
 enum { FACT_WET, FACT_DEEP };

@@ -6,12 +6,8 @@
 #include <complex.h>
 #include <sys/stat.h>
 
-#include "../../../common/files/files.h"
 #include "../../../common/run/wave_gauges.h"
-#include "../../../common/scene/scene.h"
 #include "../../../common/waves/reflection.h"
-#include "../../../common/waves/wave_statistics.h"
-#include "../../../common/waves/waves.h"
 
 enum { N = 2000, GAUGES = 3 };
 static const double places[GAUGES] = {0.0, 0.1, 0.27}; /* wave lengths */

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/files/h5.h"
 #include "../../../common/run/run_files.h"
 
 enum { UNSAID = -1 };

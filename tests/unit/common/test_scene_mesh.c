@@ -3,9 +3,6 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
-#include "../../../common/base/vec3.h"
-#include "../../../common/geometry/trimesh_read.h"
 #include "../../../common/scene/scene_mesh.h"
 #include "../../../common/scene/scene_outlines.h"
 #include "mesh_files.h"

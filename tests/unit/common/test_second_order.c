@@ -3,7 +3,6 @@
  * sea's tables meet the surface and transport nothing. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../common/waves/sea.h"
 #include "../../../common/waves/second_order.h"
 

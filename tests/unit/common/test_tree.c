@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../common/base/vec3.h"
 #include "../../../common/geometry/tree.h"
 #include "mesh_files.h"

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/vec3.h"
 #include "../../../common/geometry/geometry.h"
 
 /* Turned about an axis that is none of the frame's. */

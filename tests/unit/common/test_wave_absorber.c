@@ -7,7 +7,6 @@
 
 #include <complex.h>
 
-#include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_absorber.h"
 #include "../../../common/waves/imposed_waves.h"
 

@@ -6,9 +6,7 @@
 
 #include <complex.h>
 
-#include "../../../common/base/mem.h"
 #include "../../../common/scene/wave_maker.h"
-#include "../../../common/waves/imposed_waves.h"
 #include "../../../common/waves/sea.h"
 #include "../../../common/waves/sea_gains.h"
 #include "../../../common/waves/zone_gain.h"

@@ -2,7 +2,6 @@
  * the targets that sources are asked for. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../coupler/mapping/map.h"
 #include "../../../coupler/transport/region.h"
 

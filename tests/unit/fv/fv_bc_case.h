@@ -5,9 +5,6 @@
 #define TESTS_FV_BC_CASE_H
 
 #include "../../../fv/boundary/bc.h"
-#include "../../../fv/boundary/still.h"
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/output/output.h"
 #include "fv_case.h"
 
 /* Largest difference of the velocity along x from the averages of 6 y (1 - y) over the layers,

@@ -6,8 +6,6 @@
 
 #include <unistd.h>
 
-#include "../../../common/base/mem.h"
-#include "../../../common/files/h5.h"
 #include "../../../fv/case/fv_case.h"
 #include "../../../fv/fv.h"
 #include "../../../fv/output/output.h"

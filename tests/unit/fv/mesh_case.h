@@ -5,10 +5,7 @@
 
 #include <unistd.h>
 
-#include "../../../common/base/mem.h"
-#include "../../../common/files/h5.h"
 #include "../../../fv/case/fv_case.h"
-#include "../../../fv/fv.h"
 #include "../../../fv/grid/mesh.h"
 #include "../../../fv/output/mesh_output.h"
 #include "../../../fv/output/output.h"

@@ -3,7 +3,6 @@
 #ifndef TESTS_NEWTON_CASE_H
 #define TESTS_NEWTON_CASE_H
 
-#include "../../../fv/fv.h"
 #include "../../../fv/time/newton.h"
 
 /* By how much M (v + w) differs from M v + M w, over the largest of it: GMRES believes in residuals

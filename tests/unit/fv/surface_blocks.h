@@ -3,7 +3,6 @@
 #ifndef TESTS_SURFACE_BLOCKS_H
 #define TESTS_SURFACE_BLOCKS_H
 
-#include "../../../fv/surface/levelset.h"
 #include "mesh_case.h"
 
 #define SLIP_I "i_min = \"slip\"; i_max = \"slip\"; "

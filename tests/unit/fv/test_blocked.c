@@ -5,9 +5,7 @@
 #include "../test.h"
 
 #include "../../../fv/boundary/blocked.h"
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "../../../fv/watch/watches.h"
 #include "fv_case.h"

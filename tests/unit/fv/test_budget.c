@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/mesh_bc.h"
-#include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/operators/mesh_ops.h"
 #include "../../../fv/time/stages.h"
 #include "fv_bc_case.h"
 #include "mesh_case.h"

@@ -3,8 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/forcing.h"
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/coupling/fv_course.h"
 #include "fv_case.h"
 

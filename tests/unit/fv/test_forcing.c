@@ -3,7 +3,6 @@
 #include "../test.h"
 
 #include "../../../fv/boundary/forcing.h"
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/operators.h"
 #include "fv_bc_case.h"
 

@@ -4,9 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/grid/block.h"
 #include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/output/output.h"
 #include "../../../fv/surface/fraction.h"
 #include "../../../fv/time/surface_steps.h"
 #include "surface_case.h"

@@ -3,11 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/still.h"
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/operators/operators.h"
-#include "../../../fv/output/output.h"
 #include "fv_bc_case.h"
 
 TEST(no_slip_walls_keep_the_order)

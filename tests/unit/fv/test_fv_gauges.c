@@ -5,7 +5,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/blocked.h"
 #include "../../../fv/output/probe_flow.h"
 #include "fv_bc_case.h"
 #include "mesh_case.h"

@@ -6,8 +6,6 @@
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/output/output.h"
 #include "../../../fv/watch/limits.h"
 #include "../../../fv/watch/watches.h"
 

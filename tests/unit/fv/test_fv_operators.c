@@ -2,7 +2,6 @@
  * cells that are no squares. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/operators.h"
 #include "fv_case.h"
 

@@ -3,7 +3,6 @@
  * time. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "fv_case.h"
 
 #define TWO_MODES "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"

@@ -2,9 +2,6 @@
  * the same ranks it changes nothing at all. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/still.h"
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/output/output.h"
 #include "fv_case.h"
 
 #define TWO_MODES "initial.field=\"two_modes\"", "initial.velocity=(0.5,0.25)"

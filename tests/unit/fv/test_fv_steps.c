@@ -4,10 +4,7 @@
 
 #include "fv_case.h"
 
-#include "../../../fv/boundary/forcing.h"
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/operators/operators.h"
-#include "../../../fv/output/output.h"
 
 static void fill_random(const struct fv *s, double *q)
 {

@@ -5,9 +5,7 @@
 #include "fv_bc_case.h"
 #include "mesh_case.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/surface/fraction.h"
-#include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/plane.h"
 #include "../../../fv/watch/watches.h"
 

@@ -2,8 +2,6 @@
  * waving and overlapping blocks. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/forcing.h"
-#include "../../../fv/boundary/mesh_bc.h"
 #include "mesh_case.h"
 
 #define HOLE "fv.hole=((0.3125,0.3125),(0.6875,0.6875))"

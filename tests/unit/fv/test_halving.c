@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../fv/poisson/halving.h"
 
 /* A problem: -Lap with 0 on the surface of some water, no flux through closed sides. */

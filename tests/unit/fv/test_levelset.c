@@ -5,11 +5,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/output/output.h"
 #include "../../../fv/poisson/poisson.h"
-#include "../../../fv/time/steps.h"
 #include "fv_restart.h"
 #include "surface_case.h"
 

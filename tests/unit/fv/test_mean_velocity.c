@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
-#include "../../../fv/boundary/forcing.h"
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/coupling/mean_velocity.h"
 #include "fv_bc_case.h"
 

@@ -2,13 +2,8 @@
  * restart. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/boundary/forcing.h"
-#include "../../../fv/boundary/mesh_bc.h"
 #include "mesh_case.h"
 
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/output/output.h"
-#include "../../../fv/time/steps.h"
 #include "../../../fv/watch/watches.h"
 
 #define WAVE "name = \"a\"; mapping = \"sheared\"; wave = 0.06; " PERIODIC

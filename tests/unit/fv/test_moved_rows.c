@@ -3,7 +3,6 @@
  * 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/coupling/forced_points.h"
 #include "../../../fv/coupling/patch.h"
 #include "fv_case.h"

@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/grid/mesh_motion.h"
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/operators/viscous_solver.h"
 #include "mesh_case.h"

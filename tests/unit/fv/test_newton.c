@@ -5,11 +5,7 @@
 
 #include <kinsol/kinsol.h>
 
-#include "../../../common/files/series.h"
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/output/output.h"
 #include "../../../fv/time/newton.h"
-#include "../../../fv/time/steps.h"
 #include "fv_bc_case.h"
 #include "newton_case.h"
 

@@ -2,8 +2,6 @@
  * nothing at all. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
-#include "../../../fv/output/output.h"
 #include "../../../fv/time/newton.h"
 #include "fv_bc_case.h"
 #include "fv_restart.h"

@@ -6,8 +6,6 @@
 
 #include "mesh_case.h"
 
-#include "../../../fv/boundary/mesh_bc.h"
-
 static const char *const steps[3] = {"fv.integrator=\"rk3\"", "fv.integrator=\"bdf2\"",
                                      "fv.integrator=\"newton\""};
 static const char *const cfls[3] = {"fv.cfl=1", "fv.cfl=0.4", "fv.cfl=1"};

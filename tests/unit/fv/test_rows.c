@@ -2,9 +2,7 @@
  * flows over them. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/case/fv_case.h"
 #include "../../../fv/grid/rows.h"
-#include "../../../fv/output/output.h"
 #include "fv_bc_case.h"
 
 TEST(heights_fill_the_domain)

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/grid/mesh.h"
 #include "../../../fv/operators/flow_measures.h"
 #include "fv_case.h"
 

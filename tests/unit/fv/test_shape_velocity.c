@@ -1,7 +1,6 @@
 /* test_shape_velocity.c - what a shape in motion gives a cell at the start is its share of the
  * cell. ranks: 1. SPDX-License-Identifier: BSD-3-Clause */
 #include "../../../fv/case/fv_case.h"
-#include "../../../fv/fv.h"
 #include "../test.h"
 
 /* A band and a disc, in cells that their edges cut anywhere; the second way is the overlap of

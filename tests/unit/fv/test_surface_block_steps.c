@@ -6,9 +6,6 @@
 
 #include "surface_blocks.h"
 
-#include "../../../fv/output/output.h"
-#include "../../../fv/surface/levelset.h"
-
 #define ENDS "j_min = \"wall\"; j_max = \"slip\"; "
 #define AROUND "i_min = \"periodic\"; i_max = \"periodic\"; "
 #define REST "initial.field=\"rest\""

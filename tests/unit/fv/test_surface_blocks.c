@@ -6,10 +6,7 @@
 
 #include "surface_blocks.h"
 
-#include "../../../fv/boundary/fv_boundary.h"
 #include "../../../fv/operators/flow_ops.h"
-#include "../../../fv/output/output.h"
-#include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
 
 #define SLIP_K "k_min = \"slip\"; k_max = \"slip\"; "

@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../fv/output/output.h"
 #include "../../../fv/surface/levelset.h"
 #include "fv_case.h"
 

@@ -5,7 +5,6 @@
 #include "../test.h"
 
 #include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/output/output.h"
 #include "surface_case.h"
 
 /* Upright, askew over graded rows, in 3D: the surface cuts the cells in all ways; bdf2, newton,

@@ -3,7 +3,6 @@
  */
 #include "../test.h"
 
-#include "../../../fv/output/output.h"
 #include "fv_restart.h"
 #include "surface_case.h"
 

@@ -6,11 +6,7 @@
 #include "mesh_case.h"
 
 #include "../../../fv/boundary/mesh_sides.h"
-#include "../../../fv/grid/mesh_motion.h"
-#include "../../../fv/grid/overset.h"
 #include "../../../fv/operators/flow_measures.h"
-#include "../../../fv/output/output.h"
-#include "../../../fv/surface/levelset.h"
 #include "../../../fv/surface/mesh_view.h"
 
 #define SLIP "i_min = \"slip\"; i_max = \"slip\"; j_min = \"slip\"; j_max = \"slip\"; "

@@ -1,8 +1,6 @@
 /* test_surface_openings.c - openings below a free surface keep the level that shallow-water theory
  * gives, for as long as the run lasts, on uniform cells, graded layers and blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "../../../fv/boundary/blocked.h"
-#include "../../../fv/time/steps.h"
 #include "../../../fv/watch/watches.h"
 #include "../test.h"
 #include "surface_blocks.h"

@@ -3,8 +3,6 @@
  * changes. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/scene/scene_outlines.h"
-#include "../../../fv/boundary/still.h"
 #include "fv_case.h"
 
 enum { STEPS = 2, SEEN_MAX = 4096, TEXT_MAX = 4096, CANDIDATES = 12 };

@@ -3,14 +3,11 @@
 #ifndef TESTS_SPH_CASE_H
 #define TESTS_SPH_CASE_H
 
-#include "../../../common/base/mem.h"
-#include "../../../common/scene/exact.h"
 #include "../../../sph/bodies/body_pace.h"
 #include "../../../sph/case/sph_params.h"
 #include "../../../sph/case/sph_state.h"
 #include "../../../sph/sph.h"
 #include "../../../sph/time/integrate.h"
-#include "../../../sph/walls/walls.h"
 
 struct sph_case {
     struct run run;

@@ -5,7 +5,6 @@
 
 #include "sph_case.h"
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/output/sph_output.h"
 
 /* Writes a restart file, ends the run and makes it again from that file. Collective. */

@@ -3,7 +3,6 @@
 #ifndef TESTS_SPH_TOY_H
 #define TESTS_SPH_TOY_H
 
-#include "../../../common/base/mem.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/pairs/scheme.h"
 #include "../../../sph/sph.h"

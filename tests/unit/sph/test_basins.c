@@ -3,9 +3,6 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/scene/scene_fluid.h"
-#include "../../../sph/particles/eos.h"
-#include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
 static const double g = 9.81, rho = 1000.0;

@@ -5,10 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "../../../common/geometry/body_math.h"
-#include "../../../common/scene/scene_geometry.h"
 #include "../../../sph/bodies/bodies.h"
-#include "../../../sph/rigid/body_impedance.h"
 
 /* A box of unit sides about `centre' in the plane. */
 static struct scene_body square(double x, double y)

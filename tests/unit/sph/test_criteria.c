@@ -5,7 +5,6 @@
 
 #include <unistd.h>
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/refinement/criteria.h"
 #include "../../../sph/refinement/regions.h"
 #include "../../../sph/refinement/regions_parts.h"

@@ -2,9 +2,7 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/refinement/apr_params.h"
 #include "../../../sph/refinement/refinement.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 /* Still water without weight, periodic, half of it at half the spacing. */

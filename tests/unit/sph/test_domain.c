@@ -2,10 +2,8 @@
  * ranks: 1 2 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/parallel/domain.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 /* Deterministic number in [0, 1). */

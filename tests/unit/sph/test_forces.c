@@ -3,7 +3,6 @@
  * ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/particles/state_sums.h"
 #include "../../../sph/walls/forces.h"
 #include "sph_case.h"
 

@@ -4,10 +4,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/run/crossing.h"
-#include "../../../common/scene/exact.h"
 #include "../../../sph/output/probes.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 enum { CELLS = 50, GAUGES = 3 };

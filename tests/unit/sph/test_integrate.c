@@ -2,13 +2,10 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/output/sph_output.h"
 #include "../../../sph/pairs/neighbours.h"
-#include "../../../sph/particles/state_sums.h"
 #include "../../../sph/time/extremes.h"
 #include "../../../sph/time/integrate.h"
 #include "../../../sph/time/runge_kutta.h"
-#include "sph_case.h"
 #include "sph_restart.h"
 
 /* dq/dt = k x q at fixed places: momentum turns with the angular velocity k. */

@@ -2,7 +2,6 @@
  * ghosts do not depend on the order of axes. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/particles/state_sums.h"
 #include "sph_case.h"
 
 /* Kinetic energy after 12 steps in a closed cube without slip, its high side of an axis sliding. */

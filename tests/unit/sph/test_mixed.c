@@ -6,7 +6,6 @@
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/refinement/mixed.h"
 #include "../../../sph/refinement/refinement.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 static const int methods[] = {APR_WEIGHTS, APR_COALESCENCE, APR_GRADED};

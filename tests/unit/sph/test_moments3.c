@@ -3,7 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/pairs/kernel.h"
 #include "../../../sph/walls/facet.h"
 #include "../../../sph/walls/vec_math.h"
 

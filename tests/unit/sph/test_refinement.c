@@ -2,12 +2,8 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/particles/state_sums.h"
-#include "../../../sph/refinement/apr_params.h"
 #include "../../../sph/refinement/guards.h"
 #include "../../../sph/refinement/refinement.h"
-#include "../../../sph/time/integrate.h"
-#include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
 /* A box of the finest level. */

@@ -3,11 +3,7 @@
  * ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/scene/exact.h"
-#include "../../../sph/particles/state_sums.h"
 #include "../../../sph/refinement/apr_params.h"
-#include "../../../sph/time/integrate.h"
-#include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
 /* A box of level 1; none where it is empty. */

@@ -8,7 +8,6 @@
 #include "../../../sph/refinement/refinement.h"
 #include "../../../sph/refinement/regions_parts.h"
 #include "../../../sph/surface/surface.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 static void ask(int kind, double above, double distance, int levels, double budget)

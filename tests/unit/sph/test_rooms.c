@@ -3,10 +3,6 @@
  * lattice is the measure. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/vec3.h"
-#include "../../../common/scene/scene_mesh.h"
-#include "../../../sph/particles/eos.h"
-#include "../../../sph/walls/walls.h"
 #include "../common/mesh_files.h"
 #include "sph_case.h"
 

@@ -3,7 +3,6 @@
 #include "../test.h"
 
 #include "../../../sph/output/shore.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 static const double dx = 0.02, slope = 0.25, level = 0.3;

@@ -4,8 +4,6 @@
 #include "../test.h"
 
 #include "../../../sph/open_boundaries/sides.h"
-#include "../../../sph/particles/eos.h"
-#include "../../../sph/particles/state_sums.h"
 #include "sph_case.h"
 
 /* A square of 40 x 40 particles, periodic along y, with `kind' on both sides across x. */

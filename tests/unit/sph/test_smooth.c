@@ -2,10 +2,7 @@
  * of particles that shift, starts with noise. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/scene/exact.h"
 #include "../../../sph/pairs/kernel.h"
-#include "../../../sph/particles/eos.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 #include "sph_toy.h"
 

@@ -4,11 +4,9 @@
 
 #include <unistd.h>
 
-#include "../../../common/files/h5.h"
 #include "../../../sph/open_boundaries/openings.h"
 #include "../../../sph/open_boundaries/zones.h"
 #include "../../../sph/output/sph_output.h"
-#include "../../../sph/particles/state_sums.h"
 #include "sph_case.h"
 
 static double *run_on(MPI_Comm comm, int dim, int cells, int steps, int n)

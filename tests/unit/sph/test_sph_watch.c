@@ -4,11 +4,6 @@
  * what carries the flow. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/bodies/bodies.h"
-#include "../../../sph/particles/state_sums.h"
-#include "../../../sph/time/integrate.h"
-#include "../../../sph/walls/walls.h"
-#include "sph_case.h"
 #include "sph_restart.h"
 
 static double gain_of(const struct sph_case *c) { return c->s->watch.of[SPH_WATCH_ENERGY].worst; }

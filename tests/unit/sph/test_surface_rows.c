@@ -3,8 +3,6 @@
  * agree. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/particles/eos.h"
-#include "../../../sph/refinement/apr_params.h"
 #include "../../../sph/refinement/refinement.h"
 #include "sph_case.h"
 

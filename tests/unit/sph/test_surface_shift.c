@@ -4,7 +4,6 @@
 
 #include "../../../sph/pairs/kernel.h"
 #include "../../../sph/surface/surface.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 TEST(the_law_is_the_printed_one)

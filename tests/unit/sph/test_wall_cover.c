@@ -2,7 +2,6 @@
  * walls that only touch stay as they are. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../sph/walls/wall_cover.h"
 
 enum { ROOM = 64 };

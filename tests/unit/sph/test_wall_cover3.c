@@ -2,7 +2,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/base/mem.h"
 #include "../../../sph/walls/wall_cover3.h"
 
 static const struct cover_side floor_side = {

@@ -2,7 +2,6 @@
  * round bodies that are round or stand askew. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/bodies/bodies.h"
 #include "../../../sph/walls/fixed_layers.h"
 #include "sph_case.h"
 

@@ -4,7 +4,6 @@
 #include "../test.h"
 
 #include "../../../sph/pairs/kernel.h"
-#include "../../../sph/sph.h"
 #include "../../../sph/walls/wall_layers.h"
 
 /* The part across the layers of (1 + (W/W(dx))^4/5) grad W at the height h. */

@@ -3,9 +3,6 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/scene/scene_mesh.h"
-#include "../../../sph/walls/wall_share.h"
-#include "../../../sph/walls/walls.h"
 #include "sph_case.h"
 
 /* A cube of walls on the sides given, the walls as normal flux has them. */

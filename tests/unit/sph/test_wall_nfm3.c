@@ -4,14 +4,8 @@
 #include "../test.h"
 
 #include "../../../sph/pairs/kernel.h"
-#include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
-#include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/facet.h"
-#include "../../../sph/walls/forces.h"
-#include "../../../sph/walls/wall_share.h"
-#include "../../../sph/walls/walls.h"
-#include "sph_case.h"
 #include "sph_restart.h"
 
 /* Box [0,1]^3 of still fluid under gravity; closed walls on all sides, or open above. */

@@ -6,12 +6,9 @@
 #include "../../../sph/output/probes.h"
 #include "../../../sph/pairs/eigenvalue.h"
 #include "../../../sph/pairs/kernel.h"
-#include "../../../sph/particles/state_sums.h"
 #include "../../../sph/surface/surface.h"
-#include "../../../sph/time/integrate.h"
 #include "../../../sph/walls/wall_points.h"
 #include "../../../sph/walls/walls.h"
-#include "sph_case.h"
 #include "sph_restart.h"
 
 /* Corners of the table's walls, R = 1; returns their number. */

@@ -3,10 +3,8 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../sph/bodies/bodies.h"
 #include "../../../sph/bodies/body_seal.h"
 #include "../../../sph/refinement/apr_params.h"
-#include "../../../sph/walls/forces.h"
 #include "sph_case.h"
 
 enum { CELLS = 20, CORNERS = 32 };

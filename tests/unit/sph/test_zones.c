@@ -2,15 +2,11 @@
  * the mass, blending follows its law. ranks: 1 4. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
-#include "../../../common/scene/exact.h"
-#include "../../../sph/case/sph_state.h"
 #include "../../../sph/coupling/overlap.h"
 #include "../../../sph/open_boundaries/box_tracking.h"
 #include "../../../sph/open_boundaries/openings.h"
 #include "../../../sph/open_boundaries/zone_steps.h"
-#include "../../../sph/particles/eos.h"
 #include "../../../sph/surface/surface.h"
-#include "../../../sph/time/integrate.h"
 #include "sph_case.h"
 
 /* Uniform flow through a box of the unit square or cube, so many cells wide, no shifting. */
