@@ -88,8 +88,8 @@ $(version_o): CFLAGS += -DVERSION='"$(VERSION)"' -DCOMMIT='"$(COMMIT)"'
 $(version_o): $(wildcard .git/logs/HEAD)
 
 # ---- tests: unit/ is one program, jobs/ scripts and their partners (mock*.c know cpl.h alone) ----------------
-tests_src = $(wildcard tests/bench/bench_*.c tests/jobs/toy*.c)
-tests_bin = $(B)/tests/units $(patsubst %.c,$(B)/tests/%,$(notdir $(tests_src)))
+bench_bin = $(patsubst tests/bench/%.c,$(B)/tests/%,$(wildcard tests/bench/bench_*.c))
+tests_bin = $(B)/tests/units $(B)/tests/toy
 mocks = $(B)/tests/mock $(B)/tests/mock_any $(B)/tests/mock_calls
 $(mocks): $(B)/tests/%: $(B)/o/tests/jobs/%.o $(B)/libcpl.a
 	@mkdir -p $(@D)
@@ -102,9 +102,10 @@ $(examples): $(B)/examples/%: $(B)/o/coupler/examples/%.o $(B)/public/libcpl.a #
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) -o $@ $^ -lm
-$(foreach f,$(tests_src),$(eval $(B)/tests/$(basename $(notdir $f)): $(B)/o/$(f:.c=.o)))
+$(bench_bin): $(B)/tests/%: $(B)/o/tests/bench/%.o
+$(B)/tests/toy: $(B)/o/tests/jobs/toy.o
 $(B)/tests/units: $(patsubst %.c,$(B)/o/%.o,$(wildcard tests/unit/unit.c tests/unit/*/test_*.c))
-$(tests_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a | $(version_o)
+$(tests_bin) $(bench_bin): $(B)/libsph.a $(B)/libfv.a $(B)/libcoupler.a $(B)/libcpl.a $(B)/libcommon.a | $(version_o)
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(CC) $(SAN) $(FAST_LD) -o $@ $(filter %.o,$^) $(version_o) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(FV_LIBS) $(ASSIMP_LIBS) $(LIBS) -lcmocka
@@ -115,7 +116,7 @@ $(preloaded): $(B)/tests/%.so: tests/jobs/%.c
 	@$(CC) $(filter-out -MMD,$(CFLAGS)) -shared -fPIC -o $@ $< -ldl
 # the tests' own lines take little of their time, and more than half of the compiler's if it is to make them fast
 $(B)/o/tests/unit/%.o: CFLAGS += -O0 -DUNIT=$(basename $(@F))
-units: $(filter $(B)/tests/units $(B)/tests/toy%,$(tests_bin))
+units: $(tests_bin)
 tests: all $(tests_bin) $(mocks) $(examples) $(preloaded)
 # (a pointer that overflows is one past memory, too; nothing is warned of twice)
 asan:
@@ -132,7 +133,7 @@ check: deps
 	@$(MAKE) --no-print-directory -j2 tests
 	@$(MAKE) --no-print-directory -j2 asan
 	@tests/run $(B)
-check-long: # the same with all random scenes and finer ones
+check-long: $(bench_bin) # the same with all random scenes and finer ones
 	@LONG=1 $(MAKE) --no-print-directory check
 test-fast: # units alone, for development
 	@$(MAKE) --no-print-directory -j2 tests
@@ -143,7 +144,7 @@ report: all
 	@cases/report
 stability: all
 	@cases/stability
-bench: tests
+bench: tests $(bench_bin)
 	@cases/bench $(B)
 clean:
 	rm -rf build
