@@ -43,6 +43,7 @@ struct unit_test {
     CMUnitTestFunction run;
     void (*begin)(void); /* NULL: none */
     int line;
+    bool alone; /* it does more on one rank than on several */
     struct unit_test *next;
 };
 void unit_enlist(struct unit_test *t); /* borrowed for good */
@@ -57,12 +58,16 @@ void unit_enlist(struct unit_test *t); /* borrowed for good */
 #define unit_begin UNIT_JOIN(begin_, UNIT)
 void unit_begin(void) __attribute__((weak));
 
-/* A test of a unit, which enlists itself: TEST(what_holds) { .. }. They run under MPI. */
-#define TEST(name)                                                                                 \
+/* A test of a unit, which enlists itself: TEST(what_holds) { .. }. They run under MPI. TEST_ALONE
+ * is one that asks is_alone and does more on one rank: where the sanitizers and several ranks see
+ * all tests, these alone run plainly on one rank. */
+#define TEST(name) ENLIST(name, false)
+#define TEST_ALONE(name) ENLIST(name, true)
+#define ENLIST(name, alone)                                                                        \
     static void name(void **state);                                                                \
     __attribute__((constructor)) static void enlist_##name(void)                                   \
     {                                                                                              \
-        static struct unit_test t = {UNIT_QUOTE(UNIT), #name, name, NULL, __LINE__, NULL};         \
+        static struct unit_test t = {UNIT_QUOTE(UNIT), #name, name, NULL, __LINE__, alone, NULL};  \
         t.begin = unit_begin;                                                                      \
         unit_enlist(&t);                                                                           \
     }                                                                                              \

@@ -1,5 +1,6 @@
 /* unit.c - what all units share: the list of their tests, main, and a file of their own. All are
- * one program, since to link each takes as long as to run most of them. usage: units NAME
+ * one program, since to link each takes as long as to run most of them. usage: [ALONE=1] units NAME
+ * ALONE: of its tests those that do more on one rank.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "test.h"
 
@@ -44,7 +45,7 @@ int main(int argc, char **argv)
     void (*begin)(void) = NULL;
     int rank, n = 0;
     for (const struct unit_test *t = all; t && argc == 2; t = t->next)
-        if (strcmp(t->unit, argv[1]) == 0 && n < MOST) {
+        if (strcmp(t->unit, argv[1]) == 0 && n < MOST && (t->alone || !getenv("ALONE"))) {
             tests[n++] = (struct CMUnitTest){.name = t->name, .test_func = t->run};
             begin = t->begin;
         }

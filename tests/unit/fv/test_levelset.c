@@ -473,7 +473,7 @@ TEST(currents_pass_openings)
     }
 }
 
-TEST(wave_swings_as_theory_says)
+TEST_ALONE(wave_swings_as_theory_says)
 {
     if (!is_alone() || SANITIZED)
         skip();
@@ -562,7 +562,7 @@ TEST(restart_is_exact)
 }
 
 /* cos cos of lengths 4 and 3 m over a no-slip bottom: half a length of each between slip sides. */
-TEST(crossed_waves_swing_as_theory_says)
+TEST_ALONE(crossed_waves_swing_as_theory_says)
 {
     if (!is_alone() || SANITIZED)
         skip();
@@ -641,7 +641,7 @@ TEST(films_are_carried_on_as_they_are)
 }
 
 /* Columns of water that fall and hit sides, lid and each other: on coarse cells, wet bed, drop. */
-TEST(water_survives_impacts)
+TEST_ALONE(water_survives_impacts)
 {
     if (!is_alone() || SANITIZED)
         skip();

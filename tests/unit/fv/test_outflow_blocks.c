@@ -106,7 +106,7 @@ static double left_behind(const char *blocks, int step, bool carried)
     return most / 0.25;
 }
 
-TEST(vortices_leave)
+TEST_ALONE(vortices_leave)
 {
     static const struct {
         const char *blocks;

@@ -70,7 +70,7 @@ static void swings(const char *blocks, const char *step, const char *cfl, const 
 }
 
 /* Five cells of the wave's way a step. */
-TEST(waves_swing_as_on_one_block)
+TEST_ALONE(waves_swing_as_on_one_block)
 {
     static const char *const blocks[2] = {
         "{ name = \"one\"; cells = (32, 40); max = (4.0, 1.25); " AROUND ENDS "}",
@@ -111,7 +111,7 @@ static double period_with_sound(const char *blocks, const char *c0)
 }
 
 /* fv.c0 = 3 m/s, as on the uniform grid (test_surface_implicit has the theory). */
-TEST(sound_slows_waves_down)
+TEST_ALONE(sound_slows_waves_down)
 {
     static const char *const blocks[2] = {
         "{ name = \"one\"; cells = (16, 20); max = (4.0, 1.25); " AROUND SLIP_J "}",
@@ -132,7 +132,7 @@ TEST(sound_slows_waves_down)
 }
 
 /* nu dt/h^2 = 20, eleven steps a period; cells of aspect 50, eight a length. */
-TEST(viscosity_and_flat_cells_bound_no_step)
+TEST_ALONE(viscosity_and_flat_cells_bound_no_step)
 {
     double T, r;
     if (SANITIZED || !is_alone())
@@ -209,7 +209,7 @@ TEST(currents_pass_openings)
 
 /* From rest waves run between the openings: what is there is what was, and came in, and went out,
  * as much as on the uniform grid; joined blocks of the same cells are no other grid. */
-TEST(waves_between_openings_are_those_of_the_uniform_grid)
+TEST_ALONE(waves_between_openings_are_those_of_the_uniform_grid)
 {
     static const char *const blocks[4] = {"", halves, stretched, over};
     static const double close[4] = {0.0, 5e-4, 5e-3, 5e-3};
@@ -239,7 +239,7 @@ TEST(waves_between_openings_are_those_of_the_uniform_grid)
 /* Out of an outflow that carries it a uniform current leaves as it is. From rest the inlet makes a
  * wave, which runs out: it leaves the inlet's velocity everywhere and water that is higher by
  * U H/c, c = sqrt(g H). */
-TEST(currents_are_carried_out)
+TEST_ALONE(currents_are_carried_out)
 {
     static const char *const blocks[4] = {"", halves, stretched, over};
     for (int k = 0; k < 12; k++) {

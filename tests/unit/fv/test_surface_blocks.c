@@ -81,7 +81,7 @@ static const char corner[] = "{ name = \"v\"; cells = (19, 19); max = (1.0, 1.0)
 #define SHORT (SANITIZED || !is_alone()) /* laws of long runs are one rank's */
 
 /* Rough velocities of 1e-6 m/s do not grow in water at rest, at the largest step. */
-TEST(rough_water_calms)
+TEST_ALONE(rough_water_calms)
 {
     static const char *const blocks[] = {turned, leaning, sliver, coarse_below,
                                          steep,  along,   corner};
@@ -127,7 +127,7 @@ static void swings(const char *blocks, double *period, double *damping)
 }
 
 #define ENDS "j_min = \"wall\"; j_max = \"slip\"; "
-TEST(waves_swing_as_on_one_block)
+TEST_ALONE(waves_swing_as_on_one_block)
 {
     double period[3], damping[3];
     swings("{ name = \"one\"; cells = (32, 20); max = (4.0, 1.25); i_min = \"periodic\"; i_max = "

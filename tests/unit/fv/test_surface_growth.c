@@ -52,7 +52,7 @@ static double grows(int n, double theta, const char *integrator)
     return last / first;
 }
 
-TEST(waves_of_a_few_cells_do_not_grow)
+TEST_ALONE(waves_of_a_few_cells_do_not_grow)
 {
     static const double theta[] = {0.02, 0.13, 0.36, 0.64, 0.93};
     for (int k = 0; k < 5; k += SANITIZED || !is_alone() ? 5 : 1) {
@@ -64,7 +64,7 @@ TEST(waves_of_a_few_cells_do_not_grow)
 }
 
 /* Gravity at an angle to the cells, and a surface that is not quite level. */
-TEST(water_rests_in_tanks_that_lean)
+TEST_ALONE(water_rests_in_tanks_that_lean)
 {
     static const double degrees[] = {10.6, -22.7, -70.9};
     for (int k = 0; k < 3; k++) {

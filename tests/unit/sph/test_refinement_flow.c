@@ -89,7 +89,7 @@ static double lost_by_stream(bool walled, bool strip, bool local)
 /* No observer is at rest rather than another: mass that edges of levels and walls lose or create,
  * and that comes back elsewhere, takes its momentum along, so that nothing slows a stream. Guards
  * give nothing back, which may cost 1 % of it a period. */
-TEST(vortices_are_carried_whole)
+TEST_ALONE(vortices_are_carried_whole)
 {
     if (!is_alone())
         skip();

@@ -333,7 +333,7 @@ static double corner_rates(int sides, double height, double more, double speed, 
 /* Nothing beside such a particle holds its pressure: d(u/c0)/dt = -A m, dm/dt = B u/c0, m what its
  * density has too much, which swings at sqrt(A B). Three stages bear sqrt(3) a step; the
  * density errs by 5 %, as in splashes, and c by 16 % with it. */
-TEST(a_lone_particle_swings_in_no_corner_faster_than_steps_bear)
+TEST_ALONE(a_lone_particle_swings_in_no_corner_faster_than_steps_bear)
 {
     if (!is_alone())
         return;

@@ -151,7 +151,7 @@ static double carried(double u, double v, bool boxed)
 /* What comes in through open sides disturbs no more than SPH by itself errs. With volumes dx^D that
  * the packing did not have it was 2.3 times that, with no more shift in the zones than elsewhere
  * 1.2 times where the flow is swift. */
-TEST(vortices_come_in_undisturbed)
+TEST_ALONE(vortices_come_in_undisturbed)
 {
     static const double of[][2] = {{0.6, 0.25}, {0.3, -2.0}};
     for (int k = 0; k < (SANITIZED || !is_alone() ? 0 : getenv("LONG") ? 2 : 1); k++) {
