@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""No key is passed over in silence: in small scenes of every kind each key of the table is set to another value; the run is
-refused (exit code 2), or what it writes differs. A key of sph --params that has no value below is a failure, too.
+"""No key is passed over in silence: in small scenes of every kind, of sph and of fv, each key of the table is set to another value;
+the run is refused (exit code 2), or what it writes differs. A key of --params that has no value below is a failure, too.
 usage: tests/jobs/unused.py [BUILD] [MODE...]; by default some modes, "all", as LONG=1, for each. SPDX-License-Identifier: BSD-3-Clause"""
 import glob
 import os
@@ -60,10 +60,20 @@ apr.regions: level 1 | shape "sphere" | min (-0.4,-0.35) | max (0.4,0.45) | cent
 apr.regions.motion: kind "polynomial" | file "nowhere.txt" | axis "y" | amplitude 0.03 | period 0.3 | phase 0.3
     coefficients (1,2) | from 0.01 | until 0.02 | ramp 0.02 | absorb true
 apr.criteria: level 2 | kind "pressure" | above 0.055 | distance 2
+fv: cells (14,20) | graded (0.4,8) | cfl 0.3 | integrator bdf2 | steady true | surface yes | tol_pressure 0.9 | tol_viscous 0.5
+    tol_newton 1e-2 | flux upwind | dual_time true | pseudo_cfl 0.3 | pseudo_memory 2 | hole ((0.3,0.3),(0.7,0.7))
+    c0 30 | upwind 0.7 | extrema (-0.3,0.2,-0.2) | volume false
+blocks: mapping "stretched" | cells (14,20) | min (0.1,0.1) | max (0.9,0.9) | centre (0.4,0.6) | angle 10.0
+    focus (0.4,0.4) | stretch (0.5,0.5) | radius (0.4,0.9) | arc (0,90) | file "nowhere.txt" | zone 2 | shear 0.1 | wave 0.04
+    i_min "slip" | i_max "outflow" | j_min "slip" | j_max "outflow" | k_min "slip" | k_max "slip" | velocity (0.8,0.1)
+    friction 0.05 | lid "j_min" | spin (1.5,0.5) | motion ({kind="harmonic";axis="x";amplitude=0.02;period=0.2;})
+blocks.motion: kind "polynomial" | file "nowhere.txt" | axis "y" | amplitude 0.03 | period 0.3 | phase 0.3
+    coefficients (1,2) | from 0.01 | until 0.02 | ramp 0.02 | absorb true
+blocked: min (0.3,0) | max (0.5,0.3) | kind "slip"
 '''
 # Where a run is written (checkpoint_wall: by the clock; fields: in snapshots, which are off here; tests/jobs/bad_input.py has
-# the words of it), and what judges it.
-EXCEPTIONS = 'output.checkpoint_wall', 'output.fields'
+# the words of it), what judges it, what wants eight rows, what binds where pseudo steps do not converge, and headings.
+EXCEPTIONS = 'output.checkpoint_wall', 'output.fields', 'fv.force', 'fv.pseudo_steps', 'blocks.name', 'blocked.name'
 # Scenes in which another value is wanted, by mode and key; None: the key rightly changes nothing there.
 OTHERS = '''
 cube    sph.walls nfm | domain.dim 2
@@ -78,11 +88,23 @@ swirls  sph.dx 0.04 | sph.cfl_viscous 0.001
 delta   sph.surface None
 box     sph.outer None | domain.dim None | domain.min None | domain.max None | domain.periodic None
 body    sph.background None
+cavity  walls.kind "slip"
+newton  walls.kind "slip"
+steady  walls.kind "slip" | fv.steady false | time.end None
+dual_time walls.kind "slip" | fv.dual_time false
+ring    domain.min None | domain.max None
+overlapping domain.min None | domain.max None
+sheared domain.min None | domain.max None
+stream  domain.min None | domain.max None
+lid     domain.min None | domain.max None
+bdf2    fv.cfl 0.1
+couette fv.tol_pressure None | fv.upwind None
 '''
 # Why: dam: the water is far from the wall. float, hinge: they touch nothing; monaghan is what auto takes there. touch: a slider
 # does not slip. mesh: it is thicker than what particles see. delta: looked for, and not found in a full box. box: the word for
 # what a box takes by itself; what a box in an exact solution must lie in, no more. body: it lifts negative pressures, which
-# are none in a tank at rest.
+# are none in a tank at rest. steady: a march ends by itself. ring and other blocks: the domain bounds them, no
+# more. bdf2: something else bounds its step. couette: in a flow of one dimension nothing is projected or biased.
 
 OPEN = '''domain:  { dim = 2; min = (-1, -1); max = (1, 1); };
 walls: ( { side = "y_min"; #walls
@@ -202,7 +224,107 @@ shapes: ( { form = "below"; level = 0.8; #shapes
  } );
 sph: { dx = 0.1; c0 = 30.0; scheme = "delta"; };''',
 }
+# --- scenes of fv ---
+UNIT = 'domain: { dim = 2; min = (0, 0); max = (1, 1); };\n'
+ROUND = UNIT.replace('(1, 1)', '(1, 1); periodic = (true, true)') + '''initial: { field = "two_modes"; U = 0.9; L = 0.5; velocity = (0.5, 0.25); };
+'''
+VISCOUS = ROUND + 'fluid: { nu = 0.005; };\n'
+CAVITY = UNIT + '''fluid: { nu = 0.01; };
+walls: ( { side = "x_min"; kind = "no_slip"; #walls
+ }, { side = "x_max"; kind = "no_slip"; }, { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "no_slip"; velocity = (1, 0); } );
+'''
+SLIPPERY = CAVITY.replace('no_slip', 'slip').replace(' velocity = (1, 0);', '').replace('nu = 0.01;', 'nu = 1e-3; gravity = (0, -9.81);')
+DUCT = UNIT + '''fluid: { nu = 0.01; };
+walls: ( { side = "x_min"; kind = "inflow"; velocity = (1, 0); #walls
+ }, { side = "x_max"; kind = "outflow"; }, { side = "y_min"; kind = "no_slip"; }, { side = "y_max"; kind = "slip"; } );
+'''
+GAUGE = 'probes: ( { name = "p"; at = (0.5, 0.2); #probes\n } );\n'
+ALONG = 'domain: { dim = 2; max = (1, 1); periodic = (true, false); };\n'
+FV_SCENES = {
+    'periodic': VISCOUS + 'fv: { cells = (12, 12); };',
+    'inviscid': ROUND + 'fv: { cells = (12, 12); cfl = 0.6; };',
+    'bdf2': VISCOUS + 'fv: { cells = (12, 12); integrator = "bdf2"; cfl = 0.4; };',
+    'hole': VISCOUS + 'fv: { cells = (16, 16); hole = ((0.3, 0.3), (0.7, 0.7)); };',
+    'exact': VISCOUS.replace(' periodic = (true, true);', '') + 'fv: { cells = (12, 12); };',
+    'cavity': CAVITY.replace('0.01;', '0.01; gravity = (0, -9.81);') + GAUGE + 'fv: { cells = (12, 12); };',
+    'newton': CAVITY + 'fv: { cells = (8, 8); integrator = "newton"; cfl = 2; };',
+    'steady': CAVITY + 'fv: { cells = (8, 8); integrator = "newton"; steady = true; };',
+    'dual_time': CAVITY + 'fv: { cells = (8, 8); integrator = "newton"; cfl = 2; dual_time = true; };',
+    'duct': DUCT + GAUGE + 'fv: { cells = (12, 12); };',
+    'carried': DUCT.replace('(1, 0);', '(1, 0); profile = "parabolic";').replace('outflow";', 'outflow"; carried = true;').replace('slip', 'no_slip')
+               .replace('no_no', 'no') + 'fv: { cells = (12, 12); };',
+    'graded': ALONG + '''fluid: { nu = 0.01; gravity = (0.8, 0); };
+initial: { field = "taylor_green"; };
+walls: ( { side = "y_min"; kind = "slip"; #walls
+ }, { side = "y_max"; kind = "no_slip"; } );
+fv: { cells = (8, 20); graded = (0.5, 12); };''',
+    'couette': ALONG + '''fluid: { nu = 0.1; };
+initial: { field = "couette"; };
+walls: ( { side = "y_min"; kind = "no_slip"; #walls
+ }, { side = "y_max"; kind = "no_slip"; velocity = (1, 0); } );
+fv: { cells = (8, 12); cfl = 0.2; };''',
+    'water': SLIPPERY + '''shapes: ( { form = "box"; box = ((0, 0), (0.5, 0.6)); #shapes
+ }, { form = "disc"; centre = (0.3, 0.3); radius = 0.1; hole = true; }, { form = "below"; level = 0.21; },
+ { form = "polygon"; points = ((0.6, 0.1), (0.9, 0.1), (0.75, 0.5)); } );
+probes: ( { name = "p"; at = (0.2, 0.05); #probes
+ }, { name = "h"; kind = "level"; at = (0.2, 0); } );
+fv: { cells = (16, 16); };''',
+    'boxes': SLIPPERY + '''shapes: ( { box = ((0, 0), (0.5, 0.6)); #shapes
+ } );
+initial: { field = "uniform"; velocity = (0.3, 0.1); };
+blocked: ( { name = "a"; min = (0.25, 0); max = (0.5, 0.25); kind = "no_slip"; #blocked
+ } );
+fv: { cells = (16, 16); };''',
+    'swell': '''domain: { dim = 2; max = (4, 1.25); periodic = (true, false); };
+fluid: { nu = 2e-3; gravity = (0, -1); };
+initial: { field = "standing_wave"; L = 4; amplitude = 0.05; level = 1; };
+walls: ( { side = "y_min"; kind = "no_slip"; #walls
+ }, { side = "y_max"; } );
+fv: { cells = (16, 10); };''',
+    'stokes': '''domain: { dim = 2; min = (0, -1); max = (1, 0.5); periodic = (true, false); };
+fluid: { nu = 0.02; gravity = (0, -1); };
+initial: { field = "stokes"; L = 1; amplitude = 0.05; level = 0; };
+walls: ( { side = "y_min"; #walls
+ }, { side = "y_max"; } );
+fv: { cells = (16, 24); };''',
+    'beltrami': '''domain: { dim = 3; max = (1, 1, 1); periodic = (true, true, true); };
+initial: { field = "beltrami"; velocity = (0.5, 0.25, 0.125); };
+fluid: { nu = 0.1; };
+fv: { cells = (8, 8, 8); };''',
+    'ring': '''domain: { dim = 2; min = (-1, -1); max = (1, 1); };
+fluid: { nu = 0.05; };
+initial: { field = "couette"; };
+blocks: ( { name = "ring"; mapping = "annulus"; radius = (0.5, 1.0); cells = (6, 24); spin = (2.0, -0.5); i_min = "wall"; i_max = "wall"; j_min = "joined"; j_max = "joined"; #blocks
+ } );
+fv: { };''',
+    'overlapping': VISCOUS + '''blocks: ( { name = "a"; cells = (24, 24); i_min = "periodic"; i_max = "periodic"; j_min = "periodic"; j_max = "periodic"; },
+ { name = "b"; cells = (14, 14); min = (0.25, 0.25); max = (0.75, 0.75); centre = (0.5, 0.5); angle = 20.0; #blocks
+ } );
+fv: { };''',
+    'sheared': VISCOUS + '''blocks: ( { name = "a"; cells = (12, 12); mapping = "sheared"; wave = 0.06; i_min = "periodic"; i_max = "periodic"; j_min = "periodic"; j_max = "periodic"; #blocks
+ } );
+fv: { };''',
+    'stream': '''domain: { dim = 2; min = (-3, -3); max = (5, 3); };
+fluid: { nu = 0.01; gravity = (0, -9.81); };
+initial: { field = "uniform"; velocity = (1.0, 0.2); };
+blocks: ( { name = "s"; mapping = "stretched"; min = (-3, -3); max = (5, 3); cells = (28, 26); focus = (0, 0); stretch = (2, 2); velocity = (1, 0); i_min = "inflow"; i_max = "outflow"; j_min = "slip"; j_max = "slip"; #blocks
+ }, { name = "c"; mapping = "annulus"; radius = (0.5, 2.4); stretch = (1.0, 0); cells = (12, 32); i_min = "wall"; j_min = "joined"; j_max = "joined"; } );
+fv: { };''',
+    'zone': '''domain: { dim = 2; max = (3, 0.5); };
+fluid: { gravity = (0, -9.81); };
+shapes: ( { form = "below"; level = 0.25; #shapes
+ } );
+walls: ( { side = "x_min"; kind = "wave"; #walls
+ }, { side = "x_max"; kind = "beach"; }, { side = "y_min"; }, { side = "y_max"; } );
+waves: { kind = "focused"; height = 0.05; length = 0.9; zone = 0.3; start = 0.1; order = 1; };
+fv: { cells = (24, 12); };''',
+    'lid': UNIT + '''fluid: { nu = 0.01; };
+blocks: ( { name = "a"; cells = (8, 8); velocity = (1, 0); lid = "j_max"; i_min = "wall"; i_max = "wall"; j_min = "wall"; j_max = "wall"; #blocks
+ } );
+fv: { };''',
+}
 SCENES['group'] = SCENES['train'].replace('#kind', 'kind = "focused";')
+SCENES.update(FV_SCENES)
 HEAD = '''format = 1;
 time:    { end = %s; };
 output:  { series = 1; snapshots = false; };
@@ -210,11 +332,17 @@ output:  { series = 1; snapshots = false; };
 ALL = list(SCENES)
 # float has all else of hinge and touch, dam all else of channel, mesh, swirls and train, train all else of group, so that by default the
 # keys of the groups that differ will do
-USUAL = 'dam', 'channel', 'float', 'hinge', 'touch', 'mesh', 'train', 'group', 'swirls'
-SHORTER = {'mesh': '0.012', 'swirls': '0.012'}  # s: they are the dearest
+USUAL = 'dam', 'channel', 'float', 'hinge', 'touch', 'mesh', 'train', 'group', 'swirls', 'periodic', 'newton', 'steady', 'duct', 'water', \
+    'boxes', 'ring', 'stream', 'swell'
+ENDS = {'mesh': '0.012', 'swirls': '0.012', 'ring': '0.4', 'newton': '0.4', 'dual_time': '0.4', 'lid': '0.4', 'stokes': '0.5',
+        'swell': '0.8'}  # s: some steps
 OURS = {'hinge': 'bodies', 'touch': 'bodies', 'train': 'wa', 'group': 'waves', 'channel': ('walls', 'initial', 'sph'),
-        'mesh': ('walls', 'bodies', 'shapes', 'domain'), 'swirls': ('apr', 'sph')}
-WITH_SURFACE = 'dam', 'float', 'hinge', 'cube', 'mesh', 'wave', 'train', 'group', 'drop', 'lines'
+        'mesh': ('walls', 'bodies', 'shapes', 'domain'), 'swirls': ('apr', 'sph'), 'newton': 'fv', 'steady': 'fv',
+        'duct': ('walls', 'fv', 'probes', 'initial'), 'water': ('shapes', 'fluid', 'walls', 'probes', 'fv'),
+        'boxes': ('blocked', 'initial'), 'ring': 'b', 'stream': 'b', 'swell': ('initial', 'domain')}
+WITH_SURFACE = 'dam', 'float', 'hinge', 'cube', 'mesh', 'wave', 'train', 'group', 'drop', 'lines', 'water', 'boxes', 'swell', 'stokes', \
+    'zone'
+FOREIGN = {'sph': ('fv.', 'blocks.', 'blocked.'), 'fv': ('sph.', 'apr.', 'coupling.', 'bodies.')}  # keys of the other program
 counts = {'refused': 0, 'change': 0, 'neither': 0}
 
 
@@ -227,7 +355,11 @@ def entries(text):
 
 VALUE = {'%s.%s' % (group, key): value for group, keys in entries(VALUES) for key, value in keys}
 OTHER = {(mode, key): value for mode, keys in entries(OTHERS) for key, value in keys}
-OTHER.update({(mode, 'sph.surface'): 'no' for mode in WITH_SURFACE})
+OTHER.update({(mode, program + '.surface'): 'no' for mode in WITH_SURFACE for program in ('sph', 'fv')})
+
+
+def program_of(mode):
+    return 'fv' if mode in FV_SCENES else 'sph'
 
 
 def trace(folder):
@@ -236,7 +368,7 @@ def trace(folder):
         return None
     text = ''.join(open(path).read() for path in (folder + '/series.csv', folder + '/summary.json') if os.path.exists(path))
     text = re.sub(r'"time_s".*?\}', '', text, flags=re.S)
-    text = re.sub(r'.*(_s":|"modules"|"version"|"case").*\n', '', text)
+    text = re.sub(r'.*(_s":|"us_per|"modules"|"version"|"case").*\n', '', text)
     return sorted(map(os.path.basename, glob.glob(folder + '/*'))), text
 
 
@@ -250,16 +382,25 @@ def put(scene, group, key, value):
     return scene.replace(line, changed)
 
 
+def is_own(scene, group, key, value):
+    """Whether the scene, or the marked element of its list, has that very value."""
+    bare = re.compile('[" ]')
+    line = next((line for line in scene.split('\n') if '#' + group in line), scene)
+    return bare.sub('', ' %s = %s;' % (key, value)) in re.split('(?<=[;{])', bare.sub('', line))
+
+
 def attempt(mode, scene, before, key, value):
     group, _, own = key.rpartition('.')
     changes = ['-p', '%s=%s' % (key, value)]
-    if re.match(r'(walls|bodies|shapes|probes|apr\.regions|apr\.criteria)\.', key):
+    if is_own(scene, group.rpartition('.')[2], own, value):
+        return
+    if re.match(r'(walls|bodies|shapes|probes|blocks|blocked|apr\.regions|apr\.criteria)\.', key):
         scene, changes = put(scene, group.rpartition('.')[2], own, value), []
     if scene is None:
         return
     write('case.cfg', scene)
     shutil.rmtree('out', ignore_errors=True)
-    code = start('sph', 'case.cfg', '-o', 'out', *changes)
+    code = start(program_of(mode), 'case.cfg', '-o', 'out', *changes)
     if code == 2 and lib.says('syntax error'):
         bad("%s: %s = %s: the test's own case is no case" % (mode, key, value))
     elif code == 2:
@@ -272,21 +413,22 @@ def attempt(mode, scene, before, key, value):
 
 
 def attempt_all(mode, ours):
-    scene = HEAD % SHORTER.get(mode, '0.04') + SCENES[mode] + '\n'
+    scene = HEAD % ENDS.get(mode, '0.1' if mode in FV_SCENES else '0.04') + SCENES[mode] + '\n'
     write('case.cfg', scene)
     shutil.rmtree('base', ignore_errors=True)
-    if start('sph', 'case.cfg', '-o', 'base') != 0:
+    if start(program_of(mode), 'case.cfg', '-o', 'base') > 1:  # 1: coarse, and says so
         bad('%s does not run' % mode, 'out.txt')
         return
     before = trace('base')
     for key, value in VALUE.items():
         value = OTHER.get((mode, key), value)
-        if key.startswith(ours) and value != 'None':
+        if key.startswith(ours) and not key.startswith(FOREIGN[program_of(mode)]) and value != 'None':
             attempt(mode, scene, before, key, value)
 
 
 lib.scratch()
-manual = subprocess.run([lib.build + '/sph', '--params'], stdout=subprocess.PIPE, text=True, check=True).stdout
+manual = ''.join(subprocess.run([lib.build + '/' + program, '--params'], stdout=subprocess.PIPE, text=True, check=True).stdout
+                 for program in ('sph', 'fv'))
 for key in re.findall(r'^\| `(\w+\.[\w.]*)` ', manual, flags=re.M):
     if key not in VALUE and key not in EXCEPTIONS and not key.startswith('accept.'):
         bad('no other value is known for %s: add it here' % key)

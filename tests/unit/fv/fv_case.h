@@ -27,13 +27,12 @@ static inline void fv_case_path(const char *suffix, char *path, size_t size)
 }
 
 /* Reads the text of a case, with overrides (NULL-terminated; may be NULL), through the file at path
- * into r. The keys' rows stay in fv_case_groups. Faults are added to f; returns the parameters, for
- * params_free. */
-static struct param_group fv_case_groups[SCENE_GROUPS + FV_GROUPS];
+ * into r. Faults are added to f; returns the parameters, for params_free. */
 static inline struct params *fv_case_read(struct run *r, MPI_Comm comm, const char *path,
                                           const char *text, const char *const *overrides,
                                           struct faults *f)
 {
+    static struct param_group groups[SCENE_GROUPS + FV_GROUPS];
     int n = 0;
     FILE *file = fopen(path, "w");
     if (!file || fputs(text, file) < 0 || fclose(file) != 0)
@@ -43,10 +42,10 @@ static inline struct params *fv_case_read(struct run *r, MPI_Comm comm, const ch
     *r = (struct run){.comm = comm, .name = "fv"};
     MPI_Comm_rank(comm, &r->rank);
     MPI_Comm_size(comm, &r->size);
-    scene_groups(&r->scene, fv_case_groups);
-    memcpy(fv_case_groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
-    struct params *p = params_read(comm, path, n, overrides, fv_case_groups,
-                                   SCENE_GROUPS + FV_GROUPS, (const char *const[]){NULL}, f);
+    scene_groups(&r->scene, groups);
+    memcpy(groups + SCENE_GROUPS, fv_groups, sizeof fv_groups);
+    struct params *p = params_read(comm, path, n, overrides, groups, SCENE_GROUPS + FV_GROUPS,
+                                   (const char *const[]){NULL}, f);
     r->params = p;
     return p;
 }
