@@ -149,7 +149,7 @@ static inline double fv_case_weighted(const struct fv *s)
     double sum = 0.0, x[3];
     BLOCK_CELLS (&s->b, i, j, k, c) {
         block_centre(&s->b, i, j, k, x);
-        sum += sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][c];
+        sum += sin(7.0 * x[0] + 5.0 * x[1] + 3.0 * x[2]) * s->u[0][c] + x[0] * s->u[1][c];
     }
     return ranks_sum(s->run->comm, sum);
 }

@@ -154,7 +154,7 @@ static inline double mesh_case_ranks_apart(const char *blocks, const char *const
 }
 
 /* s, of case one, takes so many steps, its restart file starts case two, which was read but not
- * started, and both take as many more: values of phi, u and p that differ; -1: a run stopped. Ends
+ * started, and both take as many more: cells whose phi, u or p differ; -1: a run stopped. Ends
  * both. Collective. */
 static inline int64_t mesh_case_restart(struct mesh_case *one, struct fv *s, struct mesh_case *two,
                                         int steps)
@@ -175,8 +175,8 @@ static inline int64_t mesh_case_restart(struct mesh_case *one, struct fv *s, str
     good = z && mesh_case_run(s, steps, 100.0) && mesh_case_run(z, steps, 100.0) && good;
     FLOW_ROWS (s, c, n)
         for (int64_t i = c; i < c + n && good; i++)
-            differ += s->surface->phi[i] != z->surface->phi[i] || s->u[0][i] != z->u[0][i] ||
-                      s->p[i] != z->p[i];
+            differ += (s->surface && s->surface->phi[i] != z->surface->phi[i]) ||
+                      s->u[0][i] != z->u[0][i] || s->u[1][i] != z->u[1][i] || s->p[i] != z->p[i];
     MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
     mesh_case_end(one, &s);
     mesh_case_end(two, &z);

@@ -242,7 +242,7 @@ TEST(packing_fills_the_room)
 {
     const double o[3] = {0.507, 0.493, 0.512};
     struct sph_case c;
-    struct scene *s = basin(&c, 20, 0.0);
+    struct scene *s = basin(&c, SANITIZED ? 15 : 20, 0.0);
     struct trimesh m = trimesh_sphere(o, 0.25, 3);
     trimesh_turn(&m, -1);
     s->nshapes = 0;
