@@ -2,6 +2,8 @@
 SPDX-License-Identifier: BSD-3-Clause"""
 import math
 
+from properties_scene import stl, text
+
 G = 9.81
 
 
@@ -54,83 +56,39 @@ class Scene:
     def speed_unit(self):
         return math.sqrt(self.unit)  # g keeps its value
 
-    def text(self):
-        t = lambda v: "(" + ", ".join("%.15g" % (x + 0.0) for x in v) + ")"
-        down = [0.0] * self.dim
-        if self.gravity:
-            down[self.up] = -G
-        lo, hi = self.box(self.lo, self.hi)
-        axes = [max(range(self.dim), key=lambda k: abs(self.vector([float(a == b) for b in range(self.dim)])[k]))
-                for a in range(self.dim)]
-        periodic = [False] * self.dim
-        for a in range(self.dim):
-            periodic[axes[a]] = self.periodic[a]
-        out = ["# %s" % self.name, "format = 1;",
-               "time:   { end = %.15g; };" % (self.end * math.sqrt(self.unit)),
-               "fluid:  { rho = 1000.0; nu = %.15g; gravity = %s; };"
-               % (self.nu * self.unit * self.speed_unit(), t(self.vector(down))),
-               "domain: { dim = %d; min = %s; max = %s; periodic = (%s); };"
-               % (self.dim, t(lo), t(hi), ", ".join("true" if p else "false" for p in periodic))]
-        if any(self.velocity):
-            out.append('initial: { field = "uniform"; U = %.15g; velocity = %s; };'
-                       % (self.speed_unit() * max(map(abs, self.velocity)),
-                          t([self.speed_unit() * x for x in self.vector(self.velocity)])))
-        walls = []
-        for (axis, way), more in sorted(self.sides.items()):
-            words = ""
-            for key, value in more.items():
-                if key == "velocity":
-                    value = t([self.speed_unit() * x for x in self.vector(value)])
-                elif isinstance(value, str):
-                    value = '"%s"' % value
-                elif key == "level":
-                    value = "%.15g" % self.height(value)
-                words += " %s = %s;" % (key, value)
-            walls.append('{ side = "%s";%s }' % (self.side(axis, way), words))
-        for line in self.lines:
-            walls.append("{ points = (%s);%s }" % (", ".join(t(self.point(p)) for p in line["points"]),
-                                                   " closed = true;" if line.get("closed") else ""))
-        for name, mesh in self.meshes.items():
-            if mesh["of"] == "wall":
-                walls.append('{ mesh = "%s"; %s}' % (name, mesh.get("more", "")))
-        if walls:
-            out.append("walls:  ( %s );" % ",\n          ".join(walls))
-        shapes = []
-        for s in self.shapes:
-            if s[0] == "below":
-                shapes.append('{ form = "below"; level = %.15g; }' % self.height(s[1]))
-            else:
-                shapes.append('{ form = "box"; box = (%s, %s); }' % tuple(map(t, self.box(*s[1:]))))
-        if shapes:
-            out.append("shapes: ( %s );" % ", ".join(shapes))
-        bodies = []
-        for b in self.bodies:
-            where = ('mesh = "%s";' % b["mesh"] if "mesh" in b
-                     else "points = (%s);" % ", ".join(t(self.point(p)) for p in b["points"]))
-            bodies.append('{ name = "%s"; %s %s }' % (b["name"], where, b.get("more", "")))
-        if bodies:
-            out.append("bodies: ( %s );" % ",\n          ".join(bodies))
-        if self.blocked:
-            out.append("blocked: ( %s );" % ", ".join('{ name = "%s"; min = %s; max = %s; }' % ((n,) + tuple(
-                map(t, self.box(p, q)))) for n, p, q in self.blocked))
-        if self.probes:
-            out.append("probes: ( %s );" % ",\n          ".join(
-                '{ name = "%s"; kind = "%s"; at = %s; }' % (n, k, t(self.point(p))) for n, k, p in self.probes))
-        if self.regions:
-            out.append("apr:    { regions = ( %s ); };" % ", ".join(
-                "{ min = %s; max = %s; %s}" % (*map(t, self.box(*r[:2])), "".join(r[2:])) for r in self.regions))
+    def case(self):
+        """Its groups, as properties_scene.text has them."""
+        points = lambda all_of: [list(self.point(p)) for p in all_of]
+        speeds = lambda v: [self.speed_unit() * x + 0.0 for x in self.vector(v)]
+        box = lambda p, q: dict(zip(("min", "max"), self.box(p, q)))
+        changes = {"velocity": speeds, "level": self.height}
+        axes = [self.side(a, 1)[0] for a in range(self.dim)]  # where each axis goes
+        turned = lambda values: [values[axes.index(x)] for x in "xyz"[:self.dim]]
+        walls = [dict(side=self.side(*at), **{key: changes.get(key, lambda v: v)(value) for key, value in more.items()})
+                 for at, more in sorted(self.sides.items())]
+        walls += [dict(line, points=points(line["points"])) for line in self.lines]
+        walls += [{"mesh": name, "more": mesh.get("more")} for name, mesh in self.meshes.items() if mesh["of"] == "wall"]
+        shapes = [{"form": "below", "level": self.height(s[1])} if s[0] == "below" else {"form": "box", "box": self.box(*s[1:])}
+                  for s in self.shapes]
+        case = {"time": {"end": self.end * math.sqrt(self.unit)},
+                "fluid": {"rho": 1000.0, "nu": self.nu * self.unit * self.speed_unit(),
+                          "gravity": [-G * self.gravity * x + 0.0 for x in self.vector([float(a == self.up) for a in range(self.dim)])]},
+                "domain": {"dim": self.dim, **box(self.lo, self.hi), "periodic": turned(self.periodic)},
+                "initial": any(self.velocity) and {"field": "uniform", "U": self.speed_unit() * max(map(abs, self.velocity)),
+                                                   "velocity": speeds(self.velocity)},
+                "walls": walls, "shapes": shapes,
+                "bodies": [dict(b, points=points(b["points"])) if "points" in b else b for b in self.bodies],
+                "blocked": [dict(name=name, **box(p, q)) for name, p, q in self.blocked],
+                "probes": [{"name": name, "kind": kind, "at": list(self.point(p))} for name, kind, p in self.probes],
+                "apr": self.regions and {"regions": [dict(box(*r[:2]), more="".join(r[2:])) for r in self.regions]}}
         if self.program != "fv":
-            box = ""
-            if self.program == "coupled":
-                box = " box = (%s, %s);" % tuple(map(t, self.box(*self.sph_box)))
-            out.append("sph:    { dx = %.15g;%s%s };" % (self.dx * self.unit, box, self.sph))
+            case["sph"] = {"dx": self.dx * self.unit, "box": self.box(*self.sph_box) if self.program == "coupled" else None, "more": self.sph}
         if self.fv:
-            cells = [1] * self.dim
-            for a in range(self.dim):
-                cells[axes[a]] = self.fv[a]
-            out.append("fv:     { cells = (%s); };" % ", ".join(map(str, cells)))
-        out.append("output: { snapshots = false; series = %d; };" % self.laws.get("series", 5))
-        return "\n".join(out) + "\n"
+            case["fv"] = {"cells": turned(self.fv)}
+        return dict(case, output={"more": "snapshots = false;", "series": self.laws.get("series", 5)})
+
+    def text(self):
+        return "# %s\n%s" % (self.name, text(self.case(), "%.15g"))
 
     def height(self, h):
         """Against gravity, as the keys `level' have it."""
@@ -141,30 +99,19 @@ class Scene:
         w, u = self.point(v), self.vector(up)
         return sum(a * b for a, b in zip(w, u))
 
-    def stl(self, name, lo, hi, leave=()):
+    def solid(self, corners, triangles):
+        return stl.solid([["%.15g" % x for x in self.point(c)] for c in corners], triangles)
+
+    def stl(self, name, lo, hi):
         """A box of triangles, normals out of it."""
         corners = [[(lo, hi)[i >> a & 1][a] for a in range(3)] for i in range(8)]
-        quads = {"x-": (0, 4, 6, 2), "x+": (1, 3, 7, 5), "y-": (0, 1, 5, 4), "y+": (2, 6, 7, 3),
-                 "z-": (0, 2, 3, 1), "z+": (4, 5, 7, 6)}
-        text = "solid s\n"
-        for key, q in quads.items():
-            if key in leave:
-                continue
-            for tri in ((q[0], q[1], q[2]), (q[0], q[2], q[3])):
-                text += "facet normal 0 0 0\nouter loop\n"
-                for i in tri:
-                    text += "vertex %.15g %.15g %.15g\n" % self.point(corners[i])
-                text += "endloop\nendfacet\n"
-        self.meshes[name] = {"text": text + "endsolid s\n", "of": "body"}
+        quads = (0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)
+        triangles = [three for a, b, c, d in quads for three in ((a, b, c), (a, c, d))]
+        self.meshes[name] = {"text": self.solid(corners, triangles), "of": "body"}
 
     def sheet(self, name, corners, more):
         """An open wall of two triangles."""
-        text = "solid s\n"
-        for tri in ((0, 1, 2), (0, 2, 3)):
-            text += "facet normal 0 0 0\nouter loop\n"
-            text += "".join("vertex %.15g %.15g %.15g\n" % self.point(corners[i]) for i in tri)
-            text += "endloop\nendfacet\n"
-        self.meshes[name] = {"text": text + "endsolid s\n", "of": "wall", "more": more}
+        self.meshes[name] = {"text": self.solid(corners, [(0, 1, 2), (0, 2, 3)]), "of": "wall", "more": more}
 
     def written(self, v):
         return "(" + ", ".join("%.15g" % x for x in v) + ")"

@@ -11,16 +11,14 @@ import sys
 
 import properties_fv
 import properties_sph
-from properties_scene import Motion, Random, Scene, moved, scaled, text
+from properties_scene import Motion, Random, Scene, moved, scaled, stl, text
 
 
 def mesh_text(ending, vertices, triangles):
     number = ' %.17g %.17g %.17g\n'
     if ending == 'obj':
         return ''.join('v' + number % tuple(x) for x in vertices) + ''.join('f %d %d %d\n' % (i + 1, j + 1, k + 1) for i, j, k in triangles)
-    facets = ('facet normal 0 0 0\nouter loop\n%sendloop\nendfacet\n' % ''.join('vertex' + number % tuple(vertices[i]) for i in corners)
-              for corners in triangles)
-    return 'solid body\n%sendsolid body\n' % ''.join(facets)
+    return stl.solid([['%.17g' % c for c in x] for x in vertices], triangles)
 
 
 class Twins:

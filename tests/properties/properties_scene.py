@@ -1,6 +1,11 @@
 """properties_scene.py - a random scene of properties_draw.py: its draws, the parts that families share, its case, moved and in other
 units. SPDX-License-Identifier: BSD-3-Clause"""
 import math
+import os
+import sys
+
+sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'jobs'))
+import stl  # for those who write meshes
 
 SIDES = ['x_min', 'x_max', 'y_min', 'y_max', 'z_min', 'z_max']
 BUDGET = 0.35  # s of processor time of one run, roughly
@@ -204,7 +209,7 @@ class Scene:
             case['coupling'] = {'steps': self.steps}
         if self.regions or self.criterion:
             case['apr'] = {'local_steps': self.local_steps, 'regions': self.regions, 'criteria': self.criterion and [self.criterion]}
-        return case
+        return dict(case, output={'more': 'snapshots = false;', 'series': 1})
 
 
 def everywhere(case, act):
@@ -311,14 +316,14 @@ def moved(case, m):
 OPTIONAL = 'nu gravity central velocity amplitude spin'.split()
 
 
-def written(key, value, dim):
+def written(key, value, dim, number):
     """A value as a case has it; vectors have as many components as the scene."""
     if isinstance(value, dict):
-        return '{%s }' % ''.join(' %s = %s;' % (k, written(k, v, dim)) for k, v in value.items() if said(k, v))
-    if isinstance(value, list):
-        numbers = not isinstance(value[0], (list, dict))
-        return '(%s)' % ', '.join(written(key, v, dim) for v in (value[:dim] if numbers else value))
-    return {bool: str(value).lower(), str: '"%s"' % value}.get(type(value)) or '%.17g' % value
+        return '{%s }' % ''.join(' ' + v if k == 'more' else ' %s = %s;' % (k, written(k, v, dim, number)) for k, v in value.items() if said(k, v))
+    if isinstance(value, (list, tuple)):
+        numbers = not isinstance(value[0], (list, tuple, dict))
+        return '(%s)' % ', '.join(written(key, v, dim, number) for v in (value[:dim] if numbers else value))
+    return {bool: str(value).lower(), str: '"%s"' % value}.get(type(value)) or number % value
 
 
 def said(key, value):
@@ -326,7 +331,8 @@ def said(key, value):
     return value is not None and value is not False and value != [] and key not in ('vertices', 'triangles') and not zero
 
 
-def text(case):
+def text(case, number='%.17g'):
+    """The file: groups by name, lists and groups in them by key; `more' is text that stands there as it is."""
     dim = case['domain']['dim']
-    return 'format = 1;\n' + ''.join('%s: %s;\n' % (key, written(key, group, dim).replace('}, {', '},\n  {'))
-                                     for key, group in case.items() if group) + 'output: { snapshots = false; series = 1; };\n'
+    return 'format = 1;\n' + ''.join('%s: %s;\n' % (key, written(key, group, dim, number).replace('}, {', '},\n  {'))
+                                     for key, group in case.items() if group)
