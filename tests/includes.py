@@ -45,6 +45,6 @@ def reads(path, header):
 
 for path in sorted(text):
     for header, names in USES.items():
-        found = names.search(text[path])
-        if found and not reads(path, header):
+        found = not reads(path, header) and names.search(text[path])
+        if found:
             print(f'{path} has "{found[0]}" and no <{header}>')
