@@ -1,15 +1,41 @@
-# What view.py knows of the scene, and its arithmetic of cells, without ParaView: python3 view.py FILE. Needs numpy.
-# SPDX-License-Identifier: BSD-3-Clause
+"""view.py beside a run: what it knows of the scene, and the pieces of it that need no ParaView; the picture of the scene.
+SPDX-License-Identifier: BSD-3-Clause"""
 import ast
 import glob
+import io
 import os
 import re
 import sys
 import types
 
+import lib
+from lib import alone, bad, changed
+
 import numpy as np
 
-text = open(sys.argv[1]).read()
+lib.scratch()
+SLOPE = changed(lib.TANK, time='end = 0.01;', domain='min = (-0.25, 0); max = (2, 1);', initial='U = 1.0;', output='', sph='dx = 0.05;',
+                shapes='{ form = "box"; box = ((-0.25, 0), (0.5, 0.5)); }',
+                walls='{ side = "x_min"; }, { side = "x_max"; }, { side = "y_min"; }, { points = ((1.0, 0), (2, 0.4)); }')
+alone('sph', 'out', SLOPE)
+# the scene drawn: labels of things at almost one place stand on lines of their own
+alone('sph', 'drawn', changed(SLOPE, probes='{ name = "first"; at = (0.2, 0.1); }, { name = "second"; at = (0.21, 0.1); }, '
+                                            '{ name = "third"; at = (0.22, 0.11); }'), '', '--check=picture')
+labels = sorted(map(float, re.findall(r'^<text x="[\d.]*" y="([\d.]*)" font-size="12">(?:first|second|third)<', open('drawn/sph-scene.svg').read(), re.M)))
+if len(labels) != 3 or min(np.diff(labels)) < 12:
+    bad('labels of the picture stand on each other: at %s px' % labels)
+# what drives the water along a period tilts neither its level, nor the view
+driven = changed(SLOPE, fluid='rho = 1000.0; nu = 1e-3; gravity = (2, -9.81);', domain='min = (-0.25, 0); max = (2, 1); periodic = (true, false);',
+                 walls='{ side = "y_min"; kind = "no_slip"; }', shapes='{ form = "below"; level = 0.5; }')
+alone('sph', 'driven', driven)
+alone('sph', 'even', driven, '', '--check=picture')
+water = re.search(r'^<path d="(M.*) Z" stroke="none".*#9ecae1', open('even/sph-scene.svg').read(), re.M)[1]
+if len({corner.split()[1] for corner in re.split('[ML]', water) if corner}) != 2:
+    bad('the level of driven water is drawn askew: ' + water)
+if not re.search(r'^dim, up = 2, \[-0, 1, ', open('driven/view.py').read(), re.M):
+    bad('the view of driven water is tilted')
+
+text = open('out/view.py').read()
 compile(text, 'view.py', 'exec')
 head = {}
 exec(text[text.index('dim, up'):text.index('# All programs')], head)
@@ -20,8 +46,8 @@ assert head['fields'][0] == 'velocity' and head['surface'] and head['opaque']
 
 # the folder: from the command line, as ParaView's window hides it; moved, from what the run wrote
 script = text[text.index("# The run's folder"):text.index('view = GetActive')]
-folder = os.path.dirname(os.path.abspath(sys.argv[1]))
-found = {'glob': glob, 'os': os, 'written': '/nowhere'}
+folder = os.path.abspath('out')
+found = {'glob': glob, 'os': os, 'written': '/nowhere', 'open': lambda path: io.StringIO('paraview\0--script=out/view.py')}
 if os.path.exists('/proc/self/cmdline'):
     exec(script, found)
     assert found['here'] == folder, found['here']
@@ -123,3 +149,4 @@ script = text[text.index('def ticks'):text.index('def look')]
 exec(script, {'np': np}, found)
 assert np.allclose(found['ticks'](-0.1, 0.8, 0.15), [0, 0.2, 0.4, 0.6, 0.8]) and found['ticks'](-0.5, 7.0, 0.6) == [0, 1, 2, 3, 4, 5, 6, 7]
 assert '-0' not in str(found['ticks'](-0.5, 0.5, 1.0)) and found['ticks'](0, 42, 7) == [0, 10, 20, 30, 40]
+lib.end('%d faults' % lib.failed)
