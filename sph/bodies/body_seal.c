@@ -30,10 +30,11 @@ static const struct sph *level_at(const struct sph *s, const double *x)
     return at;
 }
 
-/* Shares of the kernel at a node, a little way into the fluid; of two bodies for the first alone,
- * or for all of them. Where there is no room for particles they press by no other rule, so there
- * all that the kernel reaches counts, as the floor below a slab of 2 dx and the block on it. false:
- * the others are out of reach. */
+/* Shares of the kernel at a node, a little way into the fluid; what is owed goes by the others that
+ * come later, so that each pair is pressed once, or by all of them, what is reached by all. Where
+ * there is no room for particles they press by no other rule, so there all that the kernel reaches
+ * counts, as the floor below a slab of 2 dx and the block on it. false: the others are out of
+ * reach. */
 static bool measure(const struct sph *s, int body, bool all, struct seal_point *to)
 {
     const struct walls *w = s->walls;
@@ -49,8 +50,9 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
         to->room -= share[k + 1];
     }
     for (int k = -1; k < w->nbodies; k++) {
-        const bool seals = k != body && (all || k < 0 || k > body) &&
-                           (walls_sealed(s, body, k) || to->room < open_room);
+        const bool faces = k != body && (walls_sealed(s, body, k) || to->room < open_room);
+        const bool seals = faces && (all || k < 0 || k > body);
+        to->reached = fmax(to->reached, faces ? share[k + 1] : 0.0);
         if (!seals)
             to->lack -= share[k + 1];
         if (!seals || !(share[k + 1] > 0.0) || to->nothers == SEAL_OTHERS)
@@ -61,7 +63,6 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
         const double r = touch_distance(w, s->dim, k, to->is.x, close_by * at->dx, out);
         o->lies_on = r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat;
         to->dry = to->dry || o->lies_on;
-        to->reached = fmax(to->reached, share[k + 1]);
     }
     return to->reached > 1e-6;
 }
@@ -124,7 +125,7 @@ static int lay_points(const struct sph *s, int body, struct seal_point **of)
             add_points(s, k, true, of, &n);
     find_far(s, *of, n);
     for (int k = 0; k < n; k++)
-        if ((*of)[k].body == body || (*of)[k].rim)
+        if (((*of)[k].body == body && (*of)[k].nothers > 0) || (*of)[k].rim)
             (*of)[kept++] = (*of)[k];
     return kept;
 }

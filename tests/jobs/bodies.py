@@ -320,6 +320,14 @@ for name, boxes in (('stack', ((0.5, 0, 0.75, 0.1), (0.5, 0.1, 0.75, 0.2))), ('s
         close('%s, block %d: contact' % (name, k), mean(name + '/series.csv', 'b%d contact' % k, 0.2), bears, 0.06)
         near('%s, block %d: force aside' % (name, k), mean(name + '/series.csv', 'b%d force x' % k, 0.2), 0, 0.03 * bears)
 
+# So do two with a slit of 0.3 dx between them, whichever is listed first: the rim of the slit is where no other solid is in reach.
+SLIT = ('{ name = "low"; free = true; density = 2000; %s }' % points(0.4, 0, 0.6, 0.3),
+        '{ name = "held"; free = true; release = 10; density = 600; %s }' % points(0.6075, 0, 0.8075, 0.2))
+for name, bodies in ('slit', SLIT), ('slit2', SLIT[::-1]):
+    run_case(name, changed(TANK, domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;', bodies=', '.join(bodies)))
+    for which, size in ('low', 0.06), ('held', 0.04):
+        close('%s, lift of %s' % (name, which), mean(name + '/series.csv', which + ' force y', 0.2), 9810 * size, 0.06)
+
 # A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
 # round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
 FREE = 'free = true; density = 1000; contact = { restitution = %g; friction = 0.2; gap = %g; };'
