@@ -601,7 +601,7 @@ static const char *const others[] = {"sph", "sph_*", "fv", "blocks", "blocked", 
 
 static struct program sph_program = {.name = "sph",
                                      .help = "weakly compressible SPH, 2D and 3D",
-                                     .meaning = 13,
+                                     .meaning = 14,
                                      .groups = sph_groups,
                                      .ngroups = SPH_GROUPS,
                                      .other_groups = others,

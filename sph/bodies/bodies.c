@@ -213,7 +213,7 @@ void bodies_finish(struct sph *s, struct diagnosis *d)
         s->zones && box_motion_wanted(&s->prm); /* the box may leave a body at rest */
     if (any_free) {
         take_hits(s);
-        body_contacts_finish(s->walls);
+        body_contacts_finish(s);
         memset(s->walls->forces.hit, 0, sizeof s->walls->forces.hit);
     }
     for (int k = 0; s->walls && k < s->walls->nbodies; k++) {

@@ -48,7 +48,7 @@ void body_contacts_start(struct sph *s);
 double body_contact_depth(double v, double dt);
 /* Adds these forces to the loads of a stage; after the step: what friction has gathered. */
 void body_contacts_add(struct sph *s, double (*loads)[6]);
-void body_contacts_finish(struct walls *w);
+void body_contacts_finish(struct sph *s);
 
 /* body_average.c: an independent estimate of the force on body k, from the pressure on its surface:
  * at each point the kernel average of the pressure that the particles around would have there in a

@@ -12,6 +12,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "bodies.h"
 #include "body_touch.h"
+#include "contact_places.h"
 
 /* How many of the largest steps a contact lasts: a body that comes at c0/10 goes 0.3 dx deep. */
 enum { CONTACT_STEPS = 6 };
@@ -162,6 +163,12 @@ static bool next_pair(const struct walls *w, struct pair *p)
     return false;
 }
 
+/* m */
+static double gap_of(const struct sph *s, const struct pair *p)
+{
+    return s->walls->bodies[p->a].contact.gap * s->dx;
+}
+
 /* Of the first body of the pair with the second, and with the images of that across periods: those
  * of walls at rest are walls of their own. The gap is that of the first body. */
 static void find(const struct sph *s, struct pair *p)
@@ -169,14 +176,13 @@ static void find(const struct sph *s, struct pair *p)
     int way[3], most[3] = {0, 0, 0};
     for (int a = 0; a < s->dim && p->b >= 0; a++)
         most[a] = s->periodic[a];
-    p->n = 0;
+    p->n = p->image = 0;
     for (way[0] = -most[0]; way[0] <= most[0]; way[0]++)
         for (way[1] = -most[1]; way[1] <= most[1]; way[1]++)
-            for (way[2] = -most[2]; way[2] <= most[2]; way[2]++) {
+            for (way[2] = -most[2]; way[2] <= most[2]; way[2]++, p->image++) {
                 for (int a = 0; a < 3; a++)
                     p->shift[a] = way[a] ? way[a] * (s->hi[a] - s->lo[a]) : 0.0;
-                (s->dim == 2 ? pair_find2 : pair_find3)(s->walls, p,
-                                                        s->walls->bodies[p->a].contact.gap * s->dx);
+                (s->dim == 2 ? pair_find2 : pair_find3)(s->walls, p, gap_of(s, p));
             }
 }
 
@@ -254,25 +260,6 @@ static void note_way(struct walls *w, const struct pair *p)
     }
 }
 
-/* With levels once for the state, which all share, and for each level's own copy of the distances.
- */
-void body_contacts_start(struct sph *s)
-{
-    struct pair p = {.b = -2};
-    if (!s->coarser)
-        stand_apart(s);
-    while (next_pair(s->walls, &p)) {
-        double *from = start_gap(s->walls, &p);
-        *from = INFINITY;
-        find(s, &p);
-        for (int i = 0; i < p.n; i++)
-            *from = fmin(*from, s->walls->bodies[p.a].contact.gap * s->dx - p.touch[i].depth);
-        if (p.b < 0)
-            note_way(s->walls, &p);
-    }
-    mem_free(p.touch);
-}
-
 /* m: how deep the spring of a touch is pressed by what rests there with its weight. */
 static double sag(const struct sph *s, const struct touch *t)
 {
@@ -291,22 +278,53 @@ static bool is_new(const struct walls *w, const struct pair *p, const struct tou
            vec3_dot(way, w->start_way[p->a]) < same_way;
 }
 
-/* A pair that has been in contact since the start rests on the distance that it had there, by a
- * spring that carries the weight from the first step on: else it would sink into what it stands on.
+/* With levels once for the state, which all share, and for each level's own copy of the distances.
  */
-static void keep_start(struct sph *s, struct pair *p)
+void body_contacts_start(struct sph *s)
 {
-    double *from = start_gap(s->walls, p);
-    const double less = s->walls->bodies[p->a].contact.gap * s->dx - *from;
+    struct pair p = {.b = -2};
+    struct contact_places places = {0, 0, NULL};
+    if (!s->coarser)
+        stand_apart(s);
+    while (next_pair(s->walls, &p)) {
+        double *from = start_gap(s->walls, &p);
+        *from = INFINITY;
+        find(s, &p);
+        for (int i = 0; i < p.n; i++)
+            *from = fmin(*from, gap_of(s, &p) - p.touch[i].depth);
+        if (p.b < 0)
+            note_way(s->walls, &p);
+        for (int i = 0; i < p.n; i++)
+            if (p.touch[i].sharp) {
+                struct contact_place *c =
+                    contact_places_add(s, &places, &p, p.touch + i, gap_of(s, &p));
+                c->first = c->from += sag(s, p.touch + i);
+            }
+    }
+    contact_places_take(s->walls, &places);
+    mem_free(p.touch);
+}
+
+/* Where the contact of a touch begins, m. A pair that has been in contact since the start rests on
+ * the distance that it had there, by a spring that carries the weight from the first step on: else
+ * it would sink into what it stands on. */
+static double begins_at(const struct sph *s, const struct pair *p, const struct touch *t,
+                        struct contact_places *places)
+{
+    const double gap = gap_of(s, p), start = *start_gap(s->walls, p);
+    if (t->sharp)
+        return contact_places_add(s, places, p, t, gap)->from;
+    return isfinite(start) && !is_new(s->walls, p, t) ? start + sag(s, t) : gap;
+}
+
+static void keep_start(struct sph *s, struct pair *p, struct contact_places *places)
+{
     int n = 0;
     if (p->n == 0)
-        *from = INFINITY;
-    if (!isfinite(*from))
-        return;
+        *start_gap(s->walls, p) = INFINITY;
     for (int i = 0; i < p->n; i++) {
         p->touch[n] = p->touch[i];
-        if (!is_new(s->walls, p, p->touch + i))
-            p->touch[n].depth += sag(s, p->touch + i) - less;
+        p->touch[n].depth += begins_at(s, p, p->touch + i, places) - gap_of(s, p);
         n += p->touch[n].depth > 0.0;
     }
     p->n = n;
@@ -317,9 +335,10 @@ void body_contacts_add(struct sph *s, double (*loads)[6])
 {
     struct walls *w = s->walls;
     struct pair p = {.b = -2};
+    struct contact_places places = {0, 0, NULL};
     while (next_pair(w, &p)) {
         find(s, &p);
-        keep_start(s, &p);
+        keep_start(s, &p, &places);
         if (p.n > 0)
             push(s, &p, loads);
         else {
@@ -327,12 +346,15 @@ void body_contacts_add(struct sph *s, double (*loads)[6])
             *friction_of(w, &p) = (struct pair_friction){.most = 0.0};
         }
     }
+    contact_places_take(w, &places);
     mem_free(p.touch);
 }
 
 /* Once a step: friction gathers over steps, not stages, and at most what Coulomb allows. */
-void body_contacts_finish(struct walls *w)
+void body_contacts_finish(struct sph *s)
 {
+    struct walls *w = s->walls;
+    contact_places_settle(s);
     for (struct pair p = {.b = -2}; next_pair(w, &p);) {
         struct pair_friction *f = friction_of(w, &p);
         vec3_add(f->hold, 1.0, f->more);

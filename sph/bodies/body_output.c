@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../../common/files/files.h"
 #include "bodies.h"
+#include "contact_places.h"
 
 enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };
 
@@ -165,6 +166,7 @@ bool bodies_restart(struct sph *s, struct h5 *f)
     (void)h5_keep_rows(f, "contacts", "m/s", BODIES_MAX, BODIES_MAX + 1, &w->approach[0][0]);
     (void)h5_keep_rows(f, "contact gaps", "m", BODIES_MAX, BODIES_MAX + 1, &w->start_gap[0][0]);
     (void)h5_keep_rows(f, "contact ways", "-", BODIES_MAX, 3, &w->start_way[0][0]);
+    contact_places_restart(w, f);
     (void)h5_keep_rows(f, "contact friction", "N", BODIES_MAX, FRICTION, (double *)w->friction);
     if (!h5_writes(f))
         walls_move(s, s->t);

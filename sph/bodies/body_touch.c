@@ -103,19 +103,17 @@ void pair_beside(const struct pair *p, const double *x, double y[3], int dim)
         y[a] = x[a] - p->shift[a];
 }
 
-void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
-              double depth, bool mine)
+void pair_add(const struct walls *w, struct pair *p, const struct touch *at)
 {
-    double other[3], beside[3];
+    double other[3], beside[3] = {0.0, 0.0, 0.0};
     ROOM_IN(NULL, p->touch, p->n + 1);
     struct touch *t = p->touch + p->n++;
-    *t = (struct touch){.depth = depth, .mine = mine};
-    memcpy(t->x, x, (size_t)w->bodies[p->a].dim * sizeof *x);
-    memcpy(t->out, out, sizeof t->out);
+    *t = *at;
+    t->of = 27 * at->of + p->image;
     memcpy(t->shift, p->shift, sizeof t->shift);
-    pair_beside(p, x, beside, w->bodies[p->a].dim);
-    velocity_of(w, mine ? p->a : p->b, mine ? x : beside, t->u);
-    velocity_of(w, mine ? p->b : p->a, mine ? beside : x, other);
+    pair_beside(p, t->x, beside, w->bodies[p->a].dim);
+    velocity_of(w, t->mine ? p->a : p->b, t->mine ? t->x : beside, t->u);
+    velocity_of(w, t->mine ? p->b : p->a, t->mine ? beside : t->x, other);
     vec3_add(t->u, -1.0, other);
 }
 
@@ -165,6 +163,17 @@ static double nearest_of_corner(const struct walls *w, int of, int k, int agains
     return touch_settle(d, way, e, beside, out);
 }
 
+/* Whether the line turns sharply at an end of segment k, as it does not along a disc. */
+static bool is_sharp(const struct walls *w, int of, int k, int end)
+{
+    const double cosine = 0.866;
+    int first, last;
+    range(w, of, &first, &last);
+    const int next = end ? (k == last - 1 ? first : k + 1) : k == first ? last - 1 : k - 1;
+    const double *n = w->segments[k].n, *m = w->segments[next].n;
+    return n[0] * m[0] + n[1] * m[1] < cosine;
+}
+
 /* Corners of one line that are nearer to the other than gap. */
 static void find_corners(const struct walls *w, struct pair *p, const struct touch_box *near,
                          double gap, bool mine)
@@ -174,21 +183,22 @@ static void find_corners(const struct walls *w, struct pair *p, const struct tou
     range(w, of, &first, &end);
     for (int k = first; k < end; k++) {
         const struct segment *g = w->segments + k;
-        double out[3];
         if (!belongs(g, of))
             continue;
         for (int e = 0; e < (of < 0 ? 2 : 1); e++) { /* lines at rest may be open */
             const double *own = e ? g->b : g->a;
-            double x[2], y[2]; /* beside a and b */
+            struct touch t = {.mine = mine, .corner = 2 * k + e, .sharp = is_sharp(w, of, k, e)};
+            double y[2]; /* as x, beside b */
             for (int a = 0; a < 2; a++) {
-                x[a] = own[a] + (mine ? 0.0 : p->shift[a]);
-                y[a] = x[a] - p->shift[a];
+                t.x[a] = own[a] + (mine ? 0.0 : p->shift[a]);
+                y[a] = t.x[a] - p->shift[a];
             }
-            const double d = holds(near, x)
-                                 ? nearest_of_corner(w, of, k, against, mine ? y : x, gap, out)
+            const double d = holds(near, t.x)
+                                 ? nearest_of_corner(w, of, k, against, mine ? y : t.x, gap, t.out)
                                  : INFINITY;
-            if (d < gap && !pair_is_held(w, p, x, gap))
-                pair_add(w, p, x, out, gap - d, mine);
+            t.depth = gap - d;
+            if (d < gap && !pair_is_held(w, p, t.x, gap))
+                pair_add(w, p, &t);
         }
     }
 }

@@ -11,20 +11,22 @@ struct touch {
     double shift[3];     /* m: how far what is touched of the second body stands from that body */
     double depth, u[3];  /* m; m/s of the corner's body relative to what it touches */
     bool mine;           /* the corner belongs to the first of the pair */
+    int of, corner;      /* pieces and image of the second body, number of the corner: its own */
+    bool sharp;          /* the surface turns by more than 30 degrees at the corner */
 };
 
 /* Two bodies with their touches; touch is owned. */
 struct pair {
     int a, b;        /* bodies; b = -1: walls at rest */
-    double shift[3]; /* m: from b to its image across periods that is looked at */
+    int image;       /* number of the image of b across periods that is looked at */
+    double shift[3]; /* m: from b to that */
     int n;
     struct touch *touch;
 };
 
-/* Adds a corner (mine: of a) at x that is `depth', m, nearer than the distance that contact keeps;
- * `out' is the normal there. */
-void pair_add(const struct walls *w, struct pair *p, const double *x, const double *out,
-              double depth, bool mine);
+/* Adds a corner at `at.x' that is `at.depth' nearer than the distance that contact keeps; what
+ * depends on the pair is filled in. */
+void pair_add(const struct walls *w, struct pair *p, const struct touch *at);
 /* Signed distance, m, of x to the surface of a body (-1: walls at rest) or of its images across
  * periods within reach, with the unit normal out of it; INFINITY: nothing is within reach. */
 double touch_distance(const struct walls *w, int dim, int body, const double *x, double reach,

@@ -69,6 +69,17 @@ double touch_distance3(const struct walls *w, int body, const double *x, double 
     return least;
 }
 
+/* Whether the surface turns by more than 30 degrees at a vertex: its normal is the mean of those of
+ * its triangles. */
+static bool is_sharp(const struct wall_mesh *of, int k)
+{
+    const double cosine = 0.966;
+    double n[3];
+    const struct tree_foot f = tree_nearest(of->tree, of->mesh.x[k], 1.0);
+    return f.triangle >= 0 && trimesh_normal(&of->mesh, f.triangle, n) > 0.0 &&
+           vec3_dot(f.n, n) < cosine;
+}
+
 /* Vertices are tested in the world, for the two meshes have frames of their own. */
 static void find_vertices(const struct walls *w, struct pair *p, double gap, bool mine)
 {
@@ -83,12 +94,15 @@ static void find_vertices(const struct walls *w, struct pair *p, double gap, boo
             if (!is_near(w, p->a, x, gap) || (p->b >= 0 && !is_near(w, p->b, y, gap)))
                 continue;
             for (int j = 0; j < w->nmeshes; j++) {
-                double out[3];
+                struct touch t = {.mine = mine, .of = w->nmeshes * i + j, .corner = k};
                 if (w->meshes[j].body != against || w->meshes[j].image)
                     continue;
-                const double d = nearest_of_vertex(m, k, w->meshes + j, mine ? y : x, gap, out);
-                if (d < gap && !pair_is_held(w, p, x, gap))
-                    pair_add(w, p, x, out, gap - d, mine);
+                t.depth = gap - nearest_of_vertex(m, k, w->meshes + j, mine ? y : x, gap, t.out);
+                if (!(t.depth > 0.0) || pair_is_held(w, p, x, gap))
+                    continue;
+                memcpy(t.x, x, sizeof t.x);
+                t.sharp = is_sharp(m, k);
+                pair_add(w, p, &t);
             }
         }
     }

@@ -97,6 +97,12 @@ struct force {
     double F[3], M[3];
 };
 
+/* A sharp corner in contact, by pair (second -1: walls at rest), whose it is, of and corner
+ * (body_touch.h); the distance at which its contact begins now, and at first, m. */
+struct contact_place {
+    double id[5], from, first;
+};
+
 /* What the fluid exerts on each body, and last on the walls at rest; forces.h. */
 struct wall_forces {
     struct force stage[BODIES_MAX + 1];   /* in the stage under way; this rank */
@@ -147,6 +153,8 @@ struct walls {
                                                      the start begins here; INFINITY: it has */
     double start_way[BODIES_MAX]
                     [3]; /* of that with walls at rest the way out of them; 0: several */
+    int nplaces;
+    struct contact_place *places; /* of corners now in contact; bodies/contact_places.h */
     /* Of two owners, last walls at rest: what their faces owe each other is body_seal.c's, not
      * wall_gap.c's. */
     bool sealed[BODIES_MAX + 1][BODIES_MAX + 1];

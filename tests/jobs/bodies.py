@@ -76,12 +76,19 @@ for dim, case in (2, TANK), (3, changed(TANK, domain='dim = 3; max = (1, 0.4, 0.
                                output='snapshots = false; series = 1;',
                                bodies='{ name = "b"; box = ((0.6, %s), (0.8, %s)); free = true; density = 500; velocity = (1.7, 0); }' % (low, high)))
     x, u = column('slides', 'b x'), column('slides', 'b u')
-    check(0.8 < max(x) < 0.89 and min(u) < -0.2, '%dD: a box slides into a side to x = %g m, back at %g m/s' % (dim, max(x), min(u)))
+    check(0.8 < max(x) < 0.89 and -1.0 < min(u) < -0.03, '%dD: a box slides into a side to x = %g m, back at %g m/s' % (dim, max(x), min(u)))
 
 # A tank stands anywhere in its domain: rows begin on its floor and its sides, whether it is a body or a closed line.
 for what, tank in (('bodies', '{ name = "t"; box = ((0, 0), (1, 0.6)); }'), ('walls', '{ points = ((0, 0), (1, 0), (1, 0.6), (0, 0.6)); closed = true; }')):
     run_case('anywhere', changed(changed(TANK, walls=''), time='end = 0.001;', domain='min = (-0.1, -0.14); max = (1.2, 1);', shapes='{ box = ((0, 0), (1, 0.4)); }', sph='dx = 0.04;', **{what: tank}))
     close('water in a tank half a spacing off the rows of its domain (%s)' % what, column('anywhere', 'mass')[0], 400, 0.01)
+
+# The same on another body that has a side.
+run_case('slides', changed(TANK, time='end = 0.2;', sph='dx = 0.05;', domain='max = (1.2, 0.6);', shapes='{ box = ((0, 0), (0.1, 0.05)); }', output='snapshots = false; series = 1;',
+                           bodies='{ name = "ell"; points = ((0.2, 0), (0.2, 0.15), (0.85, 0.15), (0.85, 0.4), (1, 0.4), (1, 0)); }, '
+                                  '{ name = "b"; box = ((0.5, 0.15), (0.7, 0.35)); free = true; density = 500; velocity = (1.7, 0); }'))
+x, u = column('slides', 'b x'), column('slides', 'b u')
+check(0.65 < max(x) < 0.74 and min(u) < -0.2, 'a box slides into the side of an angle to x = %g m, back at %g m/s' % (max(x), min(u)))
 
 # A motion that begins elsewhere than the case draws the body: the water makes room there alone, and comes along in a tank.
 run_case('begins', changed(TANK, bodies='{ name = "b"; box = ((0.1, 0.15), (0.3, 0.35)); motion = ( { kind = "polynomial"; axis = "x"; coefficients = (0.5); } ); }'))
@@ -320,7 +327,13 @@ for name, boxes in (('stack', ((0.5, 0, 0.75, 0.1), (0.5, 0.1, 0.75, 0.2))), ('s
         close('%s, block %d: contact' % (name, k), mean(name + '/series.csv', 'b%d contact' % k, 0.2), bears, 0.06)
         near('%s, block %d: force aside' % (name, k), mean(name + '/series.csv', 'b%d force x' % k, 0.2), 0, 0.03 * bears)
 
-# So do two with a slit of 0.3 dx between them, whichever is listed first: the rim of the slit is where no other solid is in reach.
+# One that rocks on its edges comes to stand again: what has come in below it is not pressed flat (6 rad/s ended the run).
+run_case('rocks', changed(TANK, time='end = 0.8;', domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
+                          bodies='{ name = "b"; free = true; density = 2500; spin = 6; box = ((0.5, 0), (0.7, 0.3)); }'))
+close('what has rocked: lift', mean('rocks/series.csv', 'b force y', 0.65), 588.6, 0.06)
+check(0.02 < max(column('rocks', 'b angle')) and abs(column('rocks', 'b angle')[-1]) < 2e-3, 'a block that rocks stands at %g rad' % column('rocks', 'b angle')[-1])
+
+# Two with a slit of 0.3 dx between them have their lift, whichever is listed first: the rim of the slit is where no other solid is in reach.
 SLIT = ('{ name = "low"; free = true; density = 2000; %s }' % points(0.4, 0, 0.6, 0.3),
         '{ name = "held"; free = true; release = 10; density = 600; %s }' % points(0.6075, 0, 0.8075, 0.2))
 for name, bodies in ('slit', SLIT), ('slit2', SLIT[::-1]):
