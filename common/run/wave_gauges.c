@@ -258,8 +258,9 @@ static void warn_of_rest(const struct scene_gauges *g, const struct reflection *
 /* In regular waves one frequency, that of the period. In a sea every line j/all of the record from
  * 0.6 to 2 times the frequency of the peak, where nearly all the energy is; a line for which the
  * gauges stand badly (condition) is left out, in both sums alike. Amplitudes are roots of the sums
- * of squares, nan where no line is left. The larger sum is taken as incident: waves may run against
- * waves.direction. */
+ * of squares, nan where no line is left. What runs onward is incident, but where clearly more comes
+ * back: waves then run against waves.direction. Before a wall that returns all both are alike, and
+ * R is 1 but for the error of the gauges, on either side of it. */
 static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
                             const struct history *h, int n, const int *probe, double all,
                             struct summary *summary)
@@ -280,10 +281,10 @@ static void tell_reflection(const struct scene *s, const struct scene_gauges *g,
         const struct reflection r = separate(h, n, x, omega, linear_number(s, g, omega));
         add_squares(&r, well_placed, sums);
     }
-    const bool onward = sums[0] >= sums[1];
+    const bool onward = 1.5 * sums[0] >= sums[1];
     const bool told = sums[0] + sums[1] > 0.0;
-    const double incident = told ? sqrt(fmax(sums[0], sums[1])) : NAN,
-                 back = told ? sqrt(fmin(sums[0], sums[1])) : NAN;
+    const double incident = told ? sqrt(sums[onward ? 0 : 1]) : NAN,
+                 back = told ? sqrt(sums[onward ? 1 : 0]) : NAN;
     summary_real(summary, key_text("reflection.%s.incident", g->name), incident);
     summary_real(summary, key_text("reflection.%s.reflected", g->name), back);
     summary_real(summary, key_text("reflection.%s.R", g->name), back / incident);

@@ -138,6 +138,13 @@ TEST(seas_are_told_apart_by_their_lines)
     assert_close(of_sea(0.05, 0.16, 0.0), 0.05, 0.01);
 }
 
+/* Before a wall the error of the gauges does not turn the waves round. */
+TEST(walls_return_all)
+{
+    assert_close(of_sea(1.03, 0.16, 0.0), 1.03, 0.01);
+    assert_close(of_sea(2.0, 0.16, 0.0), 0.5, 0.01);
+}
+
 /* Gauges on a shelf half as deep as where the waves are made. */
 TEST(waves_have_the_length_of_the_depth_below_their_gauges)
 {
