@@ -261,7 +261,7 @@ static void say_rooms(const struct basins *b)
     if (dry > 0)
         log_say("meshes divide the water of the shapes into %d regions: %d hold(s) fluid",
                 wet + dry, wet);
-    if (wet == 0)
+    if (wet == 0 && dry > 0)
         log_warn("no region on the fluid's side of the meshes holds any water: see "
                  "walls.fluid_side, walls.flip and initial.seed");
 }
