@@ -98,7 +98,7 @@ static void write_sea(const char *path, const double *x, double R, double end)
 /* What comes back of a sea, by a record that is longer than what it repeats itself after: its last
  * 20 s are taken, for their lines do not leak into each other. waves, below: depths of the waves
  * that are made and below the gauges, m; 0: the same. */
-static double of_sea(double R, double waves, double below)
+static double of_sea_to(double end, double R, double waves, double below)
 {
     const char *folder = unit_file("sea"); /* of its own: tests run beside each other */
     char path[400], spectrum[400];
@@ -122,7 +122,7 @@ static double of_sea(double R, double waves, double below)
     mkdir(folder, 0700);
     snprintf(path, sizeof path, "%s/series.csv", folder);
     snprintf(spectrum, sizeof spectrum, "%s/spectrum_tank.csv", folder);
-    write_sea(path, x, R, 40.0);
+    write_sea(path, x, R, end);
     wave_gauges_judge(s, path, folder, to);
     summary_find(to, "reflection.tank.R", &is);
     FREE(to);
@@ -132,10 +132,23 @@ static double of_sea(double R, double waves, double below)
     return is;
 }
 
+static double of_sea(double R, double waves, double below)
+{
+    return of_sea_to(40.0, R, waves, below);
+}
+
 TEST(seas_are_told_apart_by_their_lines)
 {
     assert_close(of_sea(0.0, 0.16, 0.0), 0.0, 0.01);
     assert_close(of_sea(0.05, 0.16, 0.0), 0.05, 0.01);
+}
+
+/* What leaks out of its lines is no wave that comes back (an R of 0.1, or 0.05 under one window for
+ * all gauges): 16 periods of a sea that repeats itself after 22. */
+TEST(ends_of_a_sea_are_no_reflection)
+{
+    assert_true(of_sea_to(18.0 + 16.5 * 0.9, 0.0, 0.16, 0.0) < 0.02);
+    assert_close(of_sea_to(18.0 + 16.5 * 0.9, 0.2, 0.16, 0.0), 0.2, 0.01);
 }
 
 /* Before a wall the error of the gauges does not turn the waves round. */
