@@ -174,15 +174,20 @@ static struct room room_at(const struct run *r, const struct sph_params *used, d
     return is;
 }
 
-/* What to do with x, which is beyond the free zone along an axis but not beyond the domain. */
-static const char *zone_remedy(const struct scene_domain *d, const struct room *room, int axis,
+/* What to do with x of body k, which is beyond the free zone along an axis but not beyond the
+ * domain. */
+static const char *zone_remedy(const struct scene *s, int k, const struct room *room, int axis,
                                const double *x)
 {
-    const double image = scene_image_from(d, axis, room->lo[axis], x[axis]);
-    return image != x[axis] && image <= room->hi[axis]
-               ? key_text("sph.box lies in another period: draw it %+g m farther along %c",
-                          image - x[axis], "xyz"[axis])
-               : "only there it is known; keep it 2.5 R from openings, or make sph.box larger";
+    const double image = scene_image_from(&s->domain, axis, room->lo[axis], x[axis]);
+    if (image != x[axis] && image <= room->hi[axis])
+        return key_text("sph.box lies in another period: draw it %+g m farther along %c",
+                        image - x[axis], "xyz"[axis]);
+    if (s->has_fv || scene_body_moves(s->bodies + k))
+        return "only there it is known; keep it 2.5 R from openings, or make sph.box larger";
+    return key_text("only there it is known; keep it 2.5 R from openings, or make it a wall "
+                    "(walls.%s), which openings may cross",
+                    s->domain.dim == 2 ? "points" : "mesh");
 }
 
 /* Whether a corner x of body k is in its room; when: the words for the time. */
@@ -198,7 +203,7 @@ static bool check_room(const struct run *r, const struct room *room, int k, cons
         params_fault(r->params, f, key_text("bodies.[%d]", k), "%s %s %c at %s, %s: %s", name,
                      leaves ? beyond_word(r, a) : "leaves the free zone of the particles across",
                      "xyz"[a], place_of(d->dim, x), when,
-                     leaves ? beyond_remedy(r, k, a) : zone_remedy(d, room, a, x));
+                     leaves ? beyond_remedy(r, k, a) : zone_remedy(&r->scene, k, room, a, x));
         return false;
     }
     return true;
