@@ -1,6 +1,6 @@
 /* volume_feedback.h - volumes slowly follow the room that particles have: a correction of the drift
- * that div u alone leaves in the volumes under a free surface. For schemes without mass flux, with
- * transport tvs and gravity, without zones; otherwise the functions do nothing.
+ * that div u alone leaves in the volumes under a free surface. For transport tvs and gravity, in
+ * violent flow alone with ALE, without zones otherwise; else the functions do nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_VOLUME_FEEDBACK_H
 #define SPH_VOLUME_FEEDBACK_H
@@ -16,7 +16,7 @@ void volume_feedback_find(struct sph *s);
 void volume_feedback_add(struct sph *s);
 /* At the start, after gradients, on all levels: scales volumes, momenta and masses at once of the
  * particles whose support meets a wall, so that what the first particles leave free beside walls is
- * filled and the level stays. Lists must be made again. false: nothing was done. */
+ * filled and the level stays; not with ALE. Lists must be made again. false: nothing was done. */
 bool volume_feedback_fill(struct sph *s);
 
 #endif
