@@ -24,6 +24,10 @@ double wall_level_change(const struct scene_wall *w, double span);
  * steps where the file's lines meet. surge: that change in `span', m; nothing foresees a surge:
  * where the rise changes by two thirds of it the result is 0. */
 double wall_level_rise(const struct scene_wall *w, double span, double surge, double t);
+/* m: by how much the level outside an opening, which leaving waves raised from `given' to `raised',
+ * m over the bed, is less where water falls from a depth inside to it at the mean velocity u, m/s:
+ * critical flow at most then, or that of a torrent, for no wave comes back; g, m/s^2. */
+double openings_fall(double g, double raised, double given, double inside, double u);
 /* Discharge through an opening with has_discharge at time t, s; m^dim/s, >= 0. */
 double wall_discharge(const struct scene_wall *w, double t);
 /* Finds what stands at the start in outflows under a free surface that are given nothing: stands,

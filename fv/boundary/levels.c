@@ -41,20 +41,47 @@ static double velocity_out(const struct fv *s, const struct outflow *o, int64_t 
     return (o->in < 0 ? U : -U) / (s->m ? carried_area(o, i) : 1.0);
 }
 
-/* m/s: mean velocity outwards of the water in each opening. By the projected fluxes, weighted with
- * the wet area. Collective. */
+/* m^2/s^2: p/rho on a face of water at rest under s->gravity.level. */
+static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
+{
+    double x[3];
+    grid_place(&s->grid, o->cell[i], x);
+    for (int q = 0; q < s->dim; q++)
+        x[q] += 0.5 * o->h[i] * o->S[q][i] / carried_area(o, i);
+    return fv_still_pressure(s, x) / s->run->scene.fluid.rho;
+}
+
+/* Of the water in each opening the mean velocity outwards, m/s, by the projected fluxes, weighted
+ * with the wet area, and its height, m, as of a depth that is the same across it. Collective. */
 static void mean_velocities(struct fv *s)
 {
-    double sums[2][LEVEL_GROUPS] = {{0.0}};
+    struct levels *l = s->levels;
+    const double g = weight(s);
+    double sums[3][LEVEL_GROUPS] = {{0.0}};
     LEVELS (s, o)
         for (int64_t i = 0; i < o->n; i++)
             if (o->own[i] && o->share[i] > 0.0) {
                 sums[0][o->side] += o->wet[i] * carried_area(o, i) * velocity_out(s, o, i);
                 sums[1][o->side] += o->wet[i] * carried_area(o, i);
+                sums[2][o->side] += o->wet[i] * carried_area(o, i) * at_rest(s, o, i);
             }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2 * LEVEL_GROUPS, MPI_DOUBLE, MPI_SUM, s->comm);
-    for (int k = 0; k < LEVEL_GROUPS; k++)
-        s->levels->mean[k] = sums[0][k] / fmax(sums[1][k], 1e-300);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3 * LEVEL_GROUPS, MPI_DOUBLE, MPI_SUM, s->comm);
+    for (int k = 0; k < LEVEL_GROUPS; k++) {
+        const double area = fmax(sums[1][k], 1e-300);
+        l->mean[k] = sums[0][k] / area;
+        l->middle[k] = g > 0.0 ? s->gravity.level - sums[2][k] / (area * g) : 0.0;
+    }
+}
+
+/* m: what the level outside falls short of where water falls to it. */
+static double fall_of(const struct fv *s, int k)
+{
+    const struct levels *l = s->levels;
+    const double g = weight(s), c = l->waves[k];
+    if (!(g > 0.0 && c > 0.0))
+        return 0.0;
+    const double inside = c * c / g, given = l->level[k] - (l->middle[k] - 0.5 * inside);
+    return openings_fall(g, given + c / g * (l->mean[k] - l->past[k]), given, inside, l->mean[k]);
 }
 
 /* Levels outside at time t, where they are given. */
@@ -171,16 +198,6 @@ void levels_back(struct fv *s)
         memcpy(s->levels->past, s->levels->kept, sizeof s->levels->past);
 }
 
-/* m^2/s^2: p/rho on a face of water at rest under s->gravity.level. */
-static double at_rest(const struct fv *s, const struct outflow *o, int64_t i)
-{
-    double x[3];
-    grid_place(&s->grid, o->cell[i], x);
-    for (int q = 0; q < s->dim; q++)
-        x[q] += 0.5 * o->h[i] * o->S[q][i] / carried_area(o, i);
-    return fv_still_pressure(s, x) / s->run->scene.fluid.rho;
-}
-
 /* m^2/s^2: what the weight of half a cell makes. */
 static double half_cell(const struct fv *s, int64_t c)
 {
@@ -203,8 +220,9 @@ static double set_on(const struct fv *s, const struct outflow *o, int64_t i)
     const double u = fmin(velocity_out(s, o, i), 0.0), all = fmin(l->mean[k], 0.0);
     if (l->falls[k])
         return -at_rest(s, o, i) - 0.5 * u * u;
-    return g * (l->level[k] - s->gravity.level) + l->waves[k] * (l->mean[k] - l->past[k]) -
-           0.5 * u * u + (l->inlet[k] ? 0.5 * all * all : 0.0);
+    return g * (l->level[k] - l->fall[k] - s->gravity.level) +
+           l->waves[k] * (l->mean[k] - l->past[k]) - 0.5 * u * u +
+           (l->inlet[k] ? 0.5 * all * all : 0.0);
 }
 
 /* Above the level outside there is air: an outflow has no tension there, beyond what the surface
@@ -230,6 +248,8 @@ void levels_set(struct fv *s, double t)
         return;
     set_given(s, t);
     mean_velocities(s);
+    for (int k = 0; k < LEVEL_GROUPS; k++)
+        s->levels->fall[k] = fall_of(s, k);
     LEVELS (s, o)
         for (int64_t i = 0; i < o->n; i++)
             s->levels->p[o->cell[i] - o->in] = pressure_on(s, o, i);

@@ -4,7 +4,8 @@
  * 2014), so that water that runs back brings no more energy than it had. Waves that reach an
  * opening leave: g (eta - L) = c (u - U), c = sqrt(g H), U the mean velocity of the last two
  * transits of the domain. Where L follows a file U goes on with the flow that fills and empties the
- * basin: it would be behind by two transits, and a tide swing too far. Where no water stands
+ * basin: it would be behind by two transits, and a tide swing too far. Where L lies below the
+ * critical depth of what leaves, critical flow at most stands outside. Where no water stands
  * outside, water falls out with p = 0 on the faces. SPDX-License-Identifier: BSD-3-Clause */
 #ifndef FV_LEVELS_H
 #define FV_LEVELS_H
@@ -33,8 +34,10 @@ struct levels {
     double basin[LEVEL_GROUPS]; /* -: of those, plan area of the water that stands as high as in the
                                  * opening, over the area of all openings of given level */
     double mean[LEVEL_GROUPS];  /* m/s: velocity outwards of its water now */
-    double past[LEVEL_GROUPS];  /* m/s: U */
-    double kept[LEVEL_GROUPS];  /* m/s: U when a step began that may be taken back */
+    double middle[LEVEL_GROUPS]; /* m: height of the middle of its water */
+    double fall[LEVEL_GROUPS];   /* m: see openings_fall */
+    double past[LEVEL_GROUPS];   /* m/s: U */
+    double kept[LEVEL_GROUPS];   /* m/s: U when a step began that may be taken back */
 };
 
 /* Makes s->levels; before the sides are made, which list their cells. */

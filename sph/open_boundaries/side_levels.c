@@ -233,20 +233,6 @@ static double filling(const struct sph *s, const struct side_levels *l, const st
             wall_level_rise(of->is, of->tide, of->surge, s->t - dt));
 }
 
-/* m: level outside, at most that of critical flow, or that inside of a torrent, where water falls
- * to a level below: no wave comes back from there, and what left was held by a mean velocity of two
- * transits, which are many times longer near critical flow. Behind a gate, 0.12 m^2/s out to 0.06
- * m, critical depth 0.114 m, the tail water stood 0.14 m high for ten seconds and longer. Whole
- * where the discharge at the given depth would have Froude number 1.25 and more. */
-static double falls_critically(const struct side_levels *l, const struct side_water *of)
-{
-    const double inside = of->inside - of->bed, depth = of->given - of->bed;
-    const double q = fmax(0.0, of->mean * inside), critical = cbrt(q * q / l->g);
-    const double Fr = depth > 0.0 ? pow(critical / depth, 1.5) : critical > 0.0 ? INFINITY : 0.0;
-    const double share = fmax(0.0, fmin(4.0 * (Fr - 1.0), 1.0));
-    return of->level - share * fmax(0.0, of->level - of->bed - fmin(critical, inside));
-}
-
 /* Where a level is given: the wave that leaves raises it. */
 static void let_waves_out(const struct sph *s, const struct side_levels *l, struct side_water *of,
                           int side, double basin, double dt)
@@ -256,7 +242,8 @@ static void let_waves_out(const struct sph *s, const struct side_levels *l, stru
     const double T = transits * (s->hi[side / 2] - s->lo[side / 2]) / (c * (1.0 - Fr * Fr));
     of->past += (of->mean - of->past) * -expm1(-dt / T) + filling(s, l, of, basin, dt);
     of->level = of->given + c / l->g * (of->mean - of->past);
-    of->level = falls_critically(l, of);
+    of->level -= openings_fall(l->g, of->level - of->bed, of->given - of->bed, of->inside - of->bed,
+                               of->mean);
 }
 
 /* m/s: into the domain, of an opening whose velocity or discharge is given, through an area. */

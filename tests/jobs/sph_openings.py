@@ -2,7 +2,7 @@
 comes in and goes out, a bore has the height of its jump relations, water at rest between two levels rests.
 SPDX-License-Identifier: BSD-3-Clause"""
 import lib
-from lib import alone, bad, below, close, column, number, near, refused, says, start, told
+from lib import alone, bad, close, column, number, near, refused, says, start, told
 
 lib.scratch()
 
@@ -76,20 +76,6 @@ output:  { snapshots = false; };
 ''')
 told('torrent', 'x_min: 2.5 m/s, faster than its waves')
 close('torrent: level', mean('torrent', 'middle', 1, 1.6), 0.1, 0.004)
-
-# out of a channel that filled behind its outlet water falls to a level below critical depth, which rules there (it stood a
-# sixth higher: 1.19 times that depth a third of a metre before the brink, now 1.08)
-alone('sph', 'brink', '''format = 1;
-time:    { end = 4; };
-fluid:   { gravity = (0, -9.81); };
-domain:  { max = (2, 0.3); };
-walls:   ( { side = "x_min"; kind = "inflow"; discharge = 0.126; }, { side = "x_max"; kind = "outflow"; level = 0.06; }, { side = "y_min"; } );
-shapes:  ( { form = "below"; level = 0.14; } );
-probes:  ( { name = "end"; kind = "level"; at = (1.7, 0); }, { name = "flow"; kind = "discharge"; at = (1.4, 0); to = (1.4, 0.3); } );
-sph:     { dx = 0.02; };
-output:  { snapshots = false; };
-''')
-below('brink: level over critical depth', mean('brink', 'end', 2.5, 4) / (mean('brink', 'flow', 2.5, 4)**2 / 9.81)**(1 / 3), 1.1)
 
 # over a sill of three rows behind it the level falls by no more than the velocity head over it, all of which may be lost:
 # what walls take by sound (twice that where corners felt it whole) stays small at 115 times the stream, too
