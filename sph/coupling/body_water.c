@@ -25,12 +25,29 @@ static bool is_below_level(const struct sph *s, const double *x)
     return false;
 }
 
+/* Whether bodies or this rank's part of the region, lo to hi, m, are not where they were when
+ * points were found last. The start's b->searched is no region: its part is empty. */
+static bool has_moved(const struct sph *s, struct body_water *b, const double *lo, const double *hi)
+{
+    double now[3][3];
+    memcpy(now[0], s->lo, sizeof now[0]);
+    memcpy(now[1], lo, sizeof now[1]);
+    memcpy(now[2], hi, sizeof now[2]);
+    bool moved = memcmp(now, b->searched, sizeof now) != 0;
+    for (int k = 0; k < s->walls->nbodies; k++)
+        moved |= s->walls->bodies[k].moves;
+    memcpy(b->searched, now, sizeof now);
+    return moved;
+}
+
 void body_water_find(const struct sph *s, struct body_water *b)
 {
     const struct zones *z = s->zones;
     int first[3] = {0, 0, 0}, end[3] = {1, 1, 1}, all[3] = {1, 1, 1}, i[3];
     double lo[3], hi[3], x[3] = {0.0, 0.0, 0.0};
     domain_bounds(s->domain, lo, hi);
+    if (!has_moved(s, b, lo, hi))
+        return;
     for (int a = 0; a < s->dim; a++) {
         all[a] = (int)ceil((s->hi[a] - s->lo[a]) / s->dx - 0.5);
         first[a] = (int)ceil((fmax(lo[a], s->lo[a]) - s->lo[a]) / s->dx - 0.5);
