@@ -9,6 +9,7 @@
 #include "../../common/files/files.h"
 #include "../grid/fv_grid.h"
 #include "../surface/fv_surface.h"
+#include "moved_box.h"
 
 /* width: velocity, pressure, and phi with a surface. */
 struct course *course_create(const struct fv *s, struct patch *p, int memory)
@@ -170,14 +171,30 @@ void course_start(struct fv *s, struct course *c, double before)
     }
 }
 
+/* Whether FV tries the first coupling step of a flow from rest as if it were alone: the imposed
+ * cells have no past then that tells how they go on, but FV has in them all that the partner starts
+ * with. Blocks are cut there, and a surface is the partner's. */
+static bool is_alone(const struct fv *s, const struct course *c)
+{
+    return c->levels == 1 && s->forcing && !s->m && !s->surface &&
+           !scene_shapes_move(&s->run->scene);
+}
+
 /* A trial that fails says nothing of the true window: then the past must do. The state, the sides
  * and the clock are put back afterwards; totals and watches do not count in it (step.predicts). */
 void course_try(struct fv *s, struct course *c, double t1)
 {
     struct diagnosis d = {0};
+    struct forcing *const imposed = s->forcing;
+    const bool alone = is_alone(s, c);
     if (c->linear)
         return;
     kept_take(c->kept, s);
+    if (alone) {
+        static const double no_box[2][3] = {{0.0}};
+        s->forcing = forcing_create(s, 1, &no_box, false); /* of sides and blocked boxes */
+        moved_box_renew(s);
+    }
     s->step.predicts = true;
     while (s->t < t1 && !d.bad)
         integrate(s, t1, &d);
@@ -190,6 +207,11 @@ void course_try(struct fv *s, struct course *c, double t1)
                  c->t[0], t1, d.reason);
     c->failed = c->failed || d.bad;
     s->step.predicts = false;
+    if (alone) {
+        FREE(s->forcing);
+        s->forcing = imposed;
+        moved_box_renew(s);
+    }
     kept_put_back(c->kept, s);
     sides_time(s, s->t); /* those of the start again */
 }

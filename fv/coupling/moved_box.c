@@ -170,8 +170,7 @@ static struct forcing *cut_anew(struct fv *s, const double (*box)[2][3], char wh
     return to;
 }
 
-/* The matrix and bounds of the viscous terms belong to the old cells. */
-static void renew_pressure(struct fv *s)
+void moved_box_renew(struct fv *s)
 {
     viscous_solver_renew(s);
     DROP(s->poisson);
@@ -234,7 +233,7 @@ bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256])
     if (s->surface)
         carry_surface(s, s->surface->forced);
     if (s->m || !s->surface)
-        renew_pressure(s);
+        moved_box_renew(s);
     if (s->surface) {
         surface_interface_moved(s, before);
         return true;

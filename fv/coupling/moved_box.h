@@ -12,5 +12,7 @@ void moved_box_prepare(struct fv *s, const double (*box)[2][3]);
 /* Forces the cells of these n boxes instead of those before; false: they are the same. why: gets
  * what is wrong with that place, "": nothing. Collective. */
 bool moved_box(struct fv *s, int n, const double (*box)[2][3], char why[256]);
+/* The matrix and the bounds of the viscous terms, for s->forcing as it is. Collective. */
+void moved_box_renew(struct fv *s);
 
 #endif

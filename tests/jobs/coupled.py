@@ -208,8 +208,8 @@ job('couette', varied(channel, 'gravity = (0.8, 0)', 'gravity = (0, 0)', 'poiseu
 for folder in 'poiseuille', 'couette':
     error_below(folder, 0.005)
 
-# in the first coupling step fv knows no past of what sph gives it: at open sides across the channel it holds back what starts from rest
-# (1.3 % where those steps are as long as the flow allows)
+# in the first coupling step fv knows no past of what sph gives it: it would hold back at open sides across the channel what starts from
+# rest (1.3 %), did it not try that step alone
 job('at_wall', channel, 'time.end=0.2 sph.box=((0.1,0),(0.9,0.6)) sph.dx=0.02')
 error_below('at_wall', 0.005)
 
