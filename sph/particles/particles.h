@@ -16,9 +16,11 @@ enum sph_zone { ZONE_FREE, ZONE_TRANSITION, ZONE_BUFFER };
 /* Bits of a particle's role where there are levels (refinement/refinement.h): it is a guard, whose
  * fields are interpolated from particles that flow; it is a parent, i.e. has created children; it
  * is a guard too far from the flow for its slopes to count; its level does not fill its support,
- * or, of what flows, guards do; it flows within R of the surface; it is a guard to be removed. From
- * bit ROLE_SOURCE on: the finer of a guard's two source levels. Restart files hold these bits: see
- * `meaning' in struct program. */
+ * or, of what flows, guards do; it flows within R of the surface; it is a guard to be removed. Four
+ * bits from ROLE_SOURCE on: the finer of a guard's two source levels. Four from ROLE_CORNER on:
+ * where among its parent's children it was created, which is 8 + the bits of the axes along which
+ * it stands on the upper side; 0: elsewhere. Restart files hold these bits: see `meaning' in struct
+ * program. */
 enum sph_role {
     ROLE_GUARD = 1,
     ROLE_PARENT = 2,
@@ -26,7 +28,8 @@ enum sph_role {
     ROLE_EDGE = 8,
     ROLE_SURFACE = 16,
     ROLE_SURPLUS = 32,
-    ROLE_SOURCE = 6
+    ROLE_SOURCE = 6,
+    ROLE_CORNER = 10
 };
 enum { PRIM = 8, PULL = 4 }; /* doubles of a line of prim, of pull */
 /* Where the false divergence (time/damper.h) is: in 2D in a line of prim, in 3D in one of slope. */

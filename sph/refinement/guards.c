@@ -97,7 +97,7 @@ static void find(struct sph *s)
     g->nfiner = upto[0];
     g->nshallow = upto[1];
     for (int k = 0; k < g->n; k++)
-        g->source[k] = (unsigned char)(s->p.role[g->who[k]] >> ROLE_SOURCE);
+        g->source[k] = (unsigned char)(s->p.role[g->who[k]] >> ROLE_SOURCE & 15);
 }
 
 /* How many guards from k on have the same sources and lie together, as those of a cell do; lo, hi:

@@ -48,7 +48,7 @@ static inline int guards_role(const struct sph *s, int i)
 /* Whether particle i is a guard because a coarser level than its own flows there. */
 static inline bool guards_is_outside(const struct sph *s, int i)
 {
-    return particles_is_guard(&s->p, i) && s->p.role[i] >> ROLE_SOURCE == s->level;
+    return particles_is_guard(&s->p, i) && (s->p.role[i] >> ROLE_SOURCE & 15) == s->level;
 }
 
 /* The empty list of one level; freed by FREE. */

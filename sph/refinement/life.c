@@ -1,8 +1,9 @@
 /* life.c - creation, removal and roles of the particles of all levels (Chiron 2017, 5.3). A
  * particle that enters the region of the next level gets 2^D children of half its spacing, of equal
  * mass, at +-1/4 of it, with its fields and their slopes [5.20-5.22]; it stays as a guard, and no
- * link is kept. What leaves its region is removed. Roles follow from positions alone; creation and
- * removal have a hysteresis of half the coarser spacing, so that none is created to be removed.
+ * link is kept but that a child knows its corner. What leaves its region is removed, children where
+ * their parent leaves. Roles follow from positions alone; creation and removal have a hysteresis of
+ * half the coarser spacing, so that none is created to be removed.
  *
  * refinement_adapt runs at the end of a step, level by level from the coarsest: children of one
  * level are there when the next is looked at. Then refinement_restore_mass restores the mass of the
@@ -218,7 +219,8 @@ static void give_birth(struct sph *s, int i)
         if (h > 0.0 && h < reach)
             heed_walls(s, x, h, way, d);
         const int child = refinement_child(s, s->finer, i, d);
-        s->finer->p.role[child] = ROLE_GUARD; /* until it gets its role */
+        s->finer->p.role[child] = /* until it gets its role */
+            (unsigned short)(ROLE_GUARD | (8 | k) << ROLE_CORNER);
     }
     s->p.role[i] |= ROLE_PARENT;
 }
@@ -235,19 +237,33 @@ static void enter(struct sph *s, const double *next)
             s->p.role[i] &= (unsigned short)~ROLE_PARENT;
 }
 
-/* Whether it leaves its region, or is one guard too many, which does not come to flow now. */
-static bool is_removed(const struct sph *s, double depth, int i)
+/* The depth, m, at which the parent of particle i stands if they have not parted since: children
+ * leave together, and when their parent may get new ones. Each by its own depth, one that turns
+ * back at an edge would lack some and have others twice. */
+static double depth_of_parent(const struct regions *g, const struct sph *s, double depth, int i)
 {
-    return depth < -2.0 * hysteresis * s->dx ||
+    const int corner = s->p.role[i] >> ROLE_CORNER;
+    double x[3] = {0.0};
+    if (!corner || depth > s->dx)
+        return depth;
+    for (int a = 0; a < s->dim; a++)
+        x[a] = state_row(&s->p, s->p.y, i)[a] - (corner >> a & 1 ? 0.5 : -0.5) * s->dx;
+    return regions_distance(g, s->level, x);
+}
+
+/* Whether it leaves its region, or is one guard too many, which does not come to flow now. */
+static bool is_removed(const struct regions *g, const struct sph *s, double depth, int i)
+{
+    return depth_of_parent(g, s, depth, i) < -2.0 * hysteresis * s->dx ||
            ((s->p.role[i] & ROLE_SURPLUS) != 0 && depth < 2.0 * s->R);
 }
 
 /* Removes particles that have left their region and surplus guards; the last one fills the place,
  * distances with it. */
-static void leave(struct sph *s, struct depths *is)
+static void leave(const struct regions *g, struct sph *s, struct depths *is)
 {
     for (int i = 0; i < s->p.n;)
-        if (is_removed(s, is->own[i], i)) {
+        if (is_removed(g, s, is->own[i], i)) {
             particles_copy(&s->p, i, --s->p.n);
             is->own[i] = is->own[s->p.n];
             if (is->next)
@@ -270,7 +286,7 @@ static void book_energy(struct sph *s, double gained)
  * its step. */
 static void give_roles(const struct regions *g, struct sph *s, const struct depths *is, bool held)
 {
-    const int kept = ROLE_PARENT | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0);
+    const int kept = ROLE_PARENT | ROLE_SURFACE | (held ? ROLE_SURPLUS : 0) | 15 << ROLE_CORNER;
     double woken = 0.0, kinetic;
     for (int i = 0; i < s->p.n; i++) {
         const int before = s->p.role[i];
@@ -315,7 +331,7 @@ static double adapt_level(struct refinement *r, struct sph *s, bool held)
     if (s->finer)
         enter(s, is.next);
     if (is.own)
-        leave(s, &is);
+        leave(g, s, &is);
     give_roles(g, s, &is, held);
     const double mass = mass_of_level(s, &is, r->momentum);
     s->lists.ready = false;
