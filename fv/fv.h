@@ -211,7 +211,8 @@ struct fv {
     struct fv_output *output;
 };
 
-enum { FV_RESTART_FIELDS = 40 }; /* of what a step starts from (time/fv_keep.c), at most */
+/* Of what a step starts from (time/fv_keep.c), at most: fields and single numbers. */
+enum { FV_RESTART_FIELDS = 40, FV_RESTART_NUMBERS = 48 };
 
 /* Rows of all cells of this rank: c is the place of a row's first cell, len its length. */
 #define FLOW_ROWS(s, c, len) FLOW_ROWS_AT (s, its_part_##c, its_row_##c, c, len)

@@ -47,7 +47,6 @@ struct fraction {
     double *passed[3];
     double passed_time; /* s: since then; -1: shares did not carry all of the water */
     double was_read;    /* 1: gauges have been read, so that the next step counts anew */
-    double passed_before, read_before; /* both, at the start of a step */
     int64_t nair;
     struct air_cell *air;
     unsigned char *smooth; /* 1: phi resolves the surface here */
@@ -55,8 +54,7 @@ struct fraction {
     double carries; /* 1: phi follows the shares; 0: the water is calm, and they follow phi */
     double calm;    /* steps since the water became calm */
     struct sweep_axes axes;
-    double first;        /* axis of the next sweep */
-    double first_before; /* at the start of a step */
+    double first; /* axis of the next sweep */
     /* m^dim: moved to neighbours, as cells were fuller than full or less than empty. */
     double moved;
     double entered; /* m^dim: through openings, of the last advance; over all ranks */

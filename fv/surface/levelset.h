@@ -63,12 +63,13 @@ struct surface {
     /* Not 0: cells that hold nothing, i.e. `closed', or on blocks `out' of mesh_view.h;
      * borrowed. */
     const unsigned char *none;
-    struct surface_mesh *mesh;         /* NULL: even cells or layers of unequal height */
-    double *phi, *phi_new, *rate;      /* m, m, m/s */
-    double *kept;                      /* scratch of reinit */
-    unsigned char *bent;               /* uniform cells: surface_note_bends; NULL: others */
-    double *before[FV_RESTART_FIELDS]; /* at the start of a step: surface_keep_state */
-    int (*near_before)[2];             /* the cells near water that it is of; NULL: all */
+    struct surface_mesh *mesh;    /* NULL: even cells or layers of unequal height */
+    double *phi, *phi_new, *rate; /* m, m, m/s */
+    double *kept;                 /* scratch of reinit */
+    unsigned char *bent;          /* uniform cells: surface_note_bends; NULL: others */
+    /* At the start of a step: surface_keep_state. */
+    double *before[FV_RESTART_FIELDS], numbers_before[FV_RESTART_NUMBERS];
+    int (*near_before)[2]; /* the cells near water that it is of; NULL: all */
     /* Implicit steps: phi at half time, while phi is that at the end of the step. */
     double *half;
     double travelled_before;
@@ -92,17 +93,17 @@ struct surface {
     /* m^dim: volume to be conserved, including what has come in through openings; net volume that
      * the shifts have restored. */
     double volume0, returned;
-    double lost, gained;      /* m^dim: parts of returned: restored losses, removed surplus */
-    double passed;            /* m^dim: through openings and a partner's interface, in and out */
-    double whole;             /* m^dim: water of all programs of a coupled job at the start */
-    double entered;           /* m^dim: through openings, in less out */
-    double carried_in;        /* m^dim: the same of the first half of a step, by the shares */
-    double through[3];        /* m^dim/s: at the start of a step, see flows() */
-    double calm, calm_before; /* steps: surface_note_calm; at the start of a step */
-    double travelled;         /* -: cells that it has moved since the last reinitialisation */
-    double least, largest;    /* m: sizes of cells */
-    struct band *band;        /* scratch of reinit.c, owned */
-    bool keeps;               /* slopes of phi behind inclined walls stay as they are */
+    double lost, gained;   /* m^dim: parts of returned: restored losses, removed surplus */
+    double passed;         /* m^dim: through openings and a partner's interface, in and out */
+    double whole;          /* m^dim: water of all programs of a coupled job at the start */
+    double entered;        /* m^dim: through openings, in less out */
+    double carried_in;     /* m^dim: the same of the first half of a step, by the shares */
+    double through[3];     /* m^dim/s: at the start of a step, see flows() */
+    double calm;           /* steps: surface_note_calm */
+    double travelled;      /* -: cells that it has moved since the last reinitialisation */
+    double least, largest; /* m: sizes of cells */
+    struct band *band;     /* scratch of reinit.c, owned */
+    bool keeps;            /* slopes of phi behind inclined walls stay as they are */
     bool inclined[MESH_BLOCKS_MAX]; /* a part: index lines are neither level nor upright */
     bool any_inclined;              /* those of some block */
     double across;          /* m: least spacing of cells across gravity, of 45 degrees and less */

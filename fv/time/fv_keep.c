@@ -118,6 +118,13 @@ static void add_surface(struct kept_numbers *to, struct surface *f)
     }
 }
 
+int fv_surface_numbers(struct surface *f, struct kept_number *of)
+{
+    struct kept_numbers all = {.is = of};
+    add_surface(&all, f);
+    return all.n;
+}
+
 static void add_openings(struct kept_numbers *to, struct levels *l)
 {
     static const char *const names[LEVEL_GROUPS] = {

@@ -33,10 +33,11 @@ struct kept_number {
     int64_t *count;
     bool *flag;
 };
-enum { FV_RESTART_NUMBERS = 48 };
 /* Lists all of them as far as this run has them, and returns their number. Restart files and copies
  * of the state hold the same list, so that neither forgets one. */
 int fv_restart_numbers(struct fv *s, struct kept_number *of);
+/* The same of the surface's alone. */
+int fv_surface_numbers(struct surface *f, struct kept_number *of);
 /* The value of one of them, whatever its type. */
 double kept_number_get(const struct kept_number *x);
 /* Sets it in the state. */

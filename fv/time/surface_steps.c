@@ -396,6 +396,18 @@ void surface_second_half(struct fv *s, double dt)
     surface_sample(s);
 }
 
+/* What is counted and summed up, too: before a step, or `back' after one that is taken back. */
+static void keep_numbers(struct surface *f, bool back)
+{
+    struct kept_number numbers[FV_RESTART_NUMBERS];
+    const int n = fv_surface_numbers(f, numbers);
+    for (int k = 0; k < n; k++)
+        if (back)
+            kept_number_set(numbers + k, f->numbers_before[k]);
+        else
+            f->numbers_before[k] = kept_number_get(numbers + k);
+}
+
 void surface_keep_state(struct fv *s)
 {
     double *f[FV_RESTART_FIELDS];
@@ -408,14 +420,9 @@ void surface_keep_state(struct fv *s)
     }
     near_water_keep(s);
     s->surface->travelled_before = s->surface->travelled;
-    s->surface->calm_before = s->surface->calm;
+    keep_numbers(s->surface, false);
     levels_keep(s);
     outflow_keep_budget(s);
-    if (s->surface->fraction) {
-        s->surface->fraction->first_before = s->surface->fraction->first;
-        s->surface->fraction->passed_before = s->surface->fraction->passed_time;
-        s->surface->fraction->read_before = s->surface->fraction->was_read;
-    }
 }
 
 void surface_back(struct fv *s)
@@ -429,14 +436,8 @@ void surface_back(struct fv *s)
     fraction_forget_flows(s);
     outflow_restore(s);
     outflow_budget_back(s);
-    s->surface->travelled = s->surface->travelled_before;
-    s->surface->calm = s->surface->calm_before;
+    keep_numbers(s->surface, true);
     levels_back(s);
-    if (s->surface->fraction) {
-        s->surface->fraction->first = s->surface->fraction->first_before;
-        s->surface->fraction->passed_time = s->surface->fraction->passed_before;
-        s->surface->fraction->was_read = s->surface->fraction->read_before;
-    }
     if (s->moving) {
         moving_back(s);
         surface_mesh_update(s);
