@@ -28,6 +28,22 @@ double block_sample_phi(const struct fv *s, const struct block_samples *of, int 
 /* Whether what FV computes stays where it is. */
 bool mesh_stays(const struct fv *s);
 
+/* block_flow.c: what crosses the section of a discharge gauge, by faces of this rank's cells. */
+struct face_weight {
+    int64_t cell;
+    double weight[3][2]; /* -: of its lower and upper face along each index */
+};
+struct face_weights {
+    bool is_made;
+    int n;
+    struct face_weight *of;
+};
+/* Sum of the volumes that cross faces, flow (of lower faces along each index), as far as the
+ * section of gauge number so and so parts them: this rank's share. For blocks that stay where they
+ * are and do not overlap. */
+double block_flow(const struct fv *s, int gauge, const struct scene_probe *g,
+                  double *const flow[3]);
+
 /* mesh_errors.c: lines of --check and the banner about the blocks: cells, ranks, overlaps. Makes
  * the mesh and leaves it for the run (mesh_leave). */
 void mesh_describe(const struct run *r, const struct fv_params *prm);

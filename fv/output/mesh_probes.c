@@ -163,7 +163,7 @@ static void point_of(const struct fv *s, const double *x, int nq, double *const 
 }
 
 /* The samples are summed over ranks here, so that only rank 0 returns the result. */
-static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
+static double sampled_discharge(struct fv *s, int gauge, const struct scene_probe *g)
 {
     struct flow_samples f = flow_samples_create(s, g);
     const struct block_samples *of = block_samples_of(s, gauge, f.n, f.x);
@@ -178,6 +178,21 @@ static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
     const double sum = flow_samples_sum(&f, s->dim);
     flow_samples_free(&f);
     return s->m->rank == 0 ? sum : 0.0; /* all know it */
+}
+
+/* As on uniform cells (even_probes.c): by faces where cells keep their share of water, and without
+ * a surface where blocks meet round corners; one block without is smooth. */
+static double discharge_of(struct fv *s, int gauge, const struct scene_probe *g)
+{
+    struct fraction *f = s->surface ? s->surface->fraction : NULL;
+    const bool stays = !s->m->moves && !s->m->has_fringe && !s->m->has_given;
+    if (f)
+        f->was_read = 1.0;
+    if (f && f->passed[0] && f->passed_time > 0.0)
+        return block_flow(s, gauge, g, f->passed) / f->passed_time;
+    if (stays && !s->surface && s->m->nblocks > 1 && s->step.dt > 0.0)
+        return block_flow(s, gauge, g, s->U);
+    return sampled_discharge(s, gauge, g);
 }
 
 static double level_of(struct fv *s, int gauge, const double *x)

@@ -9,6 +9,7 @@
 struct fv_output {
     struct overset *search;        /* blocks: of the gauges; NULL: none */
     struct block_samples *samples; /* blocks: of each gauge of a level or discharge */
+    struct face_weights *faces;    /* blocks: of each gauge of a discharge */
     int nhistory;
     double (*history)[3]; /* blocks: s, N: t, force x, force y of each row of the series */
     int64_t begun;        /* step of the run that this process began with */

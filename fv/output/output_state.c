@@ -13,6 +13,7 @@ struct fv_output *output_create(const struct fv *s)
     if (s->m && s->run->scene.nprobes > 0) {
         o->search = mem_own(o, overset_search(s->run, s->m));
         o->samples = NEW_IN(o, struct block_samples, s->run->scene.nprobes);
+        o->faces = NEW_IN(o, struct face_weights, s->run->scene.nprobes);
     }
     return o;
 }

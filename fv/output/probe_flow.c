@@ -12,15 +12,10 @@
 
 enum { ALONG_LINE = 400, ALONG_SIDE = 100 };
 
-/* Where the parts of a section end along one of its tangents, m from where it starts. */
-struct ends {
-    int n; /* parts */
-    double *end;
-};
-
 /* A sample for each pair of parts along the section's tangents; across is its unit normal. */
-static struct flow_samples create(int dim, const struct scene_probe *g,
-                                  const struct probe_section *c, const struct ends *of)
+struct flow_samples flow_samples_between(int dim, const struct scene_probe *g,
+                                         const struct probe_section *c,
+                                         const struct flow_ends of[2])
 {
     const int second = c->n > 1 ? of[1].n : 1;
     struct flow_samples f = {.n = of[0].n * second};
@@ -48,13 +43,13 @@ struct flow_samples flow_samples_create(const struct fv *s, const struct scene_p
 {
     const struct probe_section c = probe_section_of(g, s->dim);
     double end[2][ALONG_LINE + 1];
-    struct ends of[2];
+    struct flow_ends of[2];
     for (int k = 0; k < c.n; k++) {
-        of[k] = (struct ends){s->dim == 2 ? ALONG_LINE : ALONG_SIDE, end[k]};
+        of[k] = (struct flow_ends){s->dim == 2 ? ALONG_LINE : ALONG_SIDE, end[k]};
         for (int i = 0; i <= of[k].n; i++)
             end[k][i] = c.length[k] * i / of[k].n;
     }
-    return create(s->dim, g, &c, of);
+    return flow_samples_between(s->dim, g, &c, of);
 }
 
 static int ascending(const void *a, const void *b)
@@ -77,11 +72,11 @@ static void faces_between(const struct block *b, int a, double low, double high,
 }
 
 /* Along tangent k: where the section goes from cell to cell. */
-static struct ends ends_in_cells(const struct block *b, const struct scene_probe *g,
-                                 const struct probe_section *c, int k)
+static struct flow_ends ends_in_cells(const struct block *b, const struct scene_probe *g,
+                                      const struct probe_section *c, int k)
 {
     const double length = c->length[k];
-    struct ends e = {1, NEW(double, 2)};
+    struct flow_ends e = {1, NEW(double, 2)};
     e.end[1] = length;
     for (int a = 0; a < b->dim; a++) {
         const double along = c->along[k][a], to = g->at[a] + along * length;
@@ -104,10 +99,10 @@ static struct ends ends_in_cells(const struct block *b, const struct scene_probe
 struct flow_samples flow_samples_of_cells(const struct fv *s, const struct scene_probe *g)
 {
     const struct probe_section c = probe_section_of(g, s->dim);
-    struct ends of[2] = {{0, NULL}, {0, NULL}};
+    struct flow_ends of[2] = {{0, NULL}, {0, NULL}};
     for (int k = 0; k < c.n; k++)
         of[k] = ends_in_cells(&s->b, g, &c, k);
-    const struct flow_samples f = create(s->dim, g, &c, of);
+    const struct flow_samples f = flow_samples_between(s->dim, g, &c, of);
     FREE(of[0].end, of[1].end);
     return f;
 }

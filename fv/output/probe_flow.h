@@ -15,6 +15,15 @@ struct flow_samples {
     double *area; /* m^(dim-1): of each sample */
     double step;  /* m: largest distance of two */
 };
+/* Where the parts of a section end along one of its tangents, m from where it starts, ascending. */
+struct flow_ends {
+    int n;       /* parts */
+    double *end; /* [n + 1] */
+};
+/* The parts between these ends along each tangent of the section c. */
+struct flow_samples flow_samples_between(int dim, const struct scene_probe *g,
+                                         const struct probe_section *c,
+                                         const struct flow_ends of[2]);
 /* Equal parts. */
 struct flow_samples flow_samples_create(const struct fv *s, const struct scene_probe *g);
 /* Uniform cells and layers: what lies of the section in each cell is one, so that sums of what

@@ -189,7 +189,7 @@ static bool has_boxes(const struct fv *s)
 void fraction_start(struct fv *s)
 {
     s->surface->fraction = mem_own(s->surface, create(s));
-    for (int a = 0; a < s->dim && !s->m && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
+    for (int a = 0; a < s->dim && !s->moving && probe_any(&s->run->scene, PROBE_DISCHARGE); a++)
         s->surface->fraction->passed[a] = NEW_IN(s->surface->fraction, double, s->size);
     s->surface->fraction->was_read = 1.0;
     s->surface->fraction->boxes = has_boxes(s);
@@ -499,8 +499,10 @@ static void sweep(struct fv *s, int a, double dt)
     grid_clear_near(&s->grid, f->flux); /* beside cells near water, too */
     find_fluxes(s, a, dt);
     outflow_count_volumes(s, f->axes.axis[a], f->flux);
-    for (int64_t i = 0; f->passed[a] && i < s->size; i++)
-        f->passed[a][i] += f->flux[i];
+    for (const struct part *p = s->grid.part; f->passed[0] && p < s->grid.part + s->grid.nparts;
+         p++)
+        for (int64_t i = p->base; i < p->base + p->size; i++)
+            f->passed[axis_of(s, p, a)][i] += f->flux[i];
     FLOW_NEAR_AT (s, part, j, c, n) {
         const int along = axis_of(s, part, a);
         const int64_t d = part->stride[along];

@@ -43,7 +43,7 @@ struct fraction {
     double *area[3]; /* m^(dim-1): volume over height; NULL: U is a volume already */
     double *flux, *work, *next;
     /* m^dim: water through the lower faces since gauges were read last; NULL without gauges, and on
-     * blocks, whose gauges read the flow at one time. */
+     * blocks that move, whose gauges read the flow at one time. */
     double *passed[3];
     double passed_time; /* s: since then; -1: shares did not carry all of the water */
     double was_read;    /* 1: gauges have been read, so that the next step counts anew */

@@ -1,13 +1,14 @@
 /* test_fv_gauges.c - gauges of velocity and discharge read averages of a cubic exactly, up to walls
  * and boxes and under a surface, whatever stands in the air; on a stretched block they are of
- * fourth order; sections through faces have what crosses the cells; levels are heights against
- * gravity. ranks: 1 2.
- * SPDX-License-Identifier: BSD-3-Clause */
+ * fourth order; sections through faces, on blocks, too, have what crosses the cells; levels are
+ * heights against gravity. ranks: 1 2. SPDX-License-Identifier: BSD-3-Clause */
 #include "../test.h"
 
 #include "../../../fv/output/probe_flow.h"
+#include "../../../fv/surface/fraction.h"
+#include "../../../fv/surface/mesh_view.h"
 #include "fv_bc_case.h"
-#include "mesh_case.h"
+#include "surface_blocks.h"
 
 #define REST "initial.field=\"rest\"", "domain.periodic=(true,false,false)"
 
@@ -237,6 +238,64 @@ static double stretched_error(int n)
         most = fmax(most, fabs(values[2 * k] - y[k]));
     mesh_case_end(&c, &s);
     return most;
+}
+
+/* Water that falls into a block whose indices are turned: a gauge there, not at faces of cells, has
+ * passed what stands behind it by the shares of cells. */
+TEST(sections_through_turned_blocks)
+{
+    const struct scene_shape water = {.form = SHAPE_BOX, .box = {{0.0, 0.0}, {0.4, 0.4}}};
+    const double at = 0.66, h = 0.025;
+    struct mesh_case c;
+    double rate, behind = 0.0;
+    mesh_case_read(
+        &c, MPI_COMM_WORLD,
+        "{ name = \"l\"; max = (0.5, 0.7); cells = (20, 28); i_max = \"joined\"; "
+        "i_min = \"slip\"; " SLIP_J
+        "}, { name = \"r\"; min = (0.4, 0.1); max = (1.1, 0.6); cells = (28, 20); "
+        "angle = 90.0; centre = (0.75, 0.35); j_max = \"joined\"; j_min = \"slip\"; " SLIP_I "}",
+        (const char *const[]){HEAVY, "initial.field=\"rest\"", "fluid.nu=0", NULL});
+    c.run.scene.shapes[c.run.scene.nshapes++] = water;
+    c.run.scene.probes[c.run.scene.nprobes++] =
+        (struct scene_probe){.kind = PROBE_DISCHARGE, .at = {at, 0.0, 0.0}, .to = {at, 0.7, 0.0}};
+    struct fv *s = mesh_case_create(&c, NULL);
+    assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.15 : 0.4));
+    fv_probe(s, &rate);
+    FLOW_ROWS (s, row, n)
+        for (int64_t i = row; i < row + n; i++) {
+            const double beyond = s->surface->mesh->x[0][i] + 0.5 * h - at;
+            behind += s->surface->fraction->C[i] * h * fmin(fmax(beyond, 0.0), h);
+        }
+    behind = ranks_sum(MPI_COMM_WORLD, behind);
+    print_message("turned: %.7g m^2 behind a gauge that passed %.7g\n", behind, rate * s->t);
+    assert_true(behind > 1e-3);
+    assert_close(rate * s->t, behind, 1e-3 * behind);
+    mesh_case_end(&c, &s);
+}
+
+/* Round an inner corner of joined blocks a section has what comes in. */
+TEST(sections_behind_a_corner_of_blocks)
+{
+    struct mesh_case c;
+    double rate;
+    mesh_case_read(
+        &c, MPI_COMM_WORLD,
+        "{ max = (0.5, 0.5); cells = (10, 10); i_min = \"inflow\"; velocity = (1, 0); i_max = "
+        "\"joined\"; j_max = \"joined\"; j_min = \"wall\"; }, { name = \"up\"; min = (0, 0.5); max "
+        "= "
+        "(0.5, 1); cells = (10, 10); i_min = \"inflow\"; velocity = (1, 0); i_max = \"slip\"; "
+        "j_min = "
+        "\"joined\"; j_max = \"wall\"; }, { name = \"throat\"; min = (0.5, 0); max = (1, 0.5); "
+        "cells = (10, 10); i_min = \"joined\"; i_max = \"outflow\"; j_min = \"wall\"; j_max = "
+        "\"wall\"; }",
+        (const char *const[]){"initial.field=\"rest\"", "fluid.nu=1e-2", NULL});
+    c.run.scene.probes[c.run.scene.nprobes++] = (struct scene_probe){
+        .kind = PROBE_DISCHARGE, .at = {0.53, 0.0, 0.0}, .to = {0.57, 0.5, 0.0}};
+    struct fv *s = mesh_case_create(&c, NULL);
+    assert_true(mesh_case_run(s, 10, 100.0));
+    fv_probe(s, &rate);
+    assert_close(rate, 1.0, 1e-4);
+    mesh_case_end(&c, &s);
 }
 
 TEST(stretched_blocks)
