@@ -36,6 +36,8 @@ void mesh_bc_level(const struct fv *s, bool keep, double *phi);
 void mesh_bc_extend(const struct fv *s, double *q);
 /* Ghosts of the pressure: the given one on outflows, elsewhere as the last. */
 void mesh_bc_pressure(const struct fv *s, double *p);
+/* The same of a pressure that is all of psi: as psi's in the last projection. */
+void mesh_bc_whole_pressure(const struct fv *s, double *p);
 
 /* mesh_side_fluxes.c: flow through sides. Sets U of faces whose velocity is given. */
 void mesh_bc_fluxes(const struct fv *s, double *const U[3]);

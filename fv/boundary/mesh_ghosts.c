@@ -59,15 +59,17 @@ void mesh_bc_slope_ghosts(const struct fv *s, double tau, double *psi)
 {
     const struct mesh *m = s->m;
     for (int k = 0; k < s->sides->n; k++) {
-        const struct side *d = s->sides->side + k;
+        struct side *d = s->sides->side + k;
         if (!side_accelerates(s, d))
             continue;
+        if (!d->rise)
+            d->rise = NEW_IN(s->sides, double, d->width *(d->n[1] + 2 * d->g[1]));
         SIDE_PLACES (d, 1, i, j, at, c) {
             /* a cell's way across the wall, by its volume */
             const double S2 = mesh_area2(m, d->a, c + d->face), step = m->V[c] / S2;
-            const double rise = gain(s, d, at, c) * step * (d->k % 2 ? -1.0 : 1.0) / tau;
+            d->rise[at] = gain(s, d, at, c) * step * (d->k % 2 ? -1.0 : 1.0) / tau;
             for (int l = 1; l <= MESH_GHOSTS; l++)
-                psi[c - l * d->in] += (2 * l - 1) * rise;
+                psi[c - l * d->in] += (2 * l - 1) * d->rise[at];
         }
     }
 }
@@ -132,6 +134,22 @@ void mesh_bc_even(const struct fv *s, bool odd, double *q)
             ghosts_mirrored(q + c, d->in, odd && d->kind == MESH_OUTFLOW ? -1.0 : 1.0, 0.0);
             (void)at;
         }
+    }
+}
+
+/* As the last projection had psi, which is all of the pressure with a surface: by the quadratic of
+ * three cells the force of an impact was 20 % larger than what the water lost. A start that is
+ * projected leaves no pressure. */
+void mesh_bc_whole_pressure(const struct fv *s, double *p)
+{
+    mesh_bc_even(s, true, p);
+    for (int k = 0; k < s->sides->n; k++) {
+        const struct side *d = s->sides->side + k;
+        if (!d->rise || !(s->step.dt > 0.0))
+            continue;
+        SIDE_PLACES (d, 1, i, j, at, c)
+            for (int l = 1; l <= MESH_GHOSTS; l++)
+                p[c - l * d->in] += (2 * l - 1) * d->rise[at];
     }
 }
 

@@ -28,6 +28,8 @@ struct side {
     double *grad_xi[2][3];   /* 1/m: of the tangents' indices on the face */
     double *once;            /* -: share of each face that counts once; NULL: all */
     double *tilt;            /* m: slope outwards, a cell, of a level set; NULL: there is none */
+    double *rise;            /* m^2/s^2: by how much p/rho rose outwards over the cell, as the wall
+                              * accelerates, in the last projection; NULL: nothing */
     double *turn;            /* m^dim/s: what the flux across it gains in a stage as water follows a
                               * wall that bends or turns; NULL: nothing */
 };

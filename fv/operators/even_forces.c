@@ -5,11 +5,12 @@
 #include "face_share.h"
 #include "operators.h"
 
-/* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are those of
- * the quadratic behind a no-slip wall, mirrored behind a slip wall (forcing_fixes.c). */
-static double wall_pressure(const double p[3], bool slip)
+/* Pressure on a wall beside the cells p[0] to p[2], as the gradient has it: its ghosts are mirrored
+ * behind a slip wall, and under a surface (face_share.h), else those of the quadratic
+ * (forcing_fixes.c). */
+static double wall_pressure(const double p[3], bool mirrors)
 {
-    return slip ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
+    return mirrors ? (7.0 * p[0] - p[1]) / 6.0 : (11.0 * p[0] - 7.0 * p[1] + 2.0 * p[2]) / 6.0;
 }
 
 /* 12 h times the slope of component q along `in', i.e. inwards, in the cell beside a wall; ghosts
@@ -74,7 +75,7 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
     const struct block *b = &s->b;
     const int64_t c = f->cell, in = f->in;
     const double out = f->side % 2 ? 1.0 : -1.0, mu = s->run->scene.fluid.rho * s->nu;
-    const bool slip = f->kind == MESH_SLIP;
+    const bool mirrors = f->kind == MESH_SLIP || face_mirrors_pressure(s);
     double p[3], xi[3] = {0.5, 0.5, 0.5}, edge[3] = {0.5, 0.5, 0.5};
     int at[3];
     bool deep = true;
@@ -91,7 +92,7 @@ void even_face_force(const struct fv *s, const struct side_face *f, double sum[4
     for (int n = 0; n < 3; n++)
         p[n] = fv_pressure(s, deep ? c + n * in : c);
     sum[f->a] +=
-        out * area * (wall_pressure(p, slip) + still_at(s, f, at, xi) + s->partners.pressure);
+        out * area * (wall_pressure(p, mirrors) + still_at(s, f, at, xi) + s->partners.pressure);
     for (int q = 0; q < b->dim; q++)
         sum[q] += area * mu / (12.0 * block_size(b, f->a, at[f->a])) * slope_at(s, q, f);
     side_friction_force(s, f, share, sum);

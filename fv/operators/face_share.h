@@ -12,6 +12,10 @@ static inline bool face_is_dry(const struct fv *s, int64_t c)
     return s->surface && s->surface->layer[c] != 0;
 }
 
+/* Whether what walls take of the flow is a pressure that is mirrored there, as psi is, which is all
+ * of it with a surface; else p is extrapolated. */
+static inline bool face_mirrors_pressure(const struct fv *s) { return s->surface && !s->newton; }
+
 /* Share of a face across axis a where phi < 0, straight between its ends: phi is `middle' in its
  * centre and changes by slope[t] over the face along t. xi: middle of that share, edge: where it
  * ends, both in [0, 1] of the face's cell and left alone along a. Exact along the tangent that

@@ -7,6 +7,7 @@
 
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
+#include "face_share.h"
 #include "flow_measures.h"
 #include "flow_ops.h"
 
@@ -26,7 +27,7 @@ static void pressure_ghosts(struct fv *s)
     double *both[2] = {s->p, s->p_before};
     grid_fill(&s->grid, 2, both); /* a rank may have three rows */
     for (int k = 0; k < 2 && s->sides; k++)
-        mesh_bc_pressure(s, both[k]);
+        (face_mirrors_pressure(s) ? mesh_bc_whole_pressure : mesh_bc_pressure)(s, both[k]);
 }
 
 struct forces {
