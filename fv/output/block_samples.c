@@ -8,13 +8,28 @@
 #include "../boundary/fv_boundary.h"
 #include "../surface/fv_surface.h"
 #include "output.h"
+#include "probe_flow.h"
 
 enum { MOST = 64 }; /* cells of a place */
 
+/* Places between straight walls at rest of a block and the centres beside them, in cells: as far
+ * beyond these as linear weights must reach for the pressure to level off there. */
+static void level_off(const struct mesh_block *b, int dim, const int *cell, double *xi)
+{
+    for (int a = 0; a < dim; a++) {
+        const bool up = xi[a] > 0.5;
+        const double from = up ? 1.0 - xi[a] : xi[a], to = 0.5 + probe_weight_at_wall(from);
+        if (cell[a] == (up ? b->n[a] - 1 : 0) && side_is_wall(b->side[2 * a + up]) && !b->motion &&
+            (b->prm->mapping == MAPPING_BOX || b->prm->mapping == MAPPING_STRETCHED))
+            xi[a] = up ? 1.0 - to : to;
+    }
+}
+
 /* This rank's cells and weights of the value at x; wanted: width of the stencil, 0: 4 cells, or 2
- * where these are not computed. Returns their number, 0 if no block has x. */
+ * where these are not computed; levels: before walls as level_off says. Returns their number, 0 if
+ * no block has x. */
 static int stencil_at(const struct fv *s, const struct overset *o, const double *x, int wanted,
-                      int64_t *cells, double *weights)
+                      bool levels, int64_t *cells, double *weights)
 {
     const struct mesh *m = s->m;
     double finest = INFINITY;
@@ -24,6 +39,8 @@ static int stencil_at(const struct fv *s, const struct overset *o, const double 
         double xi[3], w[MOST];
         if (!overset_locate(m, o, k, x, cell, xi))
             continue;
+        if (levels)
+            level_off(m->block + k, m->dim, cell, xi);
         const double v = m->block[k].volume[mesh_cell(m->block + k, cell)];
         bool good = v < finest && overset_weights(m, k, cell, xi, 1, width, from, w);
         if (!good && wanted == 0) {
@@ -83,7 +100,7 @@ double mesh_value_at(const struct fv *s, const struct overset *o, const double *
 {
     int64_t cells[MOST];
     double weights[MOST];
-    const int n = stencil_at(s, o, x, wanted, cells, weights);
+    const int n = stencil_at(s, o, x, wanted, s->surface && !q, cells, weights);
     return sum_of(s, n, cells, weights, q);
 }
 
@@ -92,7 +109,7 @@ double mesh_phi_at(const struct fv *s, const struct overset *o, const double *x)
 {
     int64_t cells[MOST];
     double weights[MOST];
-    const int n = stencil_at(s, o, x, 2, cells, weights);
+    const int n = stencil_at(s, o, x, 2, false, cells, weights);
     return phi_of(s, n, cells, weights, x);
 }
 
@@ -111,7 +128,7 @@ const struct block_samples *block_samples_of(struct fv *s, int gauge, int n, dou
         ROOM_IN(s->output, of->cell, used + MOST);
         ROOM_IN(s->output, of->weight, used + MOST);
         of->first[k] = used;
-        used += stencil_at(s, s->output->search, x[k], s->surface ? 2 : 0, of->cell + used,
+        used += stencil_at(s, s->output->search, x[k], s->surface ? 2 : 0, false, of->cell + used,
                            of->weight + used);
     }
     of->first[n] = used;

@@ -127,14 +127,29 @@ static double linear(const struct fv *s, const double *q, const int *i, const do
     return sum;
 }
 
-/* Pressure under a surface is linear: it may have kinks where water hits. */
+/* Whether x lies between a wall, of the domain or a box, and the centre beside it along axis a. */
+static bool is_at_wall(const struct fv *s, int a, const int *i, const double *w)
+{
+    const bool up = w[a] > 1.0;
+    const int cell = s->b.lo[a] + i[a] + up;
+    if (w[a] >= 0.0 && !up)
+        return false;
+    return cell != (up ? s->b.cells[a] - 1 : 0) || side_is_wall(s->bc->kind[2 * a + up]);
+}
+
+/* Pressure under a surface is linear: it may have kinks where water hits. Before a wall it levels
+ * off (probe_weight_at_wall). */
 static double value_of(const struct fv *s, const double *q, const double *x, const int *i,
                        const double *w)
 {
-    double value;
+    double value, weight[3] = {w[0], w[1], w[2]};
     if ((q || !s->surface) && even_value(s, q, x, i, w, &value))
         return value;
-    return linear(s, q, i, w);
+    for (int a = 0; a < s->dim && !q; a++)
+        if (s->surface && is_at_wall(s, a, i, w))
+            weight[a] = w[a] < 0.0 ? probe_weight_at_wall(0.5 + w[a])
+                                   : 1.0 - probe_weight_at_wall(1.5 - w[a]);
+    return linear(s, q, i, weight);
 }
 
 /* Whether water is at a place of this rank. */

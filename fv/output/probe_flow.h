@@ -33,6 +33,16 @@ void flow_samples_free(struct flow_samples *f);
 /* m^dim/s: of samples that are filled. */
 double flow_samples_sum(const struct flow_samples *f, int dim);
 
+/* Of the second cell before a wall in the pressure at a place between the wall and the centre of
+ * the first, so many cells from the wall: that of the parabola without a slope there, as the
+ * pressure beyond that of water at rest has none at a wall at rest. Straight on from two cells
+ * impacts were too hard. */
+static inline double probe_weight_at_wall(double x)
+{
+    const double from = x > 0.0 ? x : 0.0;
+    return 0.5 * (from * from - 0.25);
+}
+
 /* How gauges read on a kind of cells: this rank's shares, which add up; gauge: its number. */
 struct probe_reader {
     /* Values of nq fields at x, NULL: the pressure, and then a number below 0 where water is. */

@@ -125,6 +125,56 @@ TEST(between_water_and_air)
     }
 }
 
+/* Pressure that levels off at a wall, p = 1000 + 70 (x/h)^2 above hydrostatic, is read so between
+ * the wall and the first centre. */
+static void reads_the_parabola(struct fv *s, const double *place, const double *value)
+{
+    const double rho = s->run->scene.fluid.rho, h = 1.0 / 8.0;
+    for (int64_t c = 0; c < s->size; c++) {
+        double x[3];
+        grid_place(&s->grid, c, x);
+        s->p[c] = s->p_before[c] = (1000.0 + 70.0 * x[0] * x[0] / (h * h)) / rho;
+    }
+    double values[3];
+    fv_probe(s, values);
+    for (int k = 0; k < 3; k++)
+        assert_close(values[k], value[k] + fv_still_pressure(s, (double[]){place[k], 0.2, 0}),
+                     1e-9);
+}
+
+TEST(pressure_at_walls_under_a_surface)
+{
+    const double place[3] = {0.0, 0.3 / 8.0, 1.0 / 8.0},
+                 value[3] = {1000.0, 1000.0 + 70.0 * 0.09, 1000.0 + 70.0 * 1.25};
+    const struct scene_shape water = {.form = SHAPE_BELOW, .level = 0.6};
+    for (int blocks = 0; blocks < 2; blocks++) {
+        struct fv_case c;
+        struct mesh_case m;
+        if (blocks)
+            mesh_case_read(&m, MPI_COMM_WORLD,
+                           "{ max = (1, 1); cells = (8, 16); " SLIP_I SLIP_J "}",
+                           (const char *const[]){HEAVY, "initial.field=\"rest\"", NULL});
+        else
+            fv_case_set(&c, MPI_COMM_WORLD,
+                        (const char *const[]){"initial.field=\"rest\"", "fv.surface=\"yes\"",
+                                              "domain.periodic=(false,false,false)", HEAVY,
+                                              "fv.cells=(8,16)", NULL});
+        for (int k = SIDE_X_MIN; k <= SIDE_Y_MAX && !blocks; k++)
+            wall_add(&c, k, WALL_SLIP, 0.0);
+        struct scene *scene = blocks ? &m.run.scene : &c.run.scene;
+        scene->shapes[scene->nshapes++] = water;
+        for (int k = 0; k < 3; k++)
+            scene->probes[scene->nprobes++] =
+                (struct scene_probe){.kind = PROBE_PRESSURE, .at = {place[k], 0.2, 0}};
+        struct fv *s = blocks ? mesh_case_create(&m, NULL) : fv_case_start(&c, NULL);
+        reads_the_parabola(s, place, value);
+        if (blocks)
+            mesh_case_end(&m, &s);
+        else
+            fv_free(&c.s);
+    }
+}
+
 /* A stream function at corners of cells with a period of eight, then within cells as fluxes have it
  * that are linear between faces. */
 static double corner(int i, int j) { return sin(3.0 * ((i % 8 + 8) % 8) + 5.0 * j) + 0.1 * j * j; }
