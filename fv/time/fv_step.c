@@ -171,10 +171,19 @@ void pressure_start(struct fv *s)
     s->totals.iterations = s->totals.viscous_iterations = 0;
 }
 
-/* Walls that move give velocities later. */
+/* Whether shapes give the water velocities, with which no pressure is known. */
+static bool shapes_move(const struct scene *c)
+{
+    bool any = false;
+    for (int k = 0; k < c->nshapes; k++)
+        any = any || vec3_dot(c->shapes[k].velocity, c->shapes[k].velocity) > 0.0;
+    return any;
+}
+
+/* Fields that flow bring their pressure. Walls that move give velocities later. */
 void pressure_meet_surface(struct fv *s)
 {
-    if (!s->surface || s->moving || fv_fastest(s) > 0.0)
+    if (!s->surface || s->moving || (fv_fastest(s) > 0.0 && !shapes_move(&s->run->scene)))
         return;
     levels_keep(s);
     pressure_start(s);

@@ -11,8 +11,9 @@ bool projection_step(struct fv *s, double dt);
 /* fv_step.c: finds the pressure that goes with the velocities of the start, by short steps from the
  * same state. */
 void pressure_start(struct fv *s);
-/* Water at rest is not in balance where its surface is not level: sets p of the start to that which
- * sets it in motion. Nothing for water that moves already. Collective. */
+/* Water at rest is not in balance where its surface is not level, nor what shapes have set in
+ * motion: sets p of the start to that which goes with its acceleration. Nothing for other water
+ * that moves already. Collective. */
 void pressure_meet_surface(struct fv *s);
 /* fv_step.c: under a surface, what pushes the water at once, walls that begin to move, an inflow,
  * velocities of shapes, has done so: makes the velocities those that it leaves. */

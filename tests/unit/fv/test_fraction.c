@@ -213,6 +213,26 @@ TEST(steps_taken_back_restore_what_is_near)
     fv_free(&c.s);
 }
 
+/* Water that falls freely has no pressure from the start on, though it moves already (that of water
+ * at rest in it, at first). */
+TEST(water_that_falls_has_no_pressure)
+{
+    const struct scene_shape block = {
+        .form = SHAPE_BOX, .box = {{0.8, 0.4, 0}, {1.2, 0.7, 0}}, .velocity = {0.0, -1.0, 0.0}};
+    struct fv_case c;
+    struct fv *s = start_falling(&c, "domain.max=(2,1)", "fv.cells=(48,24)", &block);
+    double most = 0.0, x[3];
+    BLOCK_CELLS (&s->b, i, j, k, at)
+        if (s->surface->layer[at] == 0) {
+            block_centre(&s->b, i, j, k, x);
+            most = fmax(most, fabs(fv_pressure(s, at) + fv_still_pressure(s, x)));
+        }
+    most = ranks_max(s->comm, most) / (s->run->scene.fluid.rho * 9.81 * 0.3);
+    print_message("falling: pressure %.2g of that at rest\n", most);
+    assert_true(most < 0.01);
+    fv_free(&c.s);
+}
+
 /* Some steps; NULL, or why the run stopped. */
 static const char *odd(const struct scene_shape *shape, int steps)
 {
