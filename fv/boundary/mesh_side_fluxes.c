@@ -23,7 +23,7 @@ void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, doubl
 {
     for (int k = 0; k < s->sides->n; k++) {
         const struct side *d = s->sides->side + k;
-        if (d->p != p || d->a == a || !d->slides)
+        if (d->p != p || d->a == a || !(d->slides || (s->surface && d->kind == MESH_WALL)))
             continue;
         for (int j = 0; j < d->n[1] + (d->t[1] == a); j++)
             for (int i = 0; i < d->n[0] + (d->t[0] == a); i++) {

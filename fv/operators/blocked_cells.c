@@ -93,6 +93,14 @@ static double product(const struct beside_box *x, const double *U, const double 
     return (V[in] - blocked_ghost(V, in, 1, of_U)) * (g[in] - blocked_ghost(g, in, 1, of_f)) - was;
 }
 
+/* The rule of products beside a box: under a surface one-sided behind faces without slip, as
+ * convection_beside_walls. */
+static enum blocked_ghost product_rule(const struct fv *s, int box, int q, int t)
+{
+    const enum blocked_ghost rule = blocked_rule(s, box, q, t);
+    return s->surface && rule == GHOST_NO_SLIP ? GHOST_LINEAR : rule;
+}
+
 /* First the products along the tangents t, then the fluxes through the boxes' own faces, which are
  * 0 but for air that comes in. */
 void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const double *face,
@@ -104,7 +112,7 @@ void blocked_fluxes(const struct fv *s, int q, int a, const double *U, const dou
         for (int64_t k = 0; k < w->nbeside[a][t]; k++) {
             const struct beside_box *x = w->beside[a][t] + k;
             F[x->face] +=
-                product(x, U, face, blocked_rule(s, x->box, a, t), blocked_rule(s, x->box, q, t)) /
+                product(x, U, face, product_rule(s, x->box, a, t), product_rule(s, x->box, q, t)) /
                 48.0;
         }
     for (int64_t k = 0; k < w->nnear[a]; k++) {

@@ -8,7 +8,9 @@
  * there With layers of unequal height the face values along y have weights of their own (rows.h);
  * products and bias stay as they are: heights that vary smoothly change them by O(h^2) of a small
  * term. Beside a wall that slides the differences along t are one-sided: its ghosts over fluid at
- * rest are 4 V, and their product, V^2/3, is a flux of momentum that the cells cannot hold.
+ * rest are 4 V, and their product, V^2/3, is a flux of momentum that the cells cannot hold. So they
+ * are under a surface beside any wall without slip: a third of the momentum of the cells beside it
+ * would run ahead of a front that is thinner than the wall's layer, and into the air.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../fv.h"
 
@@ -76,7 +78,8 @@ void convection_beside_walls(const struct fv *s, int a, double *f)
     for (int side = 0; s->bc && side < 2 * b->dim; side++) {
         const int t = side / 2;
         int lo[3] = {0, 0, 0}, hi[3];
-        if (t == a || s->bc->n[side] == 0 || !s->bc->slides[side])
+        if (t == a || s->bc->n[side] == 0 ||
+            !(s->bc->slides[side] || (s->surface && s->bc->kind[side] == MESH_WALL)))
             continue;
         for (int q = 0; q < 3; q++)
             hi[q] = b->n[q] + (q == a);

@@ -19,8 +19,8 @@ void convection_face_values(const struct fv *s, const double *q, int a, double *
 /* U = I(u).n on all faces that this rank's stencils see. */
 void convection_face_velocities(struct fv *s, double *const u[3], double *const U[3]);
 
-/* Values on faces along a behind walls that move along themselves, as products along their tangents
- * need them. */
+/* Values on faces along a behind walls that move along themselves, under a surface behind all
+ * without slip, as products along their tangents need them. */
 void convection_beside_walls(const struct fv *s, int a, double *f);
 
 /* viscous.c: out = L q = nu Lap q in the free cells. Ghosts of q must be there. */

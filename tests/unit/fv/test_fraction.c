@@ -213,6 +213,46 @@ TEST(steps_taken_back_restore_what_is_near)
     fv_free(&c.s);
 }
 
+/* A front over a floor without slip, a side or a box, whose layer is thinner than a cell: the water
+ * has the momentum that walls gave it (a tenth of it was lost to the air, and the front slow). */
+TEST(fronts_over_a_floor_without_slip_keep_their_momentum)
+{
+    for (int box = 0; box < 2; box++) {
+        const double low = box ? 0.25 : 0.0, end = SANITIZED ? 0.1 : 0.45;
+        const struct scene_shape column = {.form = SHAPE_BOX,
+                                           .box = {{0, low, 0}, {0.5, low + 0.6, 0}}};
+        struct diagnosis d = {0};
+        double force[2][4], given = 0.0, momentum = 0.0;
+        struct fv_case c;
+        fv_case_set(&c, MPI_COMM_WORLD,
+                    (const char *const[]){SURFACE, "fluid.gravity=(0,-9.81)", "domain.min=(0,0)",
+                                          "domain.max=(2,1)", "fv.cells=(48,24)", "fluid.nu=1e-5",
+                                          NULL});
+        fv_case_close(&c, box ? WALL_SLIP : WALL_NO_SLIP);
+        c.run.scene.shapes[c.run.scene.nshapes++] = column;
+        blocked_given[0] = (struct blocked_params){
+            .name = "floor", .min = {0, 0, 0}, .max = {2, 0.25, 0}, .kind = WALL_NO_SLIP};
+        blocked_given_count = box;
+        struct fv *s = fv_case_start(&c, NULL);
+        flow_forces(s, NULL, force[0]);
+        while (s->t < end && !d.bad) {
+            integrate(s, end, &d);
+            flow_forces(s, NULL, force[1]);
+            given -= 0.5 * s->step.dt * (force[0][0] + force[1][0]);
+            memcpy(force[0], force[1], sizeof force[0]);
+        }
+        FLOW_NEAR (s, at, n)
+            for (int64_t i = at; i < at + n; i++)
+                momentum += is_blocked(s, i) ? 0.0 : s->surface->fraction->C[i] * s->u[0][i];
+        momentum = ranks_sum(s->comm, momentum) * s->run->scene.fluid.rho / (24.0 * 24.0);
+        print_message("front over a %s: momentum %.4g, given %.4g\n", box ? "box" : "side",
+                      momentum, given);
+        assert_close(momentum, given, 0.01 * given);
+        fv_free(&c.s);
+        blocked_given_count = 0;
+    }
+}
+
 /* Water that falls freely has no pressure from the start on, though it moves already (that of water
  * at rest in it, at first). */
 TEST(water_that_falls_has_no_pressure)
