@@ -192,7 +192,7 @@ void course_try(struct fv *s, struct course *c, double t1)
     kept_take(c->kept, s);
     if (alone) {
         static const double no_box[2][3] = {{0.0}};
-        s->forcing = forcing_create(s, 1, &no_box, false); /* of sides and blocked boxes */
+        s->forcing = forcing_create(s, 1, &no_box, false); /* of closed sides */
         moved_box_renew(s);
     }
     s->step.predicts = true;
