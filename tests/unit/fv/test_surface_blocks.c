@@ -8,6 +8,7 @@
 
 #include "../../../fv/operators/flow_measures.h"
 #include "../../../fv/operators/flow_ops.h"
+#include "../../../fv/surface/fraction.h"
 #include "../../../fv/surface/mesh_view.h"
 
 #define SLIP_K "k_min = \"slip\"; k_max = \"slip\"; "
