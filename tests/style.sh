@@ -87,7 +87,7 @@ found=$(ldd "$b/sph" "$b/coupler" | grep -i -E 'hypre|sundials')
 [ -z "$found" ] || bad "sph and coupler link what they do not use: $found"
 cases/parameters "$b" | cmp -s - cases/parameters.md || bad "cases/parameters.md is older than the tables: cases/parameters >cases/parameters.md"
 if command -v clang-format >/dev/null && clang-format --version | grep -q ' 14\.'; then
-    # what the last hundred commits and their heir have touched, with LONG=1, or without git, all
+    # what the last hundred commits have touched and what is not committed yet; with LONG=1, or without git, all
     recent=$([ -n "$LONG" ] || { git diff --name-only HEAD -- '*.[ch]' && git log -100 --name-only --format= -- '*.[ch]'; } 2>/dev/null | sort -u)
     found=$(clang-format --dry-run -Werror $(ls -d ${recent:-$(find sph fv coupler common tests -name '*.[ch]')} 2>/dev/null) 2>&1 | grep error: | head -n 3)
     [ -z "$found" ] || bad "layout, clang-format -i mends it: $found"
