@@ -309,7 +309,7 @@ TEST(sections_through_turned_blocks)
     c.run.scene.probes[c.run.scene.nprobes++] =
         (struct scene_probe){.kind = PROBE_DISCHARGE, .at = {at, 0.0, 0.0}, .to = {at, 0.7, 0.0}};
     struct fv *s = mesh_case_create(&c, NULL);
-    assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.15 : 0.4));
+    assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.3 : 0.4));
     fv_probe(s, &rate);
     FLOW_ROWS (s, row, n)
         for (int64_t i = row; i < row + n; i++) {
