@@ -43,7 +43,7 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
     for (int a = 0; a < s->dim; a++)
         x[a] = to->is.x[a] - 1e-4 * at->R * to->is.n[a];
     to->level = at->level;
-    double share[BODIES_MAX + 1];
+    double share[BODIES_MAX + 1], all_reach = 0.0, pressed = 0.0;
     to->lack = to->room = 1.0 - wall_share(at, body, x);
     for (int k = -1; k < w->nbodies; k++) {
         share[k + 1] = k == body ? 0.0 : wall_share(at, k, x);
@@ -53,6 +53,8 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
         const bool faces = k != body && (walls_sealed(s, body, k) || to->room < open_room);
         const bool seals = faces && (all || k < 0 || k > body);
         to->reached = fmax(to->reached, faces ? share[k + 1] : 0.0);
+        all_reach += faces ? share[k + 1] : 0.0;
+        pressed += seals ? share[k + 1] : 0.0;
         if (!seals)
             to->lack -= share[k + 1];
         if (!seals || !(share[k + 1] > 0.0) || to->nothers == SEAL_OTHERS)
@@ -64,6 +66,8 @@ static bool measure(const struct sph *s, int body, bool all, struct seal_point *
         o->lies_on = r < walls_shut(w, body, k) * at->dx && vec3_dot(out, to->is.n) > flat;
         to->dry = to->dry || o->lies_on;
     }
+    to->part = pressed < all_reach ? pressed / all_reach : 1.0;
+    to->lack -= (1.0 - to->part) * fmax(to->room, 0.0);
     return to->reached > 1e-6;
 }
 
@@ -207,13 +211,14 @@ static struct seep water_at(const struct sph *s, const struct seal_point *p,
 }
 
 /* q is what the point lacks: 2 p (1 - b_y), or where another lies on it p (1 - 2 b_y), less what
- * particles give already; the rest is what the water's weight changes of that (wall_share_weight).
- * Of several others each gives by its share of the kernel, what lies on the point what is left: to
- * a slab of 1 dx on the floor the block on it would else be given the floor's part. */
+ * particles give already, of both the part that no earlier body of a pair presses; the rest is what
+ * the water's weight changes of that (wall_share_weight). Of several others each gives by its share
+ * of the kernel, what lies on the point what is left: to a slab of 1 dx on the floor the block on
+ * it would else be given the floor's part. */
 static void press(struct sph *s, const struct seal_point *p, const struct average_node *d,
                   const struct seep *is)
 {
-    const double q = 2.0 * p->lack * is->p - (p->dry ? is->p : 2.0 * d->said.P);
+    const double q = 2.0 * p->lack * is->p - (p->dry ? is->p : 2.0 * p->part * d->said.P);
     double f[3], back[3], shares = 0.0;
     for (int k = 0; k < p->nothers; k++)
         shares += p->other[k].share;

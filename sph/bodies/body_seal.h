@@ -28,6 +28,7 @@ struct seal_point {
     double far;     /* -: 0 near the rim, 1 far from it */
     double lack;    /* -: the kernel's part that is not behind the body */
     double room;    /* -: of that, the part before both */
+    double part;    /* -: of the room and what is there, what is pressed here */
 };
 
 /* The points of a body, measured where all bodies were `at' the time, m: three material points of

@@ -340,6 +340,15 @@ for name, bodies in ('slit', SLIT), ('slit2', SLIT[::-1]):
     run_case(name, changed(TANK, domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;', bodies=', '.join(bodies)))
     for which, size in ('low', 0.06), ('held', 0.04):
         close('%s, lift of %s' % (name, which), mean(name + '/series.csv', which + ' force y', 0.2), 9810 * size, 0.06)
+# What the room of a slit lacks is pressed once, not by the floor as well: two blocks 0.2 dx apart (67 N/m of the 990 on a side) and
+# one apart rest, within 5 % of what presses on a side.
+for name, gap in ('near', 0.005), ('row', 0.025):
+    run_case(name, changed(TANK, domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
+                           bodies=', '.join('{ name = "%s"; free = true; density = 2000; %s }' % (b, points(x, 0, x + 0.2, 0.2)) for b, x in (('b', 0.4), ('c', 0.6 + gap)))))
+    for b in 'b', 'c':
+        forces = column(name, b + ' force x')[-40:]
+        near('%s: force aside of %s' % (name, b), sum(forces) / len(forces), 0, 15)
+        check(max(forces) - min(forces) < 50, '%s: force aside of %s from %g to %g N/m' % (name, b, min(forces), max(forces)))
 
 # A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
 # round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
