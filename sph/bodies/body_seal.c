@@ -16,6 +16,7 @@
 
 #include "bodies.h"
 #include "body_touch.h"
+#include "seal_openings.h"
 
 static const double enough = 0.5, open_share = 0.02, open_room = 0.1; /* - */
 static const double close_by = 0.1, flat = 0.9995; /* dx; -: faces that lie on each other */
@@ -100,6 +101,7 @@ static void find_far(const struct sph *s, struct seal_point *of, int n)
             }
         of[k].far = fmax(0.0, fmin(sqrt(least) / R - 2.0, 1.0));
     }
+    seal_openings_find(s, of, n);
 }
 
 /* Appends the points of a body that face others with which it is sealed (walls->sealed), of two
@@ -157,6 +159,7 @@ struct seep {
 /* Of the wet surface around: place, weight, water there. */
 struct rim {
     double x[3], area;
+    int opening;
     struct seep is;
 };
 
@@ -168,6 +171,7 @@ static int find_rim(const struct seal_point *of, const struct nodes *at, struct 
         if (of[k].rim)
             rim[n++] = (struct rim){.x = {d->x[0], d->x[1], d->x[2]},
                                     .area = d->area,
+                                    .opening = of[k].opening,
                                     .is = {pressure_at(of + k, d), wetness(of + k, d)}};
     }
     return n;
@@ -175,8 +179,10 @@ static int find_rim(const struct seal_point *of, const struct nodes *at, struct 
 
 /* At rest, with the pressures of the rim, those nearer with more weight; where the rim stands in
  * air there is none. */
-static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int n, const double *x)
+static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int n,
+                                 const struct seal_point *to)
 {
+    const double *x = to->is.x;
     const double near = 0.0625 * s->dx * s->dx, *g = s->gravity;
     struct seep sum = {0.0, 0.0};
     double weight = 0.0;
@@ -184,7 +190,7 @@ static struct seep seep_from_rim(const struct sph *s, const struct rim *rim, int
         const struct rim *r = rim + k;
         const double e[3] = {x[0] - r->x[0], x[1] - r->x[1], s->dim == 3 ? x[2] - r->x[2] : 0.0};
         const double r2 = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + near;
-        const double W = r->area / (s->dim == 3 ? r2 * r2 : r2);
+        const double W = to->from[r->opening] * r->area / (s->dim == 3 ? r2 * r2 : r2);
         const double p = r->is.p + r->is.wet * s->rho0 * (g[0] * e[0] + g[1] * e[1] + g[2] * e[2]);
         sum.p += W * (s->surface ? fmax(p, fmin(r->is.p, 0.0)) : p); /* nothing hangs in the air */
         sum.wet += W * r->is.wet;
@@ -203,7 +209,7 @@ static struct seep water_at(const struct sph *s, const struct seal_point *p,
                  wet = wetness(p, d), dry = 1.0 - own * wet;
     struct seep is = {own * pressure_at(p, d), own * wet};
     if (dry > 0.0 && !p->rim) {
-        const struct seep seeps = seep_from_rim(s, rim, nrim, d->x);
+        const struct seep seeps = seep_from_rim(s, rim, nrim, p);
         is.p += dry * seeps.p;
         is.wet += dry * seeps.wet;
     }

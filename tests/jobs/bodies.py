@@ -342,13 +342,22 @@ for name, bodies in ('slit', SLIT), ('slit2', SLIT[::-1]):
         close('%s, lift of %s' % (name, which), mean(name + '/series.csv', which + ' force y', 0.2), 9810 * size, 0.06)
 # What the room of a slit lacks is pressed once, not by the floor as well: two blocks 0.2 dx apart (67 N/m of the 990 on a side) and
 # one apart rest, within 5 % of what presses on a side.
-for name, gap in ('near', 0.005), ('row', 0.025):
+for name, gap in ('near', 0.005), ('apart', 0.025):
     run_case(name, changed(TANK, domain='max = (1.2, 0.8);', shapes='{ box = ((0, 0), (1.2, 0.6)); }', sph='dx = 0.025;',
                            bodies=', '.join('{ name = "%s"; free = true; density = 2000; %s }' % (b, points(x, 0, x + 0.2, 0.2)) for b, x in (('b', 0.4), ('c', 0.6 + gap)))))
     for b in 'b', 'c':
         forces = column(name, b + ' force x')[-40:]
         near('%s: force aside of %s' % (name, b), sum(forces) / len(forces), 0, 15)
-        check(max(forces) - min(forces) < 50, '%s: force aside of %s from %g to %g N/m' % (name, b, min(forces), max(forces)))
+        check(max(max(forces), -min(forces)) < 50, '%s: force aside of %s from %g to %g N/m' % (name, b, min(forces), max(forces)))
+
+# Water seeps in from its own side of where solids touch. A disc on a floor of two bodies with air below has its lift, 308 N/m (half of
+# it was missing). On the edges of a hole of 0.1 m over air it lacks what would press on its cap below them, p 0.1 m + rho g 0.0009 m^2 =
+# 401 N/m for p at their height, 0.3996 m below the level (twice the force was told); within 8 % of that, for a disc of five spacings.
+for name, hole, y, lift in ('joint', 0.0, 0.4005, 308.2), ('hole', 0.05, 0.387, -92.7):
+    run_case(name, changed(TANK, time='end = 0.4;', domain='max = (0.7, 1);', shapes='{ box = ((0, 0.3), (0.7, 0.7)); }', sph='dx = 0.02;',
+                           bodies='{ box = ((0, 0.22), (%g, 0.3)); }, { box = ((%g, 0.22), (0.7, 0.3)); }, { name = "disc"; free = true; radius = 0.1; '
+                                  'translate = (0.35, %g); density = 1200; }' % (0.35 - hole, 0.35 + hole, y)))
+    near('%s: lift of a disc' % name, mean(name + '/series.csv', 'disc force y', 0.15), lift, 0.08 * 401)
 
 # A block that slides down a dry slope of 30 degrees, friction 0.2: g (sin - 0.2 cos) = 3.206 m/s^2 (1 %). Drawn the other way
 # round the slope lets it fall through, and a contact nearer than it falls within a step is none: both are refused.
