@@ -64,6 +64,13 @@ void bc_slab_ghosts(const struct fv *s, int q, int j, double *u);
 void bc_end_ghosts(const struct fv *s, int q, bool upper, double *u);
 /* Sets U on walls and inflows; outflows are left as they are. */
 void bc_fluxes(const struct fv *s, enum bc_value what, double *const U[3]);
+/* The value one layer behind a wall of what is on faces along it, q the first in the fluid, `in' to
+ * the next: by the cubic through four. Under a surface by the line through two, for what is further
+ * than a layer from water has no values. */
+INLINE double bc_beside_wall(const double *q, int64_t in, bool surface)
+{
+    return surface ? 2.0 * q[0] - q[in] : 4.0 * (q[0] + q[2 * in]) - 6.0 * q[in] - q[3 * in];
+}
 /* Sets U of the first faces along the tangents behind slip sides and outflows, for products of face
  * values. */
 void bc_face_ghosts(const struct fv *s, double *const U[3]);

@@ -18,7 +18,7 @@ void mesh_bc_fluxes(const struct fv *s, double *const U[3])
     }
 }
 
-/* As convection_beside_walls, by the cubic through four faces within the fluid. */
+/* As convection_beside_walls. */
 void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, double *f)
 {
     for (int k = 0; k < s->sides->n; k++) {
@@ -28,7 +28,7 @@ void mesh_bc_beside_walls(const struct fv *s, const struct part *p, int a, doubl
         for (int j = 0; j < d->n[1] + (d->t[1] == a); j++)
             for (int i = 0; i < d->n[0] + (d->t[0] == a); i++) {
                 double *q = f + side_cell(d, i, j);
-                q[-d->in] = 4.0 * (q[0] + q[2 * d->in]) - 6.0 * q[d->in] - q[3 * d->in];
+                q[-d->in] = bc_beside_wall(q, d->in, s->surface);
             }
     }
 }

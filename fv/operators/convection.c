@@ -70,8 +70,8 @@ void convection_face_velocities(struct fv *s, double *const u[3], double *const 
         blocked_face_velocities(s, u, U, false);
 }
 
-/* Faces along `a' behind a wall that slides, by the cubic through four of them within the fluid:
- * (f_t+1 - f_t-1) beside the wall is then third order and knows no jump at it. */
+/* Faces along `a' behind a wall that slides, under a surface behind all without slip:
+ * (f_t+1 - f_t-1) beside the wall then knows no jump at it. */
 void convection_beside_walls(const struct fv *s, int a, double *f)
 {
     const struct block *b = &s->b;
@@ -90,7 +90,7 @@ void convection_beside_walls(const struct fv *s, int a, double *f)
             for (int j = lo[1]; j < hi[1]; j++)
                 for (int i = lo[0]; i < hi[0]; i++) {
                     double *q = f + block_at(b, i, j, k);
-                    q[-in] = 4.0 * (q[0] + q[2 * in]) - 6.0 * q[in] - q[3 * in];
+                    q[-in] = bc_beside_wall(q, in, s->surface);
                 }
     }
 }

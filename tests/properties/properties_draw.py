@@ -65,7 +65,7 @@ class Twins:
         while s.rho * d > 5e4:
             d *= 0.5
         s = copy.copy(s)
-        s.say_U = True
+        s.say_U = s.say_U or s.program != 'sph'  # without it sph's come from the scene
         self.twin('units', scaled(s.case(), l, u, d), by=(l, u, d))
 
     def ranks(self):
