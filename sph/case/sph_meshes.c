@@ -115,12 +115,14 @@ static void check_thin(const struct run *r, const struct scene_mesh *m,
         struct facing is;
         if (!is_seen_through(&r->scene, &e, m, t, reach, &is))
             continue;
-        params_fault(r->params, f, m->key,
-                     "%s is %.3g m thick at triangle %d, (%g, %g, %g) m, with fluid on either "
-                     "side: particles see each other through less than 0.7 sph.R_dx sph.dx = %.3g "
-                     "m. Give it thin = true, or make it thicker%s",
-                     file_of(&r->scene, m), is.width, t + 1, is.from[0], is.from[1], is.from[2],
-                     reach, other_cause(m));
+        params_fault(
+            r->params, f, m->key,
+            "%s is %.3g m thick at triangle %d, (%g, %g, %g) m, with fluid on either "
+            "side: particles see each other through less than 0.7 sph.R_dx sph.dx = %.3g "
+            "m. Take sph.dx = %.2g or less, or make it thicker, or, of a sheet, give it thin "
+            "= true (with it forces on a closed body err near its edges)%s",
+            file_of(&r->scene, m), is.width, t + 1, is.from[0], is.from[1], is.from[2], reach,
+            digits_below(used->dx * is.width / reach, 2), other_cause(m));
         return;
     }
 }
