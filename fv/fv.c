@@ -10,10 +10,6 @@
 #include "time/fv_time.h"
 #include "watch/fv_watch.h"
 
-/* Those of rows, forces and watches at most, blocks and gauges. */
-static const char *columns[40 + 10 * MESH_BLOCKS_MAX + 3 * BLOCKED_MAX + 3 * PROBES_MAX];
-static struct program fv_program; /* its columns depend on the scene */
-
 static void describe_rows(const struct run *r)
 {
     const struct fv_params *prm = fv_params_of(r);
@@ -138,20 +134,7 @@ static void describe(const struct run *r)
 
 static void draw(const struct run *r, struct picture *p) { fv_draw(r, fv_params_of(r), p); }
 
-static void *create(struct run *r, struct h5 *f)
-{
-    int n = fv_columns(r, fv_params_of(r), columns);
-    struct fv *s = fv_create(r, f);
-    n += s ? watches_columns(s->watches, columns + n) : 0;
-    if (r->coupled)
-        columns[n++] = "unmapped cells [-]";
-    if (r->crossed) {
-        columns[n++] = "step of the surface [m]";
-        columns[n++] = "water missing [m^dim]";
-    }
-    fv_program.ncolumns = n;
-    return s;
-}
+static void *create(struct run *r, struct h5 *f) { return fv_create(r, f); }
 
 static void destroy(void *state)
 {
@@ -167,17 +150,16 @@ static double step(void *state, double t_stop, struct diagnosis *d)
     return d->bad ? 0.0 : integrate(s, t_stop, d);
 }
 
-static void row(void *state, double *values)
+static void row(void *state, struct figures *to)
 {
-    fv_row(state, values);
     const struct fv *s = state;
-    const bool crossed = s->run->crossed;
+    fv_row(state, to);
     if (s->link)
-        values[fv_program.ncolumns - (crossed ? 3 : 1)] = coupling_unmapped(s);
-    if (!crossed)
+        FIGURE(to, coupling_unmapped(s), "unmapped cells [-]");
+    if (!s->run->crossed)
         return;
-    values[fv_program.ncolumns - 2] = s->surface->forced->step;
-    values[fv_program.ncolumns - 1] = coupling_water_missing(s);
+    FIGURE(to, s->surface->forced->step, "step of the surface [m]");
+    FIGURE(to, coupling_water_missing(s), "water missing [m^dim]");
 }
 
 static void finish(void *state)
@@ -206,32 +188,32 @@ static int steps_between_rows(const struct run *r)
 
 static const char *const others[] = {"sph", "sph_*", "apr", "coupler", NULL};
 
-static struct program fv_program = {.name = "fv",
-                                    .help = "implicit finite volumes, fourth order, 2D and 3D",
-                                    .meaning = 9,
-                                    .groups = fv_groups,
-                                    .ngroups = FV_GROUPS,
-                                    .other_groups = others,
-                                    .meshes = scene_meshes_read,
-                                    .mesh_owners = 1u << MESH_OF_BODY,
-                                    .complete = fv_scene_complete,
-                                    .check = check,
-                                    .describe = describe,
-                                    .draw = draw,
-                                    .create = create,
-                                    .destroy = destroy,
-                                    .step = step,
-                                    .longest_window = coupling_longest_window,
-                                    .first = coupling_first,
-                                    .window_begin = fv_coupling_window_begin,
-                                    .window_end = fv_coupling_window_end,
-                                    .tell = fv_tell,
-                                    .columns = columns,
-                                    .row = row,
-                                    .steps_between_rows = steps_between_rows,
-                                    .progress = progress,
-                                    .snapshot = fv_snapshot,
-                                    .checkpoint = fv_checkpoint,
-                                    .finish = finish};
+static const struct program fv_program = {.name = "fv",
+                                          .help =
+                                              "implicit finite volumes, fourth order, 2D and 3D",
+                                          .meaning = 9,
+                                          .groups = fv_groups,
+                                          .ngroups = FV_GROUPS,
+                                          .other_groups = others,
+                                          .meshes = scene_meshes_read,
+                                          .mesh_owners = 1u << MESH_OF_BODY,
+                                          .complete = fv_scene_complete,
+                                          .check = check,
+                                          .describe = describe,
+                                          .draw = draw,
+                                          .create = create,
+                                          .destroy = destroy,
+                                          .step = step,
+                                          .longest_window = coupling_longest_window,
+                                          .first = coupling_first,
+                                          .window_begin = fv_coupling_window_begin,
+                                          .window_end = fv_coupling_window_end,
+                                          .tell = fv_tell,
+                                          .row = row,
+                                          .steps_between_rows = steps_between_rows,
+                                          .progress = progress,
+                                          .snapshot = fv_snapshot,
+                                          .checkpoint = fv_checkpoint,
+                                          .finish = finish};
 
 int main(int argc, char **argv) { return run_main(argc, argv, &fv_program, &cpl_partner); }

@@ -16,9 +16,6 @@
 /* What a triangle near a particle costs, in pairs: three stages of integrals, fluxes, forces. */
 static const double PAIRS_OF_TOUCH = 20.0;
 
-static const char *columns[SPH_COLUMNS];
-static struct program sph_program; /* its columns depend on the scene */
-
 /* About how many particles the run will have, of which so large a part of the region is filled. */
 static double lattice(const struct run *r, double part)
 {
@@ -456,24 +453,11 @@ static void draw(const struct run *r, struct picture *p)
     picture_box(p, PICTURE_ZONE, lo, hi, "free zone");
 }
 
-/* Whether the levels on both sides of open sides are compared. */
-static bool has_gap(const struct run *r)
-{
-    const struct sph_params *prm = sph_params_of(r);
-    return r->crossed || wave_outside_wanted(r, prm) || wave_stream_wanted(r, prm);
-}
-
 static void *create(struct run *r, struct h5 *f)
 {
     if (!body_coupling_possible(r))
         return NULL;
     solids_deal(r);
-    int n = sph_columns(r, sph_params_of(r), columns);
-    for (int k = 0; k < OVERLAP_COLUMNS && has_partner_flow(r); k++)
-        columns[n++] = overlap_columns[k];
-    for (int k = 0; k < LEVEL_COLUMNS && has_gap(r); k++)
-        columns[n++] = level_gap_columns[k];
-    sph_program.ncolumns = n;
     struct sph *s = sph_create(r, sph_params_of(r), f);
     if (s && has_partner_flow(r))
         sph_coupling_create(s);
@@ -567,16 +551,14 @@ static void progress(void *state, char *line, int size)
              100.0 * (s->step.rho_min / s->rho0 - 1.0), 100.0 * (s->step.rho_max / s->rho0 - 1.0));
 }
 
-static void row(void *state, double *values)
+static void row(void *state, struct figures *to)
 {
     struct sph *s = state;
-    const int compared = watched(s) ? OVERLAP_COLUMNS : 0,
-              own = sph_program.ncolumns - compared - (gap(s) ? LEVEL_COLUMNS : 0);
-    sph_row(s, values);
+    sph_row(s, to);
     if (watched(s))
-        overlap_row(watched(s), values + own);
+        overlap_row(watched(s), to);
     if (gap(s))
-        level_gap_row(s, values + own + compared);
+        level_gap_row(s, to);
 }
 
 static void finish(void *state)
@@ -599,31 +581,30 @@ static void tell(void *state, struct summary *report)
 
 static const char *const others[] = {"sph", "sph_*", "fv", "blocks", "blocked", "coupler", NULL};
 
-static struct program sph_program = {.name = "sph",
-                                     .help = "weakly compressible SPH, 2D and 3D",
-                                     .meaning = 14,
-                                     .groups = sph_groups,
-                                     .ngroups = SPH_GROUPS,
-                                     .other_groups = others,
-                                     .meshes = sph_meshes_read,
-                                     .mesh_owners = MESH_OF_ALL,
-                                     .complete = complete,
-                                     .check = check,
-                                     .describe = describe,
-                                     .draw = draw,
-                                     .offer = offer,
-                                     .create = create,
-                                     .destroy = mem_free,
-                                     .step = step,
-                                     .longest_window = longest_window,
-                                     .window_begin = window_begin,
-                                     .window_end = window_end,
-                                     .tell = tell,
-                                     .columns = columns,
-                                     .row = row,
-                                     .progress = progress,
-                                     .snapshot = sph_snapshot,
-                                     .checkpoint = sph_checkpoint,
-                                     .finish = finish};
+static const struct program sph_program = {.name = "sph",
+                                           .help = "weakly compressible SPH, 2D and 3D",
+                                           .meaning = 14,
+                                           .groups = sph_groups,
+                                           .ngroups = SPH_GROUPS,
+                                           .other_groups = others,
+                                           .meshes = sph_meshes_read,
+                                           .mesh_owners = MESH_OF_ALL,
+                                           .complete = complete,
+                                           .check = check,
+                                           .describe = describe,
+                                           .draw = draw,
+                                           .offer = offer,
+                                           .create = create,
+                                           .destroy = mem_free,
+                                           .step = step,
+                                           .longest_window = longest_window,
+                                           .window_begin = window_begin,
+                                           .window_end = window_end,
+                                           .tell = tell,
+                                           .row = row,
+                                           .progress = progress,
+                                           .snapshot = sph_snapshot,
+                                           .checkpoint = sph_checkpoint,
+                                           .finish = finish};
 
 int main(int argc, char **argv) { return run_main(argc, argv, &sph_program, &cpl_partner); }

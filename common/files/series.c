@@ -4,8 +4,26 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "series.h"
 
+#include <stdarg.h>
+
 #include "../base/base.h"
 #include "disk.h"
+
+void figures_add(struct figures *r, double v, const char *title, ...)
+{
+    char text[512];
+    va_list args;
+    va_start(args, title);
+    if (r->measures) {
+        ROOM_IN(r, r->value, r->n + 1);
+        r->value[r->n++] = v;
+    } else {
+        ROOM_IN(r, r->title, r->n + 1);
+        vsnprintf(text, sizeof text, title, args);
+        r->title[r->n++] = strcpy(NEW_IN(r, char, strlen(text) + 1), text);
+    }
+    va_end(args);
+}
 
 struct series {
     FILE *file; /* NULL on the ranks that do not write */

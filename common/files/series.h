@@ -7,6 +7,20 @@
 
 #include <stdbool.h>
 
+/* A row as a program makes it, column after column: the titles once, before the first row, then the
+ * values of each row. Made by NEW, freed by FREE. */
+struct figures {
+    bool measures; /* false: titles alone are asked for, and nothing is measured */
+    int n;         /* of columns so far; 0 begins anew */
+    double *value;
+    const char **title;
+};
+/* FIGURE(row, value, "NAME [UNIT]", ...) adds a column of this title, as of printf; the expression
+ * of its value is evaluated only where values are asked for. */
+#define FIGURE(row, v, ...) figures_add(row, (row)->measures ? (v) : 0.0, __VA_ARGS__)
+void figures_add(struct figures *r, double v, const char *title, ...)
+    __attribute__((format(printf, 3, 4)));
+
 /* an open series.csv: made by series_create; FREE closes it */
 struct series;
 /* Opens the file and writes its header from columns[ncolumns], "t [s]", "dt [s]", ...; units of

@@ -102,11 +102,9 @@ struct program {
     /* Coupled: adds to `report' sums over this program's part of the flow at the end of a coupling
      * step, as "sum.kinetic"; the coupler adds them up over the programs. NULL: none. */
     void (*tell)(void *s, struct summary *report);
-    /* Columns of series.csv beyond "t [s]" and "dt [s]"; row writes their ncolumns values on rank
-     * 0. */
-    const char *const *columns;
-    int ncolumns;
-    void (*row)(void *s, double *values);
+    /* Adds the columns of series.csv beyond "t [s]" and "dt [s]", the same in each row; rank 0's
+     * count. NULL: there are none. */
+    void (*row)(void *s, struct figures *to);
     /* Steps between two rows where the case does not say; NULL: 10. */
     int (*steps_between_rows)(const struct run *r);
     /* Text of the progress line without t and %: "dt 0.75 ms (sound)  Ma 0.062 ...". Rank 0's

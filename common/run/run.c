@@ -17,7 +17,7 @@
 #include "run_files.h"
 #include "wave_gauges.h"
 
-enum { GROUPS_MAX = SCENE_GROUPS + 8, COLUMNS_MAX = 256 };
+enum { GROUPS_MAX = SCENE_GROUPS + 8 };
 
 /* A run with what only this file needs. */
 struct life {
@@ -30,6 +30,7 @@ struct life {
     struct params *params;
     struct run_files files;
     struct series *series;
+    struct figures *row;
     void *s;
     int64_t window;      /* of the restart file */
     double began, wall0; /* s: wall time at the start of the program, of the time loop */
@@ -236,18 +237,26 @@ static void start_files(struct life *l)
     files_view(r);
 }
 
+/* Time and step first; the program's columns follow. */
+static void fill_row(struct life *l)
+{
+    l->row->n = 0;
+    FIGURE(l->row, l->r.t, "t [s]");
+    FIGURE(l->row, l->r.dt, "dt [s]");
+    if (l->p->row)
+        l->p->row(l->s, l->row);
+}
+
 /* r->t is 0 or the restart file's time: rows and snapshots behind it are dropped, the snapshot at
  * it is kept (hence 1 + 1e-9 in xdmf_create, which leaves out entries at its time and later). */
 static void start_series(struct life *l)
 {
     struct run *r = &l->r;
-    const char *columns[COLUMNS_MAX] = {"t [s]", "dt [s]"};
     char path[1400];
-    for (int k = 0; k < l->p->ncolumns; k++)
-        columns[k + 2] = l->p->columns[k];
     files_path(r, "series.csv", path, sizeof path);
-    l->series = mem_own(l, series_create(r->rank == 0 ? path : NULL, r->scene.domain.dim,
-                                         l->p->ncolumns + 2, columns, r->restart, r->t));
+    l->series = mem_own(l, series_create(r->rank == 0 ? path : NULL, r->scene.domain.dim, l->row->n,
+                                         l->row->title, r->restart, r->t));
+    l->row->measures = true;
     snprintf(path, sizeof path, "%s/%s.xdmf", r->dir, r->name);
     if (r->rank == 0)
         l->files.xdmf = mem_own(l, xdmf_create(path, r->restart, r->t * (1.0 + 1e-9)));
@@ -255,14 +264,11 @@ static void start_series(struct life *l)
 
 /* --- while it runs --- */
 
-/* Time and step first; the program's numbers follow. */
 static void write_row(struct life *l)
 {
-    double v[COLUMNS_MAX] = {l->r.t, l->r.dt};
     timer_start(&l->r.timers, "output");
-    if (l->p->row)
-        l->p->row(l->s, v + 2);
-    series_row(l->series, v);
+    fill_row(l);
+    series_row(l->series, l->row->value);
     timer_stop(&l->r.timers, "output");
 }
 
@@ -597,8 +603,10 @@ static int run_state(struct life *l, struct h5 *restart)
                              r->restart ? "the restart file does not fit" : "nothing to compute");
         return RUN_INPUT;
     }
+    l->row = mem_own(l, NEW(struct figures, 1));
+    fill_row(l);
     if (!r->coupled)
-        accept_check_columns(&r->scene, l->params, l->p->ncolumns, l->p->columns, &l->faults);
+        accept_check_columns(&r->scene, l->params, l->row->n - 2, l->row->title + 2, &l->faults);
     if (params_report(&l->faults))
         return RUN_INPUT;
     signals_started(); /* from the first file on a stop is orderly */

@@ -32,55 +32,44 @@ static bool has_own_forces(const struct run *r, const struct fv_params *prm, int
     return n > 1 && mesh_block_is_body(r, prm->blocks.of + k);
 }
 
-/* All walls and bodies together first, then each body; moments on blocks alone. The order must be
- * that of fv_forces. */
-int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns)
+/* The columns of a force and, on blocks, its moment; of: "" or the name of a body and a blank. */
+static void add_force(const struct fv *s, const char *of, const double force[4], struct figures *to)
 {
-    static const char *const all[2][4] = {
+    static const char *const names[2][4] = {
         {"force x [N/m]", "force y [N/m]", "", "moment z [N]"},
         {"force x [N]", "force y [N]", "force z [N]", "moment z [N m]"}};
-    static char own[FLOW_BODIES_MAX][4][PARAM_TEXT_SIZE + 24];
-    const int dim = r->scene.domain.dim, moment = prm->blocks.n > 0;
-    const char *const *names = all[dim - 2];
-    int n = 0;
-    if (!has_forces(r, prm))
-        return 0;
-    for (int a = 0; a < dim + moment; a++)
-        columns[n++] = names[a < dim ? a : 3];
-    for (int k = 0; k < flow_bodies(prm); k++)
-        for (int a = 0; has_own_forces(r, prm, k) && a < dim + moment; a++) {
-            snprintf(own[k][a], sizeof own[k][a], "%s %s", body_name(prm, k),
-                     names[a < dim ? a : 3]);
-            columns[n++] = own[k][a];
-        }
-    return n;
+    for (int a = 0; a < 4; a++)
+        if (a == 3 ? s->prm.blocks.n > 0 : a < s->dim)
+            FIGURE(to, force[a], "%s%s", of, names[s->dim - 2][a]);
 }
 
-/* Also keeps the sum over the bodies of blocks for summarise_oscillation. Returns the number of
- * values. */
-int fv_forces(struct fv *s, double *values)
+/* For summarise_oscillation. */
+static void keep_forces(struct fv *s, double (*of)[4])
 {
-    const int dim = s->dim, moment = s->prm.blocks.n > 0;
-    double all[4], of[FLOW_BODIES_MAX][4], bodies[2] = {0.0, 0.0};
-    int n = 0;
-    if (!has_forces(s->run, &s->prm))
-        return 0;
-    flow_forces(s, of, all);
-    for (int a = 0; a < dim + moment; a++)
-        values[n++] = all[a < dim ? a : 3];
-    for (int k = 0; k < flow_bodies(&s->prm); k++) {
-        for (int a = 0; a < 2; a++)
-            bodies[a] += of[k][a];
-        for (int a = 0; has_own_forces(s->run, &s->prm, k) && a < dim + moment; a++)
-            values[n++] = of[k][a < dim ? a : 3];
-    }
-    if (!moment)
-        return n;
     struct fv_output *o = s->output;
     ROOM_IN(o, o->history, o->nhistory + 1);
-    o->history[o->nhistory][0] = s->t;
-    memcpy(o->history[o->nhistory++] + 1, bodies, sizeof bodies);
-    return n;
+    double *row = o->history[o->nhistory++];
+    row[0] = s->t;
+    row[1] = row[2] = 0.0;
+    for (int k = 0; k < flow_bodies(&s->prm); k++)
+        for (int a = 0; a < 2; a++)
+            row[1 + a] += of[k][a];
+}
+
+/* All walls and bodies together first, then each body; moments on blocks alone. */
+void fv_forces_row(struct fv *s, struct figures *to)
+{
+    double all[4] = {0.0}, of[FLOW_BODIES_MAX][4] = {{0.0}};
+    if (!has_forces(s->run, &s->prm))
+        return;
+    if (to->measures)
+        flow_forces(s, of, all);
+    add_force(s, "", all, to);
+    for (int k = 0; k < flow_bodies(&s->prm); k++)
+        if (has_own_forces(s->run, &s->prm, k))
+            add_force(s, key_text("%s ", body_name(&s->prm, k)), of[k], to);
+    if (to->measures && s->prm.blocks.n > 0)
+        keep_forces(s, of);
 }
 
 /* Mean and half range of the forces on the bodies of blocks over the second half of the run, by the

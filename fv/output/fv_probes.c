@@ -11,22 +11,6 @@
 #include "output.h"
 #include "probe_flow.h"
 
-/* Gauges that another program reads are left out. */
-int fv_probe_columns(const struct run *r, const char **columns)
-{
-    static char names[3 * PROBES_MAX][PARAM_TEXT_SIZE + 12];
-    const int dim = r->scene.domain.dim;
-    int n = 0;
-    for (int k = 0; k < r->scene.nprobes; k++)
-        for (int a = 0; a < probe_columns(r->scene.probes + k, dim) && !r->gauge_elsewhere[k];
-             a++) {
-            probe_heading(r->scene.probes + k, dim, a, names[n], sizeof names[n]);
-            columns[n] = names[n];
-            n++;
-        }
-    return n;
-}
-
 /* The gauge where it is now: with the block that it is fixed to. */
 static struct scene_probe placed(const struct fv *s, const struct scene_probe *p)
 {
@@ -54,31 +38,29 @@ static int share_of(struct fv *s, int gauge, const struct scene_probe *g, double
 /* What it reads, of the sum over all ranks; returns as share_of. Dry: velocity nan, pressure 0;
  * outside of blocks that move nan. */
 static int read_out(const struct fv *s, const struct scene_probe *g, const double *sum,
-                    double *values)
+                    struct figures *to)
 {
     const int nq = probe_columns(g, s->dim);
-    if (!probe_is_point(g)) {
-        *values = *sum;
-        return 1;
+    const bool point = probe_is_point(g), out = to->measures && s->m && mesh_is_out(s, g->at),
+               dry = point && (out || !(sum[nq] < 0.0));
+    for (int a = 0; a < nq; a++) {
+        char title[PARAM_TEXT_SIZE + 24];
+        double value = dry ? NAN : sum[a];
+        probe_heading(g, s->dim, a, title, sizeof title);
+        if (g->kind == PROBE_PRESSURE && !out)
+            value = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->partners.pressure;
+        FIGURE(to, value, "%s", title);
     }
-    const bool out = s->m && mesh_is_out(s, g->at), dry = out || !(sum[nq] < 0.0);
-    for (int a = 0; a < nq; a++)
-        values[a] = dry ? NAN : sum[a];
-    if (g->kind == PROBE_PRESSURE && !out)
-        *values = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->partners.pressure;
-    return nq + 1;
+    return nq + point;
 }
 
-/* Halos first, since gauges lie between cells of two ranks. Collective. */
-void fv_probe(struct fv *s, double *values)
+/* Sums of the shares of all ranks. Halos first, since gauges lie between cells of two ranks. */
+static void measure_all(struct fv *s, double *sums)
 {
     const struct scene *scene = &s->run->scene;
-    double here[4 * PROBES_MAX] = {0.0};
     bool velocities = false;
     for (int k = 0; k < scene->nprobes; k++)
         velocities = velocities || scene->probes[k].kind >= PROBE_DISCHARGE;
-    if (scene->nprobes == 0)
-        return;
     if (!s->m)
         block_halo(&s->b, 2, (double *const[]){s->p, s->p_before});
     if (!s->m && velocities)
@@ -86,15 +68,21 @@ void fv_probe(struct fv *s, double *values)
     int n = 0;
     for (int k = 0; k < scene->nprobes; k++) {
         const struct scene_probe g = placed(s, scene->probes + k);
-        n += !s->run->gauge_elsewhere[k] ? share_of(s, k, &g, here + n) : 0;
+        n += !s->run->gauge_elsewhere[k] ? share_of(s, k, &g, sums + n) : 0;
     }
-    MPI_Allreduce(MPI_IN_PLACE, here, n, MPI_DOUBLE, MPI_SUM, s->comm);
-    const double *from = here;
-    for (int k = 0; k < scene->nprobes; k++) {
-        const struct scene_probe g = placed(s, scene->probes + k);
-        if (s->run->gauge_elsewhere[k])
-            continue;
-        from += read_out(s, &g, from, values);
-        values += probe_columns(&g, s->dim);
-    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, n, MPI_DOUBLE, MPI_SUM, s->comm);
+}
+
+/* Gauges that another program reads are left out. */
+void fv_probes_row(struct fv *s, struct figures *to)
+{
+    const struct scene *scene = &s->run->scene;
+    double sums[4 * PROBES_MAX] = {0.0}, *from = sums;
+    if (to->measures && scene->nprobes > 0)
+        measure_all(s, sums);
+    for (int k = 0; k < scene->nprobes; k++)
+        if (!s->run->gauge_elsewhere[k]) {
+            const struct scene_probe g = placed(s, scene->probes + k);
+            from += read_out(s, &g, from, to);
+        }
 }

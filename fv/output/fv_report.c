@@ -1,5 +1,4 @@
-/* fv_report.c - rows of the series and the summary. fv_columns and fv_row list the same columns in
- * the same order; fv_finish writes the summary. All but fv_columns are collective.
+/* fv_report.c - rows of the series (fv_row) and the summary (fv_finish), both collective.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "report.h"
 
@@ -24,9 +23,11 @@ static const char *const norm_names[NORMS] = {"velocity", "pressure", "vorticity
 static double relative(const struct norm *n) { return n->r2 > 0.0 ? norm_relative_l2(n) : NAN; }
 
 /* Relative to the exact norm, or to the case's U where that vanishes. */
-static double velocity_error(const struct run *r, const struct norm *n)
+static double velocity_error(struct fv *s)
 {
-    const double U = r->scene.initial.U;
+    const double U = s->run->scene.initial.U;
+    struct norm n[NORMS];
+    fv_errors(s, n);
     return n->r2 > 0.0 || U <= 0.0 ? norm_relative_l2(n) : norm_rms(n) / U;
 }
 
@@ -65,56 +66,32 @@ static void summarise_errors(struct fv *s)
 }
 
 /* Kinetic energy, largest speed, divergence, the error if there is an exact field, forces on walls;
- * what newton and a free surface add; gauges. */
-int fv_columns(const struct run *r, const struct fv_params *prm, const char **columns)
-{
-    static const char *const reaches[] = {"water up to x [m]", "water up to y [m]",
-                                          "water up to z [m]"};
-    int n = 0;
-    columns[n++] = "kinetic energy [J]";
-    columns[n++] = "largest velocity [m/s]";
-    columns[n++] = "divergence [1/s]";
-    if (prm->errors)
-        columns[n++] = "error velocity l2 [-]";
-    n += fv_force_columns(r, prm, columns + n);
-    n += mesh_place_columns(r, prm, columns + n);
-    n += newton_columns(prm, columns + n);
-    if (prm->water) {
-        columns[n++] = "volume [m^dim]";
-        for (int a = 0; a < r->scene.domain.dim; a++)
-            columns[n++] = reaches[a];
-    }
-    return n + fv_probe_columns(r, columns + n);
-}
-
-/* In the order of fv_columns; values of gauges lie before those of the watches. */
-void fv_row(void *state, double *values)
+ * what newton and a free surface add; gauges, watches. */
+void fv_row(void *state, struct figures *to)
 {
     struct fv *s = state;
-    double sum[3];
-    int n = 3;
-    fv_energies(s, sum);
-    values[0] = s->run->scene.fluid.rho * (sum[0] + sum[2]);
-    values[1] = fv_fastest(s);
-    s->totals.fastest = fmax(s->totals.fastest, values[1]);
-    values[2] = flow_largest_divergence(s);
-    if (s->prm.errors) {
-        struct norm norms[NORMS];
-        fv_errors(s, norms);
-        values[n++] = velocity_error(s->run, norms);
+    double sum[3] = {0.0, 0.0, 0.0};
+    if (to->measures) {
+        fv_energies(s, sum);
+        s->totals.fastest = fmax(s->totals.fastest, fv_fastest(s));
     }
-    n += fv_forces(s, values + n);
-    n += mesh_places(s, values + n);
-    n += newton_values(s->newton, values + n);
+    FIGURE(to, s->run->scene.fluid.rho * (sum[0] + sum[2]), "kinetic energy [J]");
+    FIGURE(to, fv_fastest(s), "largest velocity [m/s]");
+    FIGURE(to, flow_largest_divergence(s), "divergence [1/s]");
+    if (s->prm.errors)
+        FIGURE(to, velocity_error(s), "error velocity l2 [-]");
+    fv_forces_row(s, to);
+    if (s->m)
+        mesh_places_row(s, to);
+    if (s->newton)
+        newton_row(s->newton, to);
     if (s->surface) {
-        values[n++] = surface_volume(s);
+        FIGURE(to, surface_volume(s), "volume [m^dim]");
         for (int a = 0; a < s->dim; a++)
-            values[n++] = surface_reach(s, a);
+            FIGURE(to, surface_reach(s, a), "water up to %c [m]", "xyz"[a]);
     }
-    fv_probe(s, values + n);
-    for (int k = 0; k < s->run->scene.nprobes; k++)
-        n += !s->run->gauge_elsewhere[k] ? probe_columns(s->run->scene.probes + k, s->dim) : 0;
-    watches_values(s->watches, values + n);
+    fv_probes_row(s, to);
+    watches_row(s->watches, to);
 }
 
 /* Rates per cell and step over the timers of the steps, in all and outside of the pressure solver,

@@ -11,39 +11,21 @@
 #include "../surface/fv_surface.h"
 #include "../watch/fv_watch.h"
 
-/* Position of the centre of rotation and angles of each block with a motion of its own. */
-int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns)
+/* Position of the centre of rotation and angles of each block with a motion of its own: blocks that
+ * others carry along have none. */
+void mesh_places_row(const struct fv *s, struct figures *to)
 {
-    static const char *const axes[2][6] = {
-        {"x [m]", "y [m]", "angle [rad]"},
-        {"x [m]", "y [m]", "z [m]", "rx [rad]", "ry [rad]", "rz [rad]"}};
-    static char own[MESH_BLOCKS_MAX][6][PARAM_TEXT_SIZE + 24];
-    const int dim = r->scene.domain.dim;
-    int n = 0;
-    for (int k = 0; k < prm->blocks.n; k++)
-        for (int a = 0; a < (dim == 3 ? 6 : 3) && prm->blocks.of[k].motion.n > 0; a++) {
-            snprintf(own[k][a], sizeof own[k][a], "%s %s", prm->blocks.of[k].name,
-                     axes[dim == 3][a]);
-            columns[n++] = own[k][a];
-        }
-    return n;
-}
-
-/* In the order of mesh_place_columns: blocks that others carry along have none of their own. */
-int mesh_places(const struct fv *s, double *values)
-{
-    const int dim = s->dim;
-    int n = 0;
-    for (int k = 0; s->m && k < s->m->nblocks; k++) {
+    static const char *const angles[2][3] = {{"", "", "angle"}, {"rx", "ry", "rz"}};
+    for (int k = 0; k < s->m->nblocks; k++) {
         const struct mesh_motion *v = s->m->block[k].motion;
+        const char *name = s->m->block[k].prm->name;
         if (!v || v->block != k)
             continue;
-        for (int a = 0; a < dim; a++)
-            values[n++] = v->centre[a] + v->now.x[a];
-        for (int a = dim == 3 ? 0 : 2; a < 3; a++)
-            values[n++] = v->now.r[a];
+        for (int a = 0; a < s->dim; a++)
+            FIGURE(to, v->centre[a] + v->now.x[a], "%s %c [m]", name, "xyz"[a]);
+        for (int a = s->dim == 3 ? 0 : 2; a < 3; a++)
+            FIGURE(to, v->now.r[a], "%s %s [rad]", name, angles[s->dim - 2][a]);
     }
-    return n;
 }
 
 /* At outflows the net flux is what the solve left. */

@@ -47,11 +47,9 @@ double block_flow(const struct fv *s, int gauge, const struct scene_probe *g,
 /* mesh_errors.c: lines of --check and the banner about the blocks: cells, ranks, overlaps. Makes
  * the mesh and leaves it for the run (mesh_leave). */
 void mesh_describe(const struct run *r, const struct fv_params *prm);
-/* Columns of the series with the positions of blocks that move, x y [z] of the centre, m, the angle
- * or the rotation vector, rad: sets their names, which are static, and returns their number. */
-int mesh_place_columns(const struct run *r, const struct fv_params *prm, const char **columns);
-/* Sets their values now, and returns their number. */
-int mesh_places(const struct fv *s, double *values);
+/* Adds columns of the series with the positions of blocks that move, x y [z] of the centre, m, the
+ * angle or the rotation vector, rad. */
+void mesh_places_row(const struct fv *s, struct figures *to);
 /* Adds to the summary what it has of blocks alone: cells and net flux of overlaps, iterations of
  * the start, solves that were repeated. Collective. */
 void mesh_summarise(struct fv *s);

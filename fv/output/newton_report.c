@@ -4,26 +4,12 @@
 #include "../time/fv_time.h"
 #include "output.h"
 
-int newton_columns(const struct fv_params *prm, const char **columns)
+void newton_row(const struct newton *w, struct figures *to)
 {
-    static const char *const names[] = {"residual [-]", "pseudo step [s]", "newton iterations [-]",
-                                        "krylov vectors [-]"};
-    if (prm->integrator != INTEGRATOR_NEWTON)
-        return 0;
-    for (int k = 0; k < 4; k++)
-        columns[k] = names[k];
-    return 4;
-}
-
-int newton_values(const struct newton *w, double *values)
-{
-    if (!w)
-        return 0;
-    values[0] = w->norm;
-    values[1] = w->dtau;
-    values[2] = (double)w->newtons;
-    values[3] = (double)w->krylovs;
-    return 4;
+    FIGURE(to, w->norm, "residual [-]");
+    FIGURE(to, w->dtau, "pseudo step [s]");
+    FIGURE(to, (double)w->newtons, "newton iterations [-]");
+    FIGURE(to, (double)w->krylovs, "krylov vectors [-]");
 }
 
 void newton_summarise(const struct newton *w, double steps, double all, struct summary *to)

@@ -27,11 +27,8 @@ void output_fill(struct fv *s, enum output_field what, double *const q[3]);
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
-/* fv_report.c: sets the names, which are static, of all columns of the series but those of watches,
- * and returns their number. */
-int fv_columns(const struct run *r, const struct fv_params *prm, const char **columns);
-/* row and finish of struct program. */
-void fv_row(void *s, double *values);
+/* fv_report.c: row and finish of struct program. */
+void fv_row(void *s, struct figures *to);
 void fv_finish(void *s);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
 void fv_tell(void *s, struct summary *report);
@@ -40,17 +37,13 @@ void fv_tell(void *s, struct summary *report);
 struct picture;
 void fv_draw(const struct run *r, const struct fv_params *prm, struct picture *p);
 
-/* fv_probes.c: sets the names, which are static, of the columns of the case's gauges, and returns
- * their number. Of a coupled job those that no partner reads. */
-int fv_probe_columns(const struct run *r, const char **columns);
-/* Sets their values now, on all ranks. Collective. */
-void fv_probe(struct fv *s, double *values);
+/* fv_probes.c: adds the columns of the case's gauges, of a coupled job those that no partner reads.
+ * Collective. */
+void fv_probes_row(struct fv *s, struct figures *to);
 
-/* fv_forces.c: sets the names, which are static, of the columns of forces on all walls and bodies,
- * then on each body, and returns their number. */
-int fv_force_columns(const struct run *r, const struct fv_params *prm, const char **columns);
-/* Sets their values now, on all ranks, and returns their number. Collective. */
-int fv_forces(struct fv *s, double *values);
+/* fv_forces.c: adds the columns of forces on all walls and bodies, then on each body. Collective.
+ */
+void fv_forces_row(struct fv *s, struct figures *to);
 /* Writes the forces now to the summary, and what follows from their history. Collective. */
 void fv_summarise_forces(struct fv *s);
 
@@ -70,11 +63,8 @@ void surface_summarise(struct fv *s);
  * the column of cells there on top of what x stands on. This rank's part of it. Collective. */
 double surface_level(const struct fv *s, const double *x);
 
-/* newton_report.c: sets the names, which are static, of newton's columns in the series, and returns
- * their number: 0 with another integrator. */
-int newton_columns(const struct fv_params *prm, const char **columns);
-/* Sets their values now, counts as sums since the start, and returns their number; w NULL: 0. */
-int newton_values(const struct newton *w, double *values);
+/* newton_report.c: adds newton's columns of the series, counts as sums since the start. */
+void newton_row(const struct newton *w, struct figures *to);
 /* Adds iterations and halvings to the summary; steps: of this process, all: of the run. */
 void newton_summarise(const struct newton *w, double steps, double all, struct summary *to);
 

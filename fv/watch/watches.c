@@ -215,22 +215,11 @@ void watches_growth(struct watches *w, double sum, double t, int64_t step, struc
     w->sum_before = sum;
 }
 
-int watches_columns(const struct watches *w, const char **columns)
+void watches_row(const struct watches *w, struct figures *to)
 {
-    int n = 0;
     for (int k = 0; k < WATCHES; k++)
         if (watch_of(w, k))
-            columns[n++] = names[k];
-    return n;
-}
-
-int watches_values(const struct watches *w, double *values)
-{
-    int n = 0;
-    for (int k = 0; k < WATCHES; k++)
-        if (watch_of(w, k))
-            values[n++] = watch_of(w, k)->now;
-    return n;
+            FIGURE(to, watch_of(w, k)->now, "%s", names[k]);
 }
 
 /* The volume restored is a condition of acceptance with a text of its own. */

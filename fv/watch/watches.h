@@ -70,11 +70,8 @@ void watches_waves(struct watches *w, const struct flow_waves *v, double volume,
  * m/s. */
 void watches_growth(struct watches *w, double sum, double t, int64_t step, struct diagnosis *d);
 
-/* Sets the names, which are static, of the columns that the series has of these figures, and
- * returns their number. */
-int watches_columns(const struct watches *w, const char **columns);
-/* Sets the values of these columns now, and returns their number. */
-int watches_values(const struct watches *w, double *values);
+/* Adds the columns that the series has of these figures. */
+void watches_row(const struct watches *w, struct figures *to);
 /* Adds the worst values to the summary, and "not_accepted" where the surface has lost and got back
  * too much water. */
 void watches_summarise(const struct watches *w, struct summary *to);

@@ -71,11 +71,8 @@ void body_wedges_find(struct sph *s);
  * wedges. Needs prim and slope. Collective. */
 void body_seals_add(struct sph *s);
 
-/* body_output.c: columns of series.csv of body k; appends their headings to names, returns their
- * number. */
-int bodies_columns(const struct run *r, int k, const char **names);
-/* Writes the values of these columns; returns the end of them. */
-double *bodies_row(const struct sph *s, int k, double *values);
+/* body_output.c: adds the columns of body k, if it moves. */
+void bodies_row(const struct sph *s, int k, struct figures *to);
 void bodies_summarise(const struct sph *s);
 /* Restart files, written or read; false: the file has none that fit. */
 bool bodies_restart(struct sph *s, struct h5 *f);

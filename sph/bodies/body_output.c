@@ -4,7 +4,7 @@
 #include "bodies.h"
 #include "contact_places.h"
 
-enum { MOTION_COLUMNS = 12, TEXT = PARAM_TEXT_SIZE + 24 };
+enum { MOTION_COLUMNS = 12 };
 
 /* Place, rotation, velocity, spin, in this order; those of the plane are marked. */
 static const struct {
@@ -15,27 +15,9 @@ static const struct {
                            {"u", "m/s", true},     {"v", "m/s", true},     {"w", "m/s", false},
                            {"ox", "rad/s", false}, {"oy", "rad/s", false}, {"spin", "rad/s", true}};
 
-int bodies_columns(const struct run *r, int k, const char **names)
+static const char *name_of(bool solid, int i)
 {
-    static char text[BODIES_MAX][MOTION_COLUMNS + LINES_MAX + 1][TEXT];
-    const struct scene_body *b = r->scene.bodies + k;
-    const bool solid = r->scene.domain.dim == 3;
-    char(*at)[TEXT] = text[k];
-    int n = 0;
-    if (!scene_body_moves(b))
-        return 0;
-    for (int i = 0; i < MOTION_COLUMNS; i++) {
-        const char *name = solid && i == 5 ? "rz" : solid && i == 11 ? "oz" : shown[i].name;
-        if (solid || shown[i].flat)
-            snprintf(at[n++], TEXT, "%s %s [%s]", b->name, name, shown[i].unit);
-    }
-    for (int i = 0; i < b->lines.n; i++)
-        snprintf(at[n++], TEXT, "%s line %d [%s]", b->name, i + 1, solid ? "N" : "N/m");
-    if (b->free)
-        snprintf(at[n++], TEXT, "%s contact [%s]", b->name, solid ? "N" : "N/m");
-    for (int i = 0; i < n; i++)
-        names[i] = at[i];
-    return n;
+    return solid && i == 5 ? "rz" : solid && i == 11 ? "oz" : shown[i].name;
 }
 
 /* The centre's place is that in space. */
@@ -49,22 +31,24 @@ static void motion_of(const struct body *b, double v[MOTION_COLUMNS])
     }
 }
 
-/* The same columns in the same order as bodies_columns. */
-double *bodies_row(const struct sph *s, int k, double *values)
+/* Of its motion, its mooring lines, its contacts. */
+void bodies_row(const struct sph *s, int k, struct figures *to)
 {
-    const struct body *b = s->walls->bodies + k;
-    double v[MOTION_COLUMNS];
-    if (!scene_body_moves(b->is))
-        return values;
-    motion_of(b, v);
+    const struct scene_body *b = s->run->scene.bodies + k;
+    const bool solid = s->dim == 3;
+    const char *force = solid ? "N" : "N/m";
+    double v[MOTION_COLUMNS] = {0.0};
+    if (!scene_body_moves(b))
+        return;
+    const struct body *now = s->walls->bodies + k;
+    motion_of(now, v);
     for (int i = 0; i < MOTION_COLUMNS; i++)
-        if (s->dim == 3 || shown[i].flat)
-            *values++ = v[i];
-    for (int i = 0; i < b->is->lines.n && b->free; i++)
-        *values++ = b->free->tension[i];
-    if (b->free)
-        *values++ = vec3_length(b->free->contact);
-    return values;
+        if (solid || shown[i].flat)
+            FIGURE(to, v[i], "%s %s [%s]", b->name, name_of(solid, i), shown[i].unit);
+    for (int i = 0; i < b->lines.n && now->free; i++)
+        FIGURE(to, now->free->tension[i], "%s line %d [%s]", b->name, i + 1, force);
+    if (now->free)
+        FIGURE(to, vec3_length(now->free->contact), "%s contact [%s]", b->name, force);
 }
 
 /* --- summary --- */
@@ -107,11 +91,7 @@ void bodies_summarise(const struct sph *s)
         motion_of(b, v);
         for (int i = 0; i < MOTION_COLUMNS; i++)
             if (s->dim == 3 || shown[i].flat)
-                put(s->run->summary, b,
-                    s->dim == 3 && i == 5    ? "rz"
-                    : s->dim == 3 && i == 11 ? "oz"
-                                             : shown[i].name,
-                    v[i]);
+                put(s->run->summary, b, name_of(s->dim == 3, i), v[i]);
         if (b->free)
             summarise_free(s, k);
     }

@@ -13,9 +13,6 @@
 #include "../surface/sph_surface.h"
 #include "windows.h"
 
-const char *const overlap_columns[OVERLAP_COLUMNS] = {
-    "overlap velocity [-]", "overlap pressure [-]", "surface in the zones [-]"};
-
 /* Windows over which differences are averaged: sound of an impact or of a sudden start, up to rho
  * c0 U, passes through SPH alone and is no fault. */
 static const double several = 10.0;
@@ -179,11 +176,11 @@ void overlap_restart(struct overlap *o, struct h5 *f)
     }
 }
 
-void overlap_row(const struct overlap *o, double *values)
+void overlap_row(const struct overlap *o, struct figures *to)
 {
-    values[0] = o->du;
-    values[1] = o->dp;
-    values[2] = o->on;
+    FIGURE(to, o->du, "overlap velocity [-]");
+    FIGURE(to, o->dp, "overlap pressure [-]");
+    FIGURE(to, o->on, "surface in the zones [-]");
 }
 
 void overlap_summary(const struct overlap *o, struct summary *to)

@@ -9,7 +9,6 @@
 #include "../sph.h"
 
 /* Columns that the differences have in the series. */
-enum { OVERLAP_COLUMNS = 3 };
 
 /* The differences and the watches that judge them. */
 struct overlap {
@@ -32,10 +31,8 @@ struct overlap *overlap_create(struct sph *s);
 void overlap_look(struct sph *s);
 /* Fills d where the run cannot be trusted. */
 void overlap_judge(struct sph *s, struct diagnosis *d);
-/* Names of the columns. */
-extern const char *const overlap_columns[OVERLAP_COLUMNS];
-/* Sets values[OVERLAP_COLUMNS] of the last comparison. */
-void overlap_row(const struct overlap *o, double *values);
+/* Adds the columns of the last comparison. */
+void overlap_row(const struct overlap *o, struct figures *to);
 /* Adds the worst values to the summary. */
 void overlap_summary(const struct overlap *o, struct summary *to);
 /* The differences for the progress line of the job, as soon as they are noticeable. */

@@ -219,30 +219,27 @@ void level_gap_look(struct sph *s, double dt)
     s->zones->gap->started = true;
 }
 
-const char *const level_gap_columns[LEVEL_COLUMNS] = {
-    "level gap [m]",      "level gap beyond [m]", "drops [kg]", "faces hold [kg]",
-    "births refused [-]", "films [kg]",           "voids [kg]", "water [m^dim]"};
-
 /* Of the two sides along the first axis that has any. */
-void level_gap_row(struct sph *s, double *values)
+void level_gap_row(struct sph *s, struct figures *to)
 {
     const struct level_gap *g = s->zones->gap;
     const struct openings *o = s->zones->openings;
     double sums[3] = {o->rain[0], (double)o->refused, o->films};
     int axis = 0;
-    double water[2];
-    wet_faces_water(s, water);
+    double water[2] = {0.0, 0.0};
+    if (to->measures)
+        wet_faces_water(s, water);
     while (axis < s->dim - 1 && !s->open[2 * axis] && !s->open[2 * axis + 1])
         axis++;
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    values[0] = g->gap[2 * axis];
-    values[1] = g->gap[2 * axis + 1];
-    values[2] = sums[0];
-    values[3] = openings_held(s);
-    values[4] = sums[1];
-    values[5] = sums[2];
-    values[6] = wet_faces_voids(s);
-    values[7] = water[0];
+    FIGURE(to, g->gap[2 * axis], "level gap [m]");
+    FIGURE(to, g->gap[2 * axis + 1], "level gap beyond [m]");
+    FIGURE(to, sums[0], "drops [kg]");
+    FIGURE(to, openings_held(s), "faces hold [kg]");
+    FIGURE(to, sums[1], "births refused [-]");
+    FIGURE(to, sums[2], "films [kg]");
+    FIGURE(to, wet_faces_voids(s), "voids [kg]");
+    FIGURE(to, water[0], "water [m^dim]");
 }
 
 static const double several = 10.0; /* windows */

@@ -10,7 +10,6 @@
 #include "../sph.h"
 
 /* Columns that the differences have in the series. */
-enum { LEVEL_COLUMNS = 8 };
 
 /* The measured differences and the correction. */
 struct level_gap {
@@ -30,9 +29,8 @@ struct level_gap *level_gap_create(const struct sph *s, bool kept);
 /* Compares the levels at s->t, dt, s, after the last time, and sets the zones' outflow.
  * Collective. */
 void level_gap_look(struct sph *s, double dt);
-/* Names and values of LEVEL_COLUMNS columns. Collective. */
-extern const char *const level_gap_columns[LEVEL_COLUMNS];
-void level_gap_row(struct sph *s, double *values);
+/* Adds its columns to the series. Collective. */
+void level_gap_row(struct sph *s, struct figures *to);
 /* Once a coupling step: fills d where the levels differ too much. */
 void level_gap_judge(struct sph *s, struct diagnosis *d);
 void level_gap_summary(const struct sph *s, struct summary *to);

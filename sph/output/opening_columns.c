@@ -12,38 +12,12 @@
 /* What a side of the region is to what passes it. */
 enum passing { PASSES_NOTHING, PASSES_FALLING, PASSES_ZONE };
 
-/* What passes this side; open: sides with zones of this run's own (not a partner's). */
-static enum passing passing(const struct run *r, const bool open[6], int side)
+/* What passes this side: zones are of this run's own inlets and outlets, not a partner's. */
+static enum passing passing(const struct sph *s, int side)
 {
-    const struct scene_wall *w = scene_wall_of(&r->scene, SIDE_X_MIN + side);
-    return w && w->kind == WALL_FALLS ? PASSES_FALLING : open[side] ? PASSES_ZONE : PASSES_NOTHING;
-}
-
-/* Headings are in static memory. The order must be that of opening_row. */
-int opening_columns(const struct run *r, const struct sph_params *prm, const char **names)
-{
-    static char text[6][2][32];
-    bool open[6] = {false};
-    int n = 0;
-    if (prm->outer == OUTER_SIDES)
-        sph_params_open(r, prm, open);
-    for (int side = 0; side < 2 * r->scene.domain.dim; side++) {
-        const enum passing is = passing(r, open, side);
-        snprintf(text[side][0], sizeof text[side][0], "through %s [kg]", scene_side_names[side]);
-        snprintf(text[side][1], sizeof text[side][1], "level %s [m]", scene_side_names[side]);
-        if (is != PASSES_NOTHING)
-            names[n++] = text[side][0];
-        if (is == PASSES_ZONE && prm->surface == SURFACE_YES)
-            names[n++] = text[side][1];
-    }
-    return n;
-}
-
-/* Sides of zones that this run's own inlets and outlets feed, if there are any. */
-static const bool *open_sides(const struct sph *s)
-{
-    static const bool none[6];
-    return s->zones && s->prm.outer == OUTER_SIDES ? s->open : none;
+    const struct scene_wall *w = scene_wall_of(&s->run->scene, SIDE_X_MIN + side);
+    const bool open = s->zones && s->prm.outer == OUTER_SIDES && s->open[side];
+    return w && w->kind == WALL_FALLS ? PASSES_FALLING : open ? PASSES_ZONE : PASSES_NOTHING;
 }
 
 /* Mass through each side since the start, kg, positive inwards, summed over levels and ranks.
@@ -59,18 +33,18 @@ static void sum_through(const struct sph *s, double through[6])
 }
 
 /* A column for each side that something passes, and one for its level. */
-double *opening_row(const struct sph *s, double *values)
+void opening_row(const struct sph *s, struct figures *to)
 {
     double through[6];
     sum_through(s, through);
     for (int side = 0; side < 2 * s->dim; side++) {
-        const enum passing is = passing(s->run, open_sides(s), side);
+        const enum passing is = passing(s, side);
         if (is != PASSES_NOTHING)
-            *values++ = through[side];
+            FIGURE(to, through[side], "through %s [kg]", scene_side_names[side]);
         if (is == PASSES_ZONE && s->surface)
-            *values++ = s->zones->update ? sides_level(s, side) : wave_stream_level(s, side);
+            FIGURE(to, s->zones->update ? sides_level(s, side) : wave_stream_level(s, side),
+                   "level %s [m]", scene_side_names[side]);
     }
-    return values;
 }
 
 /* drift.budget: the mass at the end, with what faces hold that has come in and is no whole particle
@@ -86,7 +60,7 @@ void opening_summary(const struct sph *s, struct summary *to)
     for (int side = 0; side < 2 * s->dim; side++) {
         sum += through[side]; /* what has gone over a side without a wall, too */
         in += fmax(through[side], 0.0);
-        if (passing(s->run, open_sides(s), side) == PASSES_NOTHING)
+        if (passing(s, side) == PASSES_NOTHING)
             continue;
         any = true;
         summary_real(to, key_text("through.%s", scene_side_names[side]), through[side]);

@@ -6,10 +6,8 @@
 
 #include "../sph.h"
 
-/* Appends the headings of its columns of series.csv to names; returns their number. */
-int opening_columns(const struct run *r, const struct sph_params *prm, const char **names);
-/* Writes the values of these columns; returns the end of them. Collective, as opening_summary. */
-double *opening_row(const struct sph *s, double *values);
+/* Adds its columns of series.csv. Collective, as opening_summary. */
+void opening_row(const struct sph *s, struct figures *to);
 void opening_summary(const struct sph *s, struct summary *to);
 
 #endif

@@ -30,31 +30,6 @@ static struct scene_probe placed(const struct sph *s, const struct scene_probe *
     return now;
 }
 
-/* Columns of gauges that another program of the job has are left out. Bodies follow: force and
- * moment, then their own motion. */
-int probes_columns(const struct run *r, const char **names)
-{
-    static char text[PROBE_COLUMNS][PARAM_TEXT_SIZE + 24];
-    static const char *const plane[3] = {"force x [N/m]", "force y [N/m]", "moment [N]"};
-    static const char *const space[6] = {"force x [N]",    "force y [N]",    "force z [N]",
-                                         "moment x [N m]", "moment y [N m]", "moment z [N m]"};
-    const struct scene *c = &r->scene;
-    int n = 0;
-    for (int k = 0; k < c->nprobes; k++)
-        for (int a = 0; a < probe_columns(c->probes + k, c->domain.dim) && !r->gauge_elsewhere[k];
-             a++)
-            probe_heading(c->probes + k, c->domain.dim, a, text[n++], sizeof text[0]);
-    for (int k = 0; k < c->nbodies; k++)
-        for (int a = 0; a < 3 * (c->domain.dim - 1); a++, n++)
-            snprintf(text[n], sizeof text[n], "%s %s", c->bodies[k].name,
-                     c->domain.dim == 2 ? plane[a] : space[a]);
-    for (int k = 0; k < n; k++)
-        names[k] = text[k];
-    for (int k = 0; k < c->nbodies; k++)
-        n += bodies_columns(r, k, names + n);
-    return n;
-}
-
 /* Displacement d from x to a gauge by the nearest periodic image, m; returns its square. */
 static double way_to(const struct sph *s, const struct scene_probe *g, const double *x, double *d)
 {
@@ -155,13 +130,23 @@ static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
         u[a] = sums[3] > 0.05 ? sums[a] / sums[3] : NAN;
 }
 
-/* The value of every kind but velocity, which has several components. */
-static double value_at(struct sph *s, const struct scene_probe *g)
+/* The columns of a gauge. */
+static void gauge_row(struct sph *s, const struct scene_probe *g, struct figures *to)
 {
-    return g->kind == PROBE_LEVEL       ? level_gauge(s, g->at)
-           : g->kind == PROBE_SHORE     ? shore_height(s, g->at[0])
-           : g->kind == PROBE_DISCHARGE ? discharge_gauge(s, g)
-                                        : pressure_at(s, g);
+    double u[3] = {0.0, 0.0, 0.0};
+    char title[PARAM_TEXT_SIZE + 24];
+    if (g->kind == PROBE_VELOCITY && to->measures)
+        velocity_at(s, g, u);
+    for (int a = 0; a < probe_columns(g, s->dim); a++) {
+        probe_heading(g, s->dim, a, title, sizeof title);
+        FIGURE(to,
+               g->kind == PROBE_VELOCITY    ? u[a]
+               : g->kind == PROBE_LEVEL     ? level_gauge(s, g->at)
+               : g->kind == PROBE_SHORE     ? shore_height(s, g->at[0])
+               : g->kind == PROBE_DISCHARGE ? discharge_gauge(s, g)
+                                            : pressure_at(s, g),
+               "%s", title);
+    }
 }
 
 struct force probes_force(struct sph *s, int k)
@@ -172,10 +157,12 @@ struct force probes_force(struct sph *s, int k)
 
 /* Adds the kernel average of the force on the first body to its mean over the second half of the
  * run, each value for the time since the last row. */
-static void sample_average(struct sph *s)
+void probes_sample(struct sph *s)
 {
     const double begin = fmax(s->total.mean_force.average_t, 0.5 * s->run->scene.time.end),
                  dt = s->t - begin;
+    if (s->run->scene.nbodies == 0)
+        return;
     s->total.mean_force.average_t = s->t;
     if (dt <= 0.0)
         return;
@@ -185,29 +172,33 @@ static void sample_average(struct sph *s)
         s->total.mean_force.average_sum[a] += dt * force.F[a];
 }
 
-/* The order is that of probes_columns. */
-void probes_row(struct sph *s, double *values)
+/* Force and moment on body k. */
+static void force_row(struct sph *s, int k, struct figures *to)
+{
+    static const char *const plane[] = {"force x [N/m]", "force y [N/m]", "moment [N]"};
+    static const char *const space[] = {"force x [N]",    "force y [N]",    "force z [N]",
+                                        "moment x [N m]", "moment y [N m]", "moment z [N m]"};
+    const char *name = s->run->scene.bodies[k].name;
+    struct force f = {.F = {0.0, 0.0, 0.0}};
+    if (to->measures)
+        f = probes_force(s, k);
+    const double of[2][6] = {{f.F[0], f.F[1], f.M[2]},
+                             {f.F[0], f.F[1], f.F[2], f.M[0], f.M[1], f.M[2]}};
+    for (int a = 0; a < 3 * (s->dim - 1); a++)
+        FIGURE(to, of[s->dim - 2][a], "%s %s", name, (s->dim == 2 ? plane : space)[a]);
+}
+
+/* Gauges that another program of the job has are left out. */
+void probes_row(struct sph *s, struct figures *to)
 {
     const struct scene *c = &s->run->scene;
-    for (int k = 0; k < c->nprobes; k++) {
-        if (s->run->gauge_elsewhere[k])
-            continue;
-        const struct scene_probe g = placed(s, c->probes + k);
-        if (g.kind == PROBE_VELOCITY)
-            velocity_at(s, &g, values);
-        else
-            *values = value_at(s, &g);
-        values += probe_columns(c->probes + k, s->dim);
-    }
-    for (int k = 0; k < c->nbodies; k++, values += 3 * (s->dim - 1)) {
-        const struct force f = probes_force(s, k);
-        const double plane[3] = {f.F[0], f.F[1], f.M[2]};
-        memcpy(values, s->dim == 2 ? plane : f.F, 3 * sizeof *values);
-        if (s->dim == 3)
-            memcpy(values + 3, f.M, sizeof f.M);
-    }
+    for (int k = 0; k < c->nprobes; k++)
+        if (!s->run->gauge_elsewhere[k]) {
+            const struct scene_probe g = placed(s, c->probes + k);
+            gauge_row(s, &g, to);
+        }
     for (int k = 0; k < c->nbodies; k++)
-        values = bodies_row(s, k, values);
-    if (c->nbodies > 0)
-        sample_average(s);
+        force_row(s, k, to);
+    for (int k = 0; k < c->nbodies; k++)
+        bodies_row(s, k, to);
 }

@@ -6,12 +6,11 @@
 #include "../sph.h"
 #include "../walls/sph_walls.h"
 
-/* Headings of the columns of this scene (static memory) into names; returns their number, at most
- * PROBE_COLUMNS. */
-enum { PROBE_COLUMNS = 3 * PROBES_MAX + 6 * BODIES_MAX };
-int probes_columns(const struct run *r, const char **names);
-/* Writes the values of these columns; needs prim and slope of the present state. Collective. */
-void probes_row(struct sph *s, double *values);
+/* Adds the columns of gauges, of the forces on bodies, then of their motion; needs prim and slope
+ * of the present state. Collective, as the next two. */
+void probes_row(struct sph *s, struct figures *to);
+/* Once for each row, after it: means that the summary has. */
+void probes_sample(struct sph *s);
 /* Force of the fluid on body k and its moment about the centre: the momentum that went there in the
  * last step (forces.h); before the first step by body_average. Collective. */
 struct force probes_force(struct sph *s, int k);

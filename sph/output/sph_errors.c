@@ -1,8 +1,6 @@
 /* sph_errors.c - sums, errors against the exact solution, drifts: rows of the series and the
- * summary. Norms are weighted with the particles' volumes and taken over the free zone. Order in a
- * row of the series: sums over the fluid, extremes, watches, the error, levels, zones, openings,
- * gauges and bodies: the same in sph_columns, which names them. Every function that sums is
- * collective.
+ * summary. Norms are weighted with the particles' volumes and taken over the free zone. Every
+ * function that sums is collective.
  * SPDX-License-Identifier: BSD-3-Clause */
 #include "../../common/scene/scene.h"
 #include "../bodies/sph_bodies.h"
@@ -231,98 +229,70 @@ static void summarise_oscillation(struct sph *s)
                      fabs(enstrophy(s, false) / exact_enstrophy(&e, s->lo, s->hi, s->t) - 1.0));
 }
 
-static const char *const columns[] = {
-    "kinetic energy [J]",   "enstrophy [m^dim/s^2]", "mass [kg]",       "momentum x [kg m/s]",
-    "momentum y [kg m/s]",  "momentum z [kg m/s]",   "max Mach [-]",    "min density [kg/m^3]",
-    "max density [kg/m^3]", "particles [-]",         "min spacing [dx]"};
-
 /* Of each level what flows and its guards; what the change of levels has made or lost of mass.
- * Methods with particles of mixed sizes have no levels. */
-static int levels_columns(const struct run *r, const char **names)
-{
-    static char text[APR_LEVELS_MAX + 1][2][32];
-    const struct apr_params *apr = apr_params_of(r);
-    int n = 0;
-    if (apr && apr->method != APR_GUARDS)
-        return 0;
-    for (int k = 0; apr && k <= apr->levels; k++) {
-        snprintf(text[k][0], sizeof text[k][0], "particles level %d [-]", k);
-        snprintf(text[k][1], sizeof text[k][1], "guards level %d [-]", k);
-        names[n++] = text[k][0];
-        names[n++] = text[k][1];
-    }
-    if (apr)
-        names[n++] = "mass of level changes [kg]";
-    return n;
-}
-
-/* Two reductions for each level. */
-static double *levels_row(const struct sph *s, double *values)
+ * Methods with particles of mixed sizes have no levels. Two reductions for each level. */
+static void levels_row(const struct sph *s, struct figures *to)
 {
     for (const struct sph *q = s; q; q = q->finer) {
         int guards = 0;
         for (int i = 0; i < q->p.n; i++)
             guards += particles_is_guard(&q->p, i);
-        *values++ = total(s, q->p.n - guards);
-        *values++ = total(s, guards);
+        FIGURE(to, total(s, q->p.n - guards), "particles level %d [-]", q->level);
+        FIGURE(to, total(s, guards), "guards level %d [-]", q->level);
     }
-    *values++ = total(s, s->refinement->added);
-    return values;
+    FIGURE(to, total(s, s->refinement->added), "mass of level changes [kg]");
 }
 
-/* Column 5, momentum z, is for 3D alone. */
-int sph_columns(const struct run *r, const struct sph_params *prm, const char **names)
+static double velocity_error(const struct sph *s)
 {
-    int n = 0;
-    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
-        if (k != 5 || r->scene.domain.dim == 3)
-            names[n++] = columns[k];
-    n += sph_watch_columns(r, prm, names + n);
-    if (exact_until_end(&r->scene))
-        names[n++] = "error velocity l2 [-]";
-    n += levels_columns(r, names + n);
-    if (sph_params_zones(r, prm)) {
-        names[n++] = "born [-]";
-        names[n++] = "gone [-]";
-    }
-    n += opening_columns(r, prm, names + n);
-    return n + probes_columns(r, names + n);
+    struct norm n[NORMS];
+    errors(s, n);
+    return norm_relative_l2(n);
 }
 
-/* Slopes are made first (integrate_gradients), by all ranks. */
-void sph_row(void *state, double *values)
+/* What is measured from row to row. */
+static void sample(struct sph *s)
+{
+    sample_signal(s);
+    probes_sample(s);
+}
+
+/* Slopes are made first (integrate_gradients), by all ranks. In this order: sums over the fluid,
+ * extremes, watches, the error, levels, zones, openings, gauges and bodies. */
+void sph_row(void *state, struct figures *to)
 {
     struct sph *s = state;
-    double sums[SUM_COUNT];
-    integrate_gradients(s);
-    timer_start(&s->run->timers, "output");
-    sph_sums(s, sums);
-    *values++ = sums[SUM_KINETIC];
-    *values++ = enstrophy(s, false);
-    *values++ = sums[SUM_MASS];
+    double sums[SUM_COUNT] = {0.0};
+    if (to->measures) {
+        integrate_gradients(s);
+        timer_start(&s->run->timers, "output");
+        sph_sums(s, sums);
+    }
+    FIGURE(to, sums[SUM_KINETIC], "kinetic energy [J]");
+    FIGURE(to, enstrophy(s, false), "enstrophy [m^dim/s^2]");
+    FIGURE(to, sums[SUM_MASS], "mass [kg]");
     for (int a = 0; a < s->dim; a++)
-        *values++ = sums[SUM_MOMENTUM + a];
-    *values++ = s->step.max_speed / s->c0;
-    *values++ = s->step.rho_min;
-    *values++ = s->step.rho_max;
-    *values++ = particles(s);
-    *values++ = least_spacing(s);
-    values = sph_watch_row(s, values);
-    if (exact_until_end(&s->run->scene)) {
-        struct norm n[NORMS];
-        errors(s, n);
-        *values++ = norm_relative_l2(n);
-    }
+        FIGURE(to, sums[SUM_MOMENTUM + a], "momentum %c [kg m/s]", "xyz"[a]);
+    FIGURE(to, s->step.max_speed / s->c0, "max Mach [-]");
+    FIGURE(to, s->step.rho_min, "min density [kg/m^3]");
+    FIGURE(to, s->step.rho_max, "max density [kg/m^3]");
+    FIGURE(to, particles(s), "particles [-]");
+    FIGURE(to, least_spacing(s), "min spacing [dx]");
+    sph_watch_row(s, to);
+    if (exact_until_end(&s->run->scene))
+        FIGURE(to, velocity_error(s), "error velocity l2 [-]");
     if (s->finer)
-        values = levels_row(s, values);
+        levels_row(s, to);
     if (s->zones) {
-        *values++ = births(s);
-        *values++ = removals(s);
+        FIGURE(to, births(s), "born [-]");
+        FIGURE(to, removals(s), "gone [-]");
     }
-    values = opening_row(s, values);
-    sample_signal(s);
-    probes_row(s, values);
-    timer_stop(&s->run->timers, "output");
+    opening_row(s, to);
+    probes_row(s, to);
+    if (to->measures) {
+        sample(s);
+        timer_stop(&s->run->timers, "output");
+    }
 }
 
 /* error.*_l2 are relative to the exact field's norm, *_rms to the case's U or rho U^2; pressures

@@ -1,18 +1,13 @@
 /* sph_output.h - snapshots, restart files, rows of the series, the summary; the functions of struct
- * program that write. All are collective but sph_columns.
+ * program that write. All are collective.
  * SPDX-License-Identifier: BSD-3-Clause */
 #ifndef SPH_OUTPUT_H
 #define SPH_OUTPUT_H
 
 #include "../sph.h"
 
-/* Most columns of a run of sph. */
-enum { SPH_COLUMNS = 56 + 3 * PROBES_MAX + 32 * BODIES_MAX };
-/* Sets the headings of the columns that sph_row fills for this scene, which are static; returns
- * their number, at most SPH_COLUMNS. */
-int sph_columns(const struct run *r, const struct sph_params *prm, const char **names);
 /* row, snapshot and checkpoint of struct program; s is a struct sph *, of the coarsest level. */
-void sph_row(void *s, double *values);
+void sph_row(void *s, struct figures *to);
 void sph_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void sph_checkpoint(void *s, struct h5 *f);
 /* Reads what sph_checkpoint wrote; false: it does not fit, and the reason has been logged. */

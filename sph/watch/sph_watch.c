@@ -333,24 +333,14 @@ void sph_watch_judge(struct sph *s, struct diagnosis *d)
 }
 
 /* Mach number and least spacing have columns of their own. */
-int sph_watch_columns(const struct run *r, const struct sph_params *prm, const char **names)
+void sph_watch_row(const struct sph *s, struct figures *to)
 {
-    int n = 0;
-    if (is_closed(r, prm))
-        names[n++] = "energy gain [-]";
-    names[n++] = "paired [-]";
-    if (sph_params_walls(&r->scene, prm))
-        names[n++] = "put back [-]";
-    return n;
-}
-
-double *sph_watch_row(const struct sph *s, double *values)
-{
-    static const int kinds[3] = {SPH_WATCH_ENERGY, SPH_WATCH_PAIRED, SPH_WATCH_PUT_BACK};
-    for (int k = 0; k < 3; k++)
-        if (is_judged(s, kinds[k]))
-            *values++ = s->watch.of[kinds[k]].now;
-    return values;
+    static const char *const titles[SPH_WATCHES] = {[SPH_WATCH_ENERGY] = "energy gain [-]",
+                                                    [SPH_WATCH_PAIRED] = "paired [-]",
+                                                    [SPH_WATCH_PUT_BACK] = "put back [-]"};
+    for (int k = 0; k < SPH_WATCHES; k++)
+        if (titles[k] && is_judged(s, k))
+            FIGURE(to, s->watch.of[k].now, "%s", titles[k]);
 }
 
 /* Only what this run judges at all. */

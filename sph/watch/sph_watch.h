@@ -120,10 +120,8 @@ void sph_watch_removed(struct sph *s, int i);
 /* After the step: judges all watches that are due and fills d; the same on all ranks.
  * Collective. */
 void sph_watch_judge(struct sph *s, struct diagnosis *d);
-/* Appends the headings of its columns of series.csv to names and returns their number. */
-int sph_watch_columns(const struct run *r, const struct sph_params *prm, const char **names);
-/* Writes their values and returns the end of them. */
-double *sph_watch_row(const struct sph *s, double *values);
+/* Adds the columns of those that have none of their own elsewhere. */
+void sph_watch_row(const struct sph *s, struct figures *to);
 /* Writes the figures to the summary. */
 void sph_watch_summarise(const struct sph *s);
 /* Writes budget, work and the worst values to a restart file. */

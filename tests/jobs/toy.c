@@ -40,7 +40,6 @@ static const struct param rows[] = {
 static const struct param_group groups[] = {
     {"toy", "Oscillators", rows, sizeof rows / sizeof rows[0], &params, NULL, 0, 0, NULL}};
 static const char *const others[] = {"sph", "apr", "fv", NULL};
-static const char *const columns[] = {"energy [J]"};
 
 static void describe(const struct run *r)
 {
@@ -95,14 +94,14 @@ static double step(void *state, double t_stop, struct diagnosis *d)
     return dt;
 }
 
-static void row(void *state, double *values)
+static void row(void *state, struct figures *to)
 {
     const struct toy *s = state;
     double e = 0.0;
     for (int64_t i = 0; i < s->n; i++)
         e += 0.5 * (s->x[i] * s->x[i] + s->v[i] * s->v[i]);
     MPI_Allreduce(MPI_IN_PLACE, &e, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
-    values[0] = e;
+    FIGURE(to, e, "energy [J]");
 }
 
 static void progress(void *state, char *line, int size)
@@ -154,8 +153,6 @@ int main(int argc, char **argv)
                                 .create = create,
                                 .destroy = destroy,
                                 .step = step,
-                                .columns = columns,
-                                .ncolumns = 1,
                                 .row = row,
                                 .progress = progress,
                                 .snapshot = snapshot,

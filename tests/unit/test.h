@@ -18,6 +18,17 @@
 #include <cmocka.h>
 
 #include "../../common/base/mem.h"
+#include "../../common/files/series.h"
+
+/* VALUES_OF(fv_row, s, to): the values of the columns that it adds to a row of the series. */
+#define VALUES_OF(add, s, to)                                                                      \
+    do {                                                                                           \
+        struct figures *figures_ = NEW(struct figures, 1);                                         \
+        figures_->measures = true;                                                                 \
+        add(s, figures_);                                                                          \
+        memcpy(to, figures_->value, (size_t)figures_->n * sizeof(double));                         \
+        FREE(figures_);                                                                            \
+    } while (0)
 
 /* Under the sanitizers, ten times slower, a test takes the same code through fewer scenes, steps or
  * cells, and leaves to the plain run what holds after the whole of them alone. */

@@ -120,7 +120,7 @@ static inline double box_slip_error(int n, const char *graded)
     c.s->prm.errors = true;
     if (!fv_case_run(&c, 100000, 0.5))
         abort();
-    fv_row(c.s, row);
+    VALUES_OF(fv_row, c.s, row);
     fv_free(&c.s);
     return row[3];
 }

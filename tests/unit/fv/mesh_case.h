@@ -146,7 +146,7 @@ static inline double mesh_case_ranks_apart(const char *blocks, const char *const
         struct mesh_case c;
         struct fv *s = mesh_case_start(&c, k ? MPI_COMM_WORLD : MPI_COMM_SELF, blocks, overrides);
         const bool good = mesh_case_run(s, 4, 100.0);
-        fv_row(s, row);
+        VALUES_OF(fv_row, s, row);
         mesh_case_end(&c, &s);
         e[k] = good ? row[0] + row[1] : NAN;
     }
@@ -190,7 +190,7 @@ static inline double mesh_case_energy_share(struct fv *s)
 {
     const double *u = s->run->scene.initial.velocity;
     double row[64];
-    fv_row(s, row);
+    VALUES_OF(fv_row, s, row);
     return row[0] / (0.5 * s->run->scene.fluid.rho * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
 }
 

@@ -417,7 +417,7 @@ TEST(stream_loses_energy)
               NULL, WALL_SLIP);
         for (int k = 0; k < (SANITIZED ? 1 : 6); k++) {
             assert_true(fv_case_run(&c, 1000, 0.2 * (k + 1)));
-            fv_row(c.s, row);
+            VALUES_OF(fv_row, c.s, row);
             assert_true(row[0] < before);
             before = row[0];
         }
@@ -483,7 +483,8 @@ TEST(orifice_starts)
         for (int n = 0; n < 3; n++) {
             assert_true(fv_case_run(&c, 5, 1.0));
             assert_close(discharge(s, of[k].open), of[k].u, 1e-3 * of[k].u);
-            fv_probe(s, &gauge); /* on rank 0; beside a corner, within the orifice */
+            VALUES_OF(fv_probes_row, s,
+                      &gauge); /* on rank 0; beside a corner, within the orifice */
             MPI_Bcast(&gauge, 1, MPI_DOUBLE, 0, MPI_COMM_WORLD);
             assert_close(gauge, of[k].u, 1e-3 * of[k].u);
             assert_true(s->max.u[0] > 0.9 * of[k].u / of[k].n &&

@@ -38,7 +38,7 @@ static void sums_on(MPI_Comm comm, int flow, double sums[FV_CASE_ROW])
     double row[FV_CASE_ROW] = {0.0};
     struct fv *s = start(&c, comm, flow, NULL);
     const bool good = fv_case_run(&c, 8, 100.0);
-    fv_row(s, row);
+    VALUES_OF(fv_row, s, row);
     for (int k = 0; k < FV_CASE_ROW; k++)
         sums[k] = good ? row[k] : NAN;
     sums[2] = good ? fv_case_weighted(s) : NAN;

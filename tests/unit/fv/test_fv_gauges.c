@@ -53,7 +53,7 @@ static void reads_the_cubic(struct fv_case *c, double x, double low, double high
     wall_add(c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
     struct fv *s = fv_case_start(c, NULL);
     set_velocity(s, top);
-    fv_probe(s, values);
+    VALUES_OF(fv_probes_row, s, values);
     const double y[3] = {low, low + 0.013, low + 0.21};
     for (int n = 0; n < 3; n++) {
         assert_close(values[2 * n], cubic(y[n]), 1e-12);
@@ -119,7 +119,7 @@ TEST(between_water_and_air)
         struct fv *s = fv_case_start(&c, NULL);
         for (int64_t i = 0; i < s->size; i++)
             s->u[0][i] = 7.0;
-        fv_probe(s, value);
+        VALUES_OF(fv_probes_row, s, value);
         assert_close(value[0], 7.0, 1e-12);
         fv_free(&c.s);
     }
@@ -136,7 +136,7 @@ static void reads_the_parabola(struct fv *s, const double *place, const double *
         s->p[c] = s->p_before[c] = (1000.0 + 70.0 * x[0] * x[0] / (h * h)) / rho;
     }
     double values[3];
-    fv_probe(s, values);
+    VALUES_OF(fv_probes_row, s, values);
     for (int k = 0; k < 3; k++)
         assert_close(values[k], value[k] + fv_still_pressure(s, (double[]){place[k], 0.2, 0}),
                      1e-9);
@@ -218,7 +218,7 @@ TEST(sections_through_faces)
             s->U[0][face] = 10.0 * (corner(at, up + 1) - corner(at, up));
             s->U[1][face] = -8.0 * (corner(at + 1, up) - corner(at, up));
         }
-    fv_probe(s, values);
+    VALUES_OF(fv_probes_row, s, values);
     for (int k = 0; k < LINES; k++) {
         const double *x = line[k];
         assert_close(values[k], stream(x[2], x[3]) - stream(x[0], x[1]), 1e-12);
@@ -283,7 +283,7 @@ static double stretched_error(int n)
         add_gauge(&c.run.scene, PROBE_VELOCITY, y[k], 0.0);
     struct fv *s = mesh_case_create(&c, NULL);
     assert_true(mesh_case_run(s, 1000, 3.0)); /* exp(-pi^2 nu t) is 1e-13 */
-    fv_probe(s, values);
+    VALUES_OF(fv_probes_row, s, values);
     for (int k = 0; k < 2; k++)
         most = fmax(most, fabs(values[2 * k] - y[k]));
     mesh_case_end(&c, &s);
@@ -310,7 +310,7 @@ TEST(sections_through_turned_blocks)
         (struct scene_probe){.kind = PROBE_DISCHARGE, .at = {at, 0.0, 0.0}, .to = {at, 0.7, 0.0}};
     struct fv *s = mesh_case_create(&c, NULL);
     assert_true(mesh_case_run(s, 1000, SANITIZED ? 0.3 : 0.4));
-    fv_probe(s, &rate);
+    VALUES_OF(fv_probes_row, s, &rate);
     FLOW_ROWS (s, row, n)
         for (int64_t i = row; i < row + n; i++) {
             const double beyond = s->surface->mesh->x[0][i] + 0.5 * h - at;
@@ -343,7 +343,7 @@ TEST(sections_behind_a_corner_of_blocks)
         .kind = PROBE_DISCHARGE, .at = {0.53, 0.0, 0.0}, .to = {0.57, 0.5, 0.0}};
     struct fv *s = mesh_case_create(&c, NULL);
     assert_true(mesh_case_run(s, 10, 100.0));
-    fv_probe(s, &rate);
+    VALUES_OF(fv_probes_row, s, &rate);
     assert_close(rate, 1.0, 1e-4);
     mesh_case_end(&c, &s);
 }
@@ -372,7 +372,7 @@ TEST(levels_on_blocks)
             (struct scene_shape){.form = SHAPE_BELOW, .level = at_rest};
         add_gauge(&c.run.scene, PROBE_LEVEL, 0.0, 0.0);
         struct fv *s = mesh_case_create(&c, NULL);
-        fv_probe(s, &level);
+        VALUES_OF(fv_probes_row, s, &level);
         assert_close(level, at_rest, 1e-9);
         mesh_case_end(&c, &s);
     }
@@ -395,7 +395,7 @@ TEST(rings_tell_the_level)
         c.run.scene.probes[c.run.scene.nprobes++] =
             (struct scene_probe){.kind = PROBE_LEVEL, .at = {x[k], -0.4, 0.0}};
     struct fv *s = mesh_case_create(&c, NULL);
-    fv_probe(s, value);
+    VALUES_OF(fv_probes_row, s, value);
     assert_close(value[0], -0.25, 1e-9);
     assert_close(value[1], -0.25, 1e-9);
     assert_close(value[2], -0.303, 1e-4);

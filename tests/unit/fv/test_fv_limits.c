@@ -21,7 +21,7 @@ static double error_at(const char *const *overrides, double cfl, double t)
     struct fv *s = fv_case_start(&c, NULL);
     s->prm.cfl = cfl > 0.0 ? cfl : s->prm.cfl;
     const bool good = fv_case_run(&c, 100000, t);
-    fv_row(s, row);
+    VALUES_OF(fv_row, s, row);
     fv_free(&c.s);
     return good ? row[3] : NAN;
 }
@@ -233,7 +233,7 @@ TEST(viscous_starts_hold)
         struct fv *s = fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 300, 0.05));
         assert_close(s->t, 0.05, 1e-12);
-        fv_row(s, row);
+        VALUES_OF(fv_row, s, row);
         energy[k] = row[0];
         fv_free(&c.s);
     }

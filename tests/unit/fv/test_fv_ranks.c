@@ -12,7 +12,7 @@ enum { SUMS = 4 }; /* energy, largest speed, error, weighted sum of the fields *
 static void take_sums(struct fv *s, bool good, double *sums)
 {
     double row[FV_CASE_ROW];
-    fv_row(s, row);
+    VALUES_OF(fv_row, s, row);
     sums[0] = good ? row[0] : NAN;
     sums[1] = row[1];
     sums[2] = row[3];

@@ -429,7 +429,7 @@ static void sums_on(MPI_Comm comm, const char *blocks, const char *const *overri
     double row[16];
     struct fv *s = mesh_case_start(&c, comm, blocks, overrides);
     const bool good = mesh_case_run(s, 4, 100.0);
-    fv_row(s, row);
+    VALUES_OF(fv_row, s, row);
     sums[0] = good ? row[0] : NAN;
     sums[1] = row[1];
     sums[2] = s->t;
@@ -622,7 +622,7 @@ TEST(energy_is_of_fourth_order)
                                        (const char *const[]){"initial.field=\"taylor_green\"",
                                                              "initial.velocity=(0.3,-0.2)", NULL});
         const double U = c.run.scene.initial.U;
-        fv_row(s, row);
+        VALUES_OF(fv_row, s, row);
         e[k] = row[0] / c.run.scene.fluid.rho / (0.25 * U * U + 0.5 * (0.09 + 0.04)) - 1.0;
         mesh_case_end(&c, &s);
     }

@@ -150,7 +150,7 @@ TEST(channel_is_exact)
     wall_add(&c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
     fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 100000, 40.0));
-    fv_row(c.s, row);
+    VALUES_OF(fv_row, c.s, row);
     assert_close(row[3], 0.0, 1e-11);
     assert_close(row[4], 0.8, 1e-11);
     fv_free(&c.s);
@@ -174,7 +174,7 @@ TEST(duct_is_exact)
         wall_add(&c, SIDE_Y_MAX, WALL_NO_SLIP, 0.0);
         fv_case_start(&c, NULL);
         assert_true(fv_case_run(&c, 100000, 8.0));
-        fv_row(c.s, row);
+        VALUES_OF(fv_row, c.s, row);
         print_message("%s, %s: force %.6g N, wanted 0.8\n", integrators[k % 2],
                       k >= 2 ? "carried" : "pressure", row[3]);
         assert_close(row[3], 0.8, 1e-5);
@@ -196,7 +196,7 @@ static double lid_energy(const char *cells, const char *graded)
     wall_add(&c, SIDE_Y_MAX, WALL_NO_SLIP, 1.0);
     fv_case_start(&c, NULL);
     assert_true(fv_case_run(&c, 100000, 2.0));
-    fv_row(c.s, row);
+    VALUES_OF(fv_row, c.s, row);
     fv_free(&c.s);
     return row[0];
 }

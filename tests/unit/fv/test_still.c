@@ -26,7 +26,7 @@ static const char *path;
 static double datum; /* Pa: of a partner */
 
 /* The row of the series after the first step, and its headings. */
-static void row_of(const char *text, double *row, const char **columns)
+static void row_of(const char *text, double *row, char (*columns)[80])
 {
     struct faults f = {0};
     struct diagnosis d = {0};
@@ -36,9 +36,12 @@ static void row_of(const char *text, double *row, const char **columns)
     struct fv *s = fv_create(&run, NULL);
     integrate(s, 0.1, &d);
     s->partners.pressure = datum;
-    if (columns)
-        fv_columns(&run, fv_params_of(&run), columns);
-    fv_row(s, row);
+    struct figures *named = NEW(struct figures, 1);
+    fv_row(s, named);
+    for (int k = 0; k < named->n && columns; k++)
+        snprintf(columns[k], sizeof columns[k], "%s", named->title[k]);
+    FREE(named);
+    VALUES_OF(fv_row, s, row);
     fv_free(&s);
     assert_false(d.bad);
     params_free(&p);
@@ -115,7 +118,7 @@ TEST(films_stand_across_their_flow)
 
 TEST(blocks_know_the_whole_pressure)
 {
-    const char *columns[COLUMNS];
+    char columns[COLUMNS][80];
     double row[COLUMNS] = {0};
     const double lift = 1000 * 9.81 * M_PI * 0.3 * 0.3;
     row_of(HEAD "fluid: { rho = 1000; nu = 0.01; gravity = (0, -9.81); };\nfv: { };\nblocks: ( " BOX

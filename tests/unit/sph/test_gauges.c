@@ -42,7 +42,7 @@ TEST(levels_are_read_along_gravity)
         tank(&c, k / 2, gravity);
         sph_case_start(&c, NULL);
         integrate_gradients(c.s);
-        probes_row(c.s, row);
+        VALUES_OF(probes_row, c.s, row);
         for (int q = 0; q < GAUGES; q++)
             assert_close(row[q], gravity < 0.0 ? depth : depth - 1.0, 1e-9);
         DROP(c.s);
@@ -126,7 +126,7 @@ TEST(waves_start_at_their_height)
             s->probes[q] = (struct scene_probe){.kind = PROBE_LEVEL, .at = {0.37 + 0.5 * q}};
         sph_case_start(&c, NULL);
         integrate_gradients(c.s);
-        probes_row(c.s, row);
+        VALUES_OF(probes_row, c.s, row);
         const struct exact e = exact_create(s);
         for (int q = 0; q < GAUGES; q++)
             assert_close(row[q], exact_surface(&e, s->probes[q].at[0]), 0.05 * c.s->dx);

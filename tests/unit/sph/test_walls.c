@@ -375,13 +375,13 @@ TEST(gauge_reads_mean)
             .kind = PROBE_PRESSURE, .at = {0.51, 0.51}, .radius = k ? 0.1 : 0.0};
     struct sph *s = sph_case_start(&c, NULL);
     integrate_gradients(s);
-    probes_row(s, row);
+    VALUES_OF(probes_row, s, row);
     for (int i = 0; i < s->p.n; i++) {
         double *q = prim_line(&s->p, i);
         if (hypot(q[0] - 0.51, q[1] - 0.51) < 0.5 * s->dx)
             q[at_rho(2)] *= 1.01;
     }
-    probes_row(s, loud);
+    VALUES_OF(probes_row, s, loud);
     print_message("gauge: %g, %g Pa; one loud particle: +%g, +%g\n", row[0], row[1],
                   loud[0] - row[0], loud[1] - row[1]);
     for (int k = 0; k < 2; k++)
@@ -393,7 +393,7 @@ TEST(gauge_reads_mean)
         if (hypot(q[0] - 0.51, q[1] - 0.51) > 0.5 * s->dx)
             q[at_volume(2)] = 0.0;
     }
-    probes_row(s, row);
+    VALUES_OF(probes_row, s, row);
     assert_close(row[1] / row[0], 7.0 / M_PI * 0.04 / 0.25, 0.01); /* w W(0), of a quarter */
     DROP(c.s);
 }
