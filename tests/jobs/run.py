@@ -47,6 +47,9 @@ quiet = '-p', 'output.snapshots=false'
 ends(0, 'swing')
 count(5, 'out/swing/toy_0*.h5')
 well = summary('out/swing')
+# a series has as many columns as the program adds
+ends(0, 'swing', *quiet, '-p', 'toy.columns=1000', '-o', 'wide')
+holds({len(line.split(',')) for line in open('wide/series.csv')} == {1002}, 'wide/series.csv')
 holds(well['status'] == 'done' and well['accepted'] is True and well['t_end'] == 1, 'summary.json', 'out/swing/summary.json')
 holds(says('Time Value="0.89999999999999991"', 'out/swing/toy.xdmf'), 'toy.xdmf lacks t = 0.9', 'out/swing/toy.xdmf')
 rows = open('out/swing/series.csv').read().splitlines()

@@ -18,6 +18,7 @@ static struct toy_params {
     int bad;     /* step that fails; 0: none */
     int fault;   /* step that ends in a segmentation fault; 0: none */
     double slow; /* s to sleep in each step */
+    int columns; /* of the series */
 } params;
 
 struct toy {
@@ -34,6 +35,7 @@ static const struct param rows[] = {
     PARAM(P, bad,   "-", "0",    0,    1e9, "step that fails"),
     PARAM(P, fault, "-", "0",    0,    1e9, "step that ends in a segmentation fault"),
     PARAM(P, slow,  "s", "0.0",  0,    10,  "to sleep in each step"),
+    PARAM(P, columns, "-", "1",  1,    1e4, "of the series, which tell the energy"),
 };
 #undef P
 /* clang-format on */
@@ -102,6 +104,8 @@ static void row(void *state, struct figures *to)
         e += 0.5 * (s->x[i] * s->x[i] + s->v[i] * s->v[i]);
     MPI_Allreduce(MPI_IN_PLACE, &e, 1, MPI_DOUBLE, MPI_SUM, s->run->comm);
     FIGURE(to, e, "energy [J]");
+    for (int k = 1; k < params.columns; k++)
+        FIGURE(to, e, "energy %d [J]", k + 1);
 }
 
 static void progress(void *state, char *line, int size)
