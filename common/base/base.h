@@ -3,8 +3,7 @@
  * figures, and the C library that every source may use. State and doors bring it: a source names
  * it where nothing else does.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_BASE_DOOR_H
-#define COMMON_BASE_DOOR_H
+#pragma once
 
 #include <math.h>
 #include <mpi.h>
@@ -28,5 +27,3 @@
 #include "timer.h"
 #include "vec3.h"
 #include "version.h"
-
-#endif

@@ -1,8 +1,7 @@
 /* digits.h - rounds limits that a message prints. A reader copies such a limit into the case, where
  * it must be accepted: an upper limit is rounded down, a lower limit up.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_DIGITS_H
-#define COMMON_DIGITS_H
+#pragma once
 
 #include <math.h>
 
@@ -21,5 +20,3 @@ static inline double digits_above(double x, int digits)
     const double unit = pow(10.0, floor(log10(x)) - digits + 1.0);
     return ceil(x / unit * (1.0 - 1e-12)) * unit;
 }
-
-#endif

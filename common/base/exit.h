@@ -1,7 +1,6 @@
 /* exit.h - the exit codes of all programs, as the shell sees them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_EXIT_H
-#define COMMON_EXIT_H
+#pragma once
 
 enum run_exit {
     RUN_DONE = 0,         /* the run reached its end and met the case's criteria */
@@ -11,5 +10,3 @@ enum run_exit {
     RUN_PARTNER = 4,  /* another program of the coupled job failed or fell silent */
     RUN_STOPPED = 5   /* stopped in order, on request; can be restarted */
 };
-
-#endif

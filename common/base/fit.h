@@ -1,8 +1,7 @@
 /* fit.h - period and damping of a decaying oscillation from its samples, and exponential smoothing
  * of a signal. The zero crossings give the period, the extremes between them the damping rate.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_FIT_H
-#define COMMON_FIT_H
+#pragma once
 
 /* The samples collected so far. Start from zeroed memory; the arrays belong to the owner that
  * fit_add is called with. */
@@ -34,5 +33,3 @@ double fit_rate(const struct fit *f);
  * makes no trend (after Gelper, Fried & Croux, J. Forecasting 29, 2010). *scatter then grows by the
  * tenth root of the excess ratio, so that a true change is followed after some values. */
 void fit_smooth(double v, double h, double memory, double *level, double *rate, double *scatter);
-
-#endif

@@ -1,7 +1,6 @@
 /* inline.h - functions that are compiled into each caller.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_INLINE_H
-#define COMMON_INLINE_H
+#pragma once
 
 /* A function whose callers tell its forms (dimension, scheme) by constants, so that the compiler
  * drops from each form what it has not. Under the sanitizers one form is told by values: all forms
@@ -10,6 +9,4 @@
 #define INLINE static inline
 #else
 #define INLINE static inline __attribute__((always_inline))
-#endif
-
 #endif

@@ -1,7 +1,6 @@
 /* key_text.h - short texts put together on the way: keys of lists, names of columns.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_KEY_TEXT_H
-#define COMMON_KEY_TEXT_H
+#pragma once
 
 #include <stddef.h>
 
@@ -12,5 +11,3 @@ const char *key_text(const char *format, ...) __attribute__((format(printf, 1, 2
  */
 void text_add(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-
-#endif

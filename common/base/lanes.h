@@ -1,8 +1,7 @@
 /* lanes.h - sums and bounds over lists: partial results side by side, for vector registers (strict
  * order of summation would forbid them).
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_LANES_H
-#define COMMON_LANES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -91,5 +90,3 @@ static inline void lanes_bounds(const double *restrict a, int n, double *low, do
         *high = h[m] > *high ? h[m] : *high;
     }
 }
-
-#endif

@@ -2,8 +2,7 @@
  * of the program prints; the calls are legal on all ranks and silent on the others. abort_run()
  * and fail_with() print from any rank. None of the calls communicates.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_LOG_H
-#define COMMON_LOG_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -50,5 +49,3 @@ _Noreturn void fail_with(int code, const char *fmt, ...) __attribute__((format(p
 /* Called with the reason before the run is aborted: it writes the failure report of a coupled job
  * and must not fail itself. NULL: nothing is called. */
 extern void (*fail_hook)(const char *reason);
-
-#endif

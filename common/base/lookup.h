@@ -1,7 +1,6 @@
 /* lookup.h - the place of a number in a table whose rows ascend.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_LOOKUP_H
-#define COMMON_LOOKUP_H
+#pragma once
 
 /* The last of n rows whose first number, rows[stride k], is not above x; 0 if there is none. By
  * bisection. With one row less than the table has, rows k and k + 1 have x between them. */
@@ -23,5 +22,3 @@ static inline double lookup_linear(const double (*rows)[2], int n, double x)
     const double(*at)[2] = rows + lookup_row(rows[0], 2, n - 1, x);
     return at[0][1] + (x - at[0][0]) / (at[1][0] - at[0][0]) * (at[1][1] - at[0][1]);
 }
-
-#endif

@@ -3,8 +3,7 @@
  * it is made of, and one FREE of a state frees all that it holds. When memory runs out the run ends
  * with RUN_INPUT and a sentence that names the amounts. The counters belong to the process and are
  * not safe against threads. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_MEM_H
-#define COMMON_MEM_H
+#pragma once
 
 #include <stddef.h>
 
@@ -48,5 +47,3 @@ void mem_free_all(size_t n, void *const *p);
 /* FREE(p, q, ...): mem_free of each; the pointers keep their values. */
 #define FREE(...)                                                                                  \
     mem_free_all(sizeof((void *[]){__VA_ARGS__}) / sizeof(void *), (void *[]){__VA_ARGS__})
-
-#endif

@@ -1,8 +1,7 @@
 /* ranks.h - one number of each rank to one number of all. Every call is collective over comm and
  * returns the same on all of its ranks, in the unit of what it was given.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_RANKS_H
-#define COMMON_RANKS_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -70,5 +69,3 @@ static inline double ranks_most(MPI_Comm comm, double v, void *what, int bytes)
     (void)ranks_first(comm, v == most, what, bytes);
     return most;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* timer.h - named timers of a program. They may nest, and then the outer one counts the time of the
  * inner one, too. Local to the rank; the table over ranks is written by run.c.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_TIMER_H
-#define COMMON_TIMER_H
+#pragma once
 
 #include <mpi.h>
 
@@ -26,5 +25,3 @@ void timer_stop(struct timers *t, const char *name);
 double timer_wall(const struct timers *t, const char *name); /* s; 0 if there is none */
 double wall_time(void);                                      /* s, monotonic */
 double cpu_time(void); /* s of processor time of this process, all its threads */
-
-#endif

@@ -1,8 +1,7 @@
 /* vec3.h - inline operations on vectors of three components, plain double[3] in any unit. Arguments
  * may not overlap with results unless a comment allows it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_VEC3_H
-#define COMMON_VEC3_H
+#pragma once
 
 #include <math.h>
 
@@ -72,5 +71,3 @@ static inline double vec3_cofactors(double A[3][3], double c[3][3])
         vec3_cross(A[(a + 1) % 3], A[(a + 2) % 3], c[a]);
     return vec3_dot(A[0], c[0]);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* disk.h - one wording for files that cannot be written, and checksums that show that a restart
  * file is whole. The functions are local to a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_DISK_H
-#define COMMON_DISK_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -28,5 +27,3 @@ bool disk_seal(const char *path);
 /* Whether a file ends with the mark and the right checksum: it is not cut short and no bit
  * changed. */
 bool disk_sealed(const char *path);
-
-#endif

@@ -1,8 +1,7 @@
 /* files.h - the door of this folder, the one header of it that others include: HDF5 files, their
  * XDMF description, series.csv, tables of figures, room on the disk.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_FILES_DOOR_H
-#define COMMON_FILES_DOOR_H
+#pragma once
 
 #include "disk.h"
 #include "fit_file.h"
@@ -10,5 +9,3 @@
 #include "series.h"
 #include "table.h"
 #include "xdmf.h"
-
-#endif

@@ -4,8 +4,7 @@
  * failure inside the library ends the run: of a write as a fault of the disk (disk_failed), of a
  * read through abort_run(). Readers return false or NULL, on all ranks alike, where name or shape
  * do not fit. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_H5_H
-#define COMMON_H5_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -91,5 +90,3 @@ int64_t *h5_first_rows(struct h5 *f, const char *name);
  * is empty takes part with hi <= lo. `unit' and `single' are those of h5_write_real. */
 void h5_write_block(struct h5 *f, const char *name, const char *unit, int dim, const int *cells,
                     const int *lo, const int *hi, int ncomp, const double *v, bool single);
-
-#endif

@@ -2,8 +2,7 @@
  * of a run. Rank 0 writes; on the other ranks a series is made with path NULL and its calls do
  * nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SERIES_H
-#define COMMON_SERIES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -60,5 +59,3 @@ void summary_each(const struct summary *s, void (*f)(void *ctx, const char *key,
                   void *ctx);
 /* Writes the file by rename; failure ends the run (disk_failed). */
 void summary_write(const struct summary *s, const char *path);
-
-#endif

@@ -2,8 +2,7 @@
  * the names ("t [s]": the name ends before the unit), each further line a row of numbers. Local to
  * a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_TABLE_H
-#define COMMON_TABLE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -19,5 +18,3 @@ struct table {
 struct table *table_read(const char *path);
 /* Index of the column of this name (without unit); -1 if there is none. */
 int table_column(const struct table *t, const char *name);
-
-#endif

@@ -8,8 +8,7 @@
  * 2DCoRectMesh or a 2DRectMesh into the plane of y and z, away from the particles, and cannot read
  * cells of a 3D mesh with one layer.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_XDMF_H
-#define COMMON_XDMF_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -57,5 +56,3 @@ void xdmf_surfaces(struct xdmf *x, double t, int n, const struct xdmf_surface *o
  * [n[k]][2], K = k + 1, and the name names[k]. */
 void xdmf_outlines(struct xdmf *x, double t, const char *file, int nlines, const char *const *names,
                    const int *n);
-
-#endif

@@ -2,8 +2,7 @@
  * from the body's axes to those of space; quaternions are (w, x, y, z); rotation vectors are axis
  * times angle in rad.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_BODY_MATH_H
-#define COMMON_BODY_MATH_H
+#pragma once
 
 #include "../base/base.h"
 
@@ -90,5 +89,3 @@ static inline void spin_of_vector(const double *r, const double *dr, double *ome
     for (int k = 0; k < 3; k++)
         omega[k] = dr[k] + g * a[k] + h * b[k];
 }
-
-#endif

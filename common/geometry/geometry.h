@@ -1,7 +1,6 @@
 /* geometry.h - the door of this folder, the one header of it that others include: bodies,
  * triangle meshes, outlines, their search tree. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_GEOMETRY_DOOR_H
-#define COMMON_GEOMETRY_DOOR_H
+#pragma once
 
 #include "body_math.h"
 #include "outline.h"
@@ -9,5 +8,3 @@
 #include "trimesh.h"
 #include "trimesh_check.h"
 #include "trimesh_read.h"
-
-#endif

@@ -4,8 +4,7 @@
  * drawing the lower left corner of the page is the origin, y points up, lengths are in its own
  * units.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_OUTLINE_H
-#define COMMON_OUTLINE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -26,5 +25,3 @@ bool outline_read(const char *file, int most, bool whole, struct outline *is, ch
 
 /* Box around n points of the plane, m: sets the two of lo and hi; lo > hi: there are none. */
 void outline_bounds(int n, const double (*x)[2], double *lo, double *hi);
-
-#endif

@@ -2,8 +2,7 @@
  * triangles are near a box, which point is nearest to a given one and on which side of the surface
  * it lies, what a segment meets. Queries are local to a rank, O(log n), and do not change the tree.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_TREE_H
-#define COMMON_TREE_H
+#pragma once
 
 #include "trimesh.h"
 
@@ -47,5 +46,3 @@ bool tree_crosses(const struct tree *t, const double a[3], const double b[3], do
  * 1983): 1 inside a surface whose normals point outwards, 0 outside. Needs no tree and costs
  * O(n). */
 double trimesh_winding(const struct trimesh *m, const double x[3]);
-
-#endif

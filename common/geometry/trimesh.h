@@ -3,8 +3,7 @@
  * want it to point out of the fluid, i.e. into the solid. Everything here is local to a rank; ranks
  * that need the same mesh do the same work on the same data.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_TRIMESH_H
-#define COMMON_TRIMESH_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -97,5 +96,3 @@ struct trimesh trimesh_within(const struct trimesh *m, const double lo[3], const
  * its section, normals out. false, and the mesh stays as it is but for those vertices: nothing is
  * beyond, or all of it, or the section is none of simple loops. */
 bool trimesh_end(struct trimesh *m, int axis, double at, bool high, double near);
-
-#endif

@@ -1,8 +1,7 @@
 /* trimesh_check.h - what must be known of a mesh before it bounds a fluid: whether it crosses
  * itself or others, how fine it is, which way its normals point.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_TRIMESH_CHECK_H
-#define COMMON_TRIMESH_CHECK_H
+#pragma once
 
 #include <mpi.h>
 
@@ -36,5 +35,3 @@ int trimesh_orient_closed(struct trimesh *m, int sign);
 double trimesh_openness(const struct trimesh *m, double *volume, double normal[3]);
 /* 64-bit FNV-1a over the bytes of x and vertex: equal meshes in equal order have equal hashes. */
 uint64_t trimesh_hash(const struct trimesh *m);
-
-#endif

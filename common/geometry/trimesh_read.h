@@ -1,8 +1,7 @@
 /* trimesh_read.h - triangles from files of other programs, through the library assimp where the
  * program was built with it. The library hands out single precision.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_TRIMESH_READ_H
-#define COMMON_TRIMESH_READ_H
+#pragma once
 
 #include <mpi.h>
 #include <stddef.h>
@@ -17,5 +16,3 @@ bool trimesh_read(const char *path, struct trimesh *m, char *why, size_t size);
 bool trimesh_has_reader(void);
 /* Copies the connected mesh of rank 0 to all ranks. Collective over comm. */
 void trimesh_broadcast(struct trimesh *m, MPI_Comm comm);
-
-#endif

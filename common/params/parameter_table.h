@@ -3,8 +3,7 @@
  * struct. Case files are libconfig text in SI units; vectors stand in ( ). Rank 0 reads, all ranks
  * get the bytes. All faults are found at once, each with file, line, key and what is allowed.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PARAMETER_TABLE_H
-#define COMMON_PARAMETER_TABLE_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -199,5 +198,3 @@ int params_report(const struct faults *f);
  * in markdown. Both write to standard output, on the calling rank. */
 void params_help(const struct param_group *groups, int ngroups, const char *key);
 void params_manual(const struct param_group *groups, int ngroups);
-
-#endif

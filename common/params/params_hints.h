@@ -1,8 +1,7 @@
 /* params_hints.h - what the parameter table knows about common slips: names of other codes,
  * misspelt words, syntax that libconfig reports in the wrong line. For params*.c; local to rank 0.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PARAMS_HINTS_H
-#define COMMON_PARAMS_HINTS_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -57,5 +56,3 @@ const char *hint_no_text(const char *text, size_t n);
 /* Line of the first integer of ten digits or more without L, which libconfig would wrap, copied to
  * word[size]; 0 if there is none. */
 int hint_long_integer(const char *text, char *word, size_t size);
-
-#endif

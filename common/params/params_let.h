@@ -3,8 +3,7 @@
  * wherever the case or the command line gives a number, a text in quotes may stand for it. For
  * params*.c; local to rank 0.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PARAMS_LET_H
-#define COMMON_PARAMS_LET_H
+#pragma once
 
 #include <libconfig.h>
 #include <stdbool.h>
@@ -29,5 +28,3 @@ bool let_value(const config_setting_t *s, double *v, const char **why);
 /* Writes the variables and their values as a comment of a case, "# let: H = 0.3"; nothing if there
  * are none or l is NULL. */
 void let_print(FILE *to, const struct let *l);
-
-#endif

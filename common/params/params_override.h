@@ -1,8 +1,7 @@
 /* params_override.h - what the command line gives of a case: -p GROUP.KEY=VALUE, or a list or group
  * as a whole, 'accept=()'. For params*.c; local to rank 0.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PARAMS_OVERRIDE_H
-#define COMMON_PARAMS_OVERRIDE_H
+#pragma once
 
 #include <libconfig.h>
 
@@ -25,5 +24,3 @@ void override_read(struct override *o, const char *text, struct faults *f);
 /* If the override is a list or group as a whole, puts a copy of it into cfg in place of the
  * case's. */
 void override_graft(struct override *o, config_t *cfg, struct faults *f);
-
-#endif

@@ -1,8 +1,7 @@
 /* params_use.h - when a run uses a key, as data of the key's row, and what a run that does not use
  * it is told. A key that a case gives and the run passes over is a fault of the case.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PARAMS_USE_H
-#define COMMON_PARAMS_USE_H
+#pragma once
 
 #include "parameter_table.h"
 
@@ -72,5 +71,3 @@ void params_check_plane(const struct params *p, const struct param_group *groups
                         struct faults *f);
 /* The conditions of a row in words, "form = disc"; "" if it has none. Static buffer. */
 const char *params_use_words(const struct param *rows, int nrows, const struct param *row);
-
-#endif

@@ -1,7 +1,6 @@
 /* params_value.h - reads the value of one row of the parameter table. For params*.c.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PARAMS_VALUE_H
-#define COMMON_PARAMS_VALUE_H
+#pragma once
 
 #include <libconfig.h>
 #include <stdbool.h>
@@ -29,5 +28,3 @@ void param_default(const struct param_group *g, const struct param *r, void *tar
 /* The same for element k (from 0) of a list of groups: `#' at the end of a text becomes the number
  * k + 1, or nothing in the first element. */
 void param_default_of(const struct param_group *g, const struct param *r, void *target, int k);
-
-#endif

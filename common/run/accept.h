@@ -1,8 +1,7 @@
 /* accept.h - a case's own criteria (group accept): numbers of summary.json against bounds, and
  * columns of series.csv against reference data.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_ACCEPT_H
-#define COMMON_ACCEPT_H
+#pragma once
 
 #include "../params/params.h"
 #include "../scene/scene.h"
@@ -37,5 +36,3 @@ void accept_check_columns(const struct scene *s, const struct params *p, int n,
  * the last rows are written. */
 bool accept_judge(const struct scene *s, const char *case_dir, const char *dir,
                   struct summary *summary);
-
-#endif

@@ -1,8 +1,7 @@
 /* coupling_steps.h - divides the time span of a coupled job into equal coupling steps, and tells
  * which of them end with an output. Pure functions of the case: all programs get the same answer.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_COUPLING_STEPS_H
-#define COMMON_COUPLING_STEPS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -20,5 +19,3 @@ int64_t coupling_steps_number(double span, double since, double every, double dt
 bool coupling_steps_output(int64_t n, int64_t k, double span, double since, double every);
 /* Largest distance, s, of an output from its nominal time; 0 if all fall on ends of steps. */
 double coupling_steps_off(int64_t n, double span, double since, double every);
-
-#endif

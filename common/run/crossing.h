@@ -1,8 +1,7 @@
 /* crossing.h - coupled jobs whose free surface crosses open sides of SPH's box. Both programs then
  * hold a part of the surface, and their pressures share one reference, 0 on the surface.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_CROSSING_H
-#define COMMON_CROSSING_H
+#pragma once
 
 #include "program.h"
 
@@ -27,5 +26,3 @@ double crossing_depth(const struct scene *c, int a);
 /* sqrt(H/g) with that depth H, s: a long wave takes this time over a distance of one depth.
  * INFINITY where gravity acts along periodic axes alone, or not at all. */
 double crossing_time(const struct scene *c);
-
-#endif

@@ -1,8 +1,7 @@
 /* discharge_gauges.h - the volumes that went through discharge gauges in a run. The overtopping of
  * a wall, for example, is what goes through a gauge above its crest.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_DISCHARGE_GAUGES_H
-#define COMMON_DISCHARGE_GAUGES_H
+#pragma once
 
 #include "../files/files.h"
 #include "../scene/scene.h"
@@ -14,5 +13,3 @@
  * m^dim/s). Columns that the series lacks are left out. Rank 0. */
 void discharge_gauges_judge(const struct scene *s, bool means, const char *path,
                             struct summary *summary);
-
-#endif

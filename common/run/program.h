@@ -2,8 +2,7 @@
  * snapshots, restart files, summary, exit code. A solver fills a struct program and its main calls
  * run_main; a coupled job is reached through a struct partner (coupler/cpl_partner.h), so that
  * nothing here knows the coupler. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PROGRAM_H
-#define COMMON_PROGRAM_H
+#pragma once
 
 #include "../base/base.h"
 #include "../files/files.h"
@@ -225,5 +224,3 @@ void signals_hint(const char *text);
 /* Copies the diagnosis of the lowest rank with d->bad to all ranks; false if there is none.
  * Collective over comm. */
 bool run_diagnose(struct diagnosis *d, MPI_Comm comm);
-
-#endif

@@ -1,8 +1,7 @@
 /* run.h - the door of this folder, the one header of it that others include: the life of a
  * solver program, its gauges, watches, acceptance and forecasts.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_RUN_DOOR_H
-#define COMMON_RUN_DOOR_H
+#pragma once
 
 #include "accept.h"
 #include "coupling_steps.h"
@@ -11,5 +10,3 @@
 #include "program.h"
 #include "solids.h"
 #include "watch.h"
-
-#endif

@@ -1,8 +1,7 @@
 /* run_files.h - the output folder of a run: snapshots, restart files and their manifest, view.py.
  * For run.c; collective over run->comm where no other is said.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_RUN_FILES_H
-#define COMMON_RUN_FILES_H
+#pragma once
 
 #include "program.h"
 
@@ -37,5 +36,3 @@ void files_tell_difference(const struct run_files *f, struct h5 *h);
 void files_view(const struct run *r);
 /* Sets path to DIR/NAME-WHAT when coupled, DIR/WHAT when alone. */
 void files_path(const struct run *r, const char *what, char *path, size_t size);
-
-#endif

@@ -1,8 +1,7 @@
 /* solids.h - deals out the bodies and walls of a scene to several programs of particles, each with
  * its own box: a solid belongs to the program in whose box it lies.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SOLIDS_H
-#define COMMON_SOLIDS_H
+#pragma once
 
 #include "../scene/scene.h"
 #include "program.h"
@@ -14,5 +13,3 @@ bool solids_elsewhere(const struct run *r, enum mesh_owner owner, int k);
  * be called once the case has been checked, since messages name solids by their index in the case.
  * Collective over r->comm. */
 void solids_deal(struct run *r);
-
-#endif

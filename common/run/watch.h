@@ -2,8 +2,7 @@
  * another it ends the run; its worst value stands in summary.json. It is judged on values that are
  * equal on all ranks, so that all take the same branch.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_WATCH_H
-#define COMMON_WATCH_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -47,5 +46,3 @@ double watch_budget_gain(struct watch_budget *b, int64_t step, double energy_les
 /* The same of a rise that has lasted: over that minimum of the least of the last `steps' steps, J,
  * after watch_budget_gain of the last of them. */
 double watch_budget_lasting(const struct watch_budget *b, int steps);
-
-#endif

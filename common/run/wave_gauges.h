@@ -1,8 +1,7 @@
 /* wave_gauges.h - evaluates groups of level gauges (gauges = ( {...} )) at the end of a run from
  * its series.csv: incident and reflected waves, heights, spectra.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_WAVE_GAUGES_H
-#define COMMON_WAVE_GAUGES_H
+#pragma once
 
 #include "../files/files.h"
 #include "../scene/scene.h"
@@ -20,5 +19,3 @@ void wave_gauges_check(const struct scene *s, const bool *elsewhere, const struc
  * program of the job has them, are left out. Rank 0. */
 void wave_gauges_judge(const struct scene *s, const char *path, const char *dir,
                        struct summary *summary);
-
-#endif

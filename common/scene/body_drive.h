@@ -2,8 +2,7 @@
  * polynomials, which add up. Velocities are the exact derivatives of the displacements. Local to a
  * rank.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_BODY_DRIVE_H
-#define COMMON_BODY_DRIVE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -109,5 +108,3 @@ double body_drive_speed(const struct body_drive *v, double reach, double end);
 double body_drive_acceleration(const struct body_drive *v, double reach);
 /* 1/s: frequency of the quickest of these; 0: none. */
 double body_drive_rate(const struct body_drive *v);
-
-#endif

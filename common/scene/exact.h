@@ -10,8 +10,7 @@
  * central force (Monaghan & Rafiee 2013) and the steep wave of stokes.h. Regular and solitary waves
  * (steady.h) are exact without friction.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_EXACT_H
-#define COMMON_EXACT_H
+#pragma once
 
 #include "../base/base.h"
 #include "../files/files.h"
@@ -106,5 +105,3 @@ double norm_rms_mean_free(const struct norm *n); /* sqrt(e2/vol - (e1/vol)^2) */
 /* Writes the sums as "norm.NAME.vol", .e1, .e2, .r2, .emax, which a coupler adds up over programs,
  * and as .unit the unit in which errors are given, in the field's own unit, unless it is 0. */
 void norm_tell(struct summary *to, const char *name, const struct norm *n, double unit);
-
-#endif

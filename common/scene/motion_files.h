@@ -1,8 +1,7 @@
 /* motion_files.h - the files of prescribed motions beside a case, and of levels and discharges of
  * openings over time, each read once a run, whoever asks for it. Every rank reads for itself.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_MOTION_FILES_H
-#define COMMON_MOTION_FILES_H
+#pragma once
 
 #include <stddef.h>
 
@@ -37,5 +36,3 @@ void motion_file_fault(const struct motion_file *m, const char *row, char *text,
 /* Adds a computed file of that name, n rows with rising times, so that motion_files_read finds it.
  * rows[n][columns] must come from mem.h and passes to the list. */
 void motion_files_add(struct motion_files *all, const char *file, int n, int columns, double *rows);
-
-#endif

@@ -3,8 +3,7 @@
  * probes, zones. A 3D scene is projected along y. Rank 0 only; a file that cannot be written ends
  * the run.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PICTURE_H
-#define COMMON_PICTURE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -49,5 +48,3 @@ void picture_cells(struct picture *p, int n, const double (*x)[2]);
 void picture_text(struct picture *p, const double at[3], const char *text);
 /* Writes the legend, closes the file and sets *p to NULL. */
 void picture_close(struct picture **p);
-
-#endif

@@ -1,7 +1,6 @@
 /* picture_section.h - what picture.c draws of a scene with meshes.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_PICTURE_SECTION_H
-#define COMMON_PICTURE_SECTION_H
+#pragma once
 
 #include "exact.h"
 #include "scene_mesh.h"
@@ -10,5 +9,3 @@
 double picture_water_middle(const struct scene *s, int axis);
 /* Whether two neighbouring triangles enclose more than 30 degrees, so that their edge is drawn. */
 bool picture_is_sharp(const struct trimesh *m, int a, int b);
-
-#endif

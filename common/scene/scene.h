@@ -1,8 +1,7 @@
 /* scene.h - the door of this folder, the one header of it that others include: what is computed,
  * not how: the groups of a case that every program reads, and what follows from them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_DOOR_H
-#define COMMON_SCENE_DOOR_H
+#pragma once
 
 #include "body_drive.h"
 #include "exact.h"
@@ -30,5 +29,3 @@
 #include "wave_maker.h"
 #include "wave_picture.h"
 #include "wave_zones.h"
-
-#endif

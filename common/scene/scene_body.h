@@ -2,8 +2,7 @@
  * of the case; body_drive.h evaluates prescribed motion, sph/rigid moves free bodies. In 2D all
  * forces and masses are per metre of depth.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_BODY_H
-#define COMMON_SCENE_BODY_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -144,5 +143,3 @@ struct scene_contact scene_contact_of(const struct scene_body *b);
 /* Bits 1 << enum body_axis of the words in lock, separated by blanks or commas; -1: a word is none
  * of them, or not of a case of this dimension. */
 int scene_body_locked(const char *lock, int dim);
-
-#endif

@@ -4,8 +4,7 @@
  * water, in the mean the same at both, so that the domain keeps its water. That is the current
  * times the depth and, of waves that are not closed, what they carry.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_CURRENTS_H
-#define COMMON_SCENE_CURRENTS_H
+#pragma once
 
 #include "../waves/waves.h"
 #include "motion_files.h"
@@ -26,5 +25,3 @@ double scene_currents_mean(const struct scene *s, const struct waves *made);
 /* Says the waves' period seen from both frames, where their energy goes, and what flows through the
  * ends; nothing where no water does. */
 void scene_currents_describe(const struct scene *s, const struct waves *made);
-
-#endif

@@ -1,8 +1,7 @@
 /* scene_cut.h - what is drawn beyond walls and the domain: bodies that stand in a bed or in a
  * closed side, as a pile or half a disc, and beds that are longer than a period.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_CUT_H
-#define COMMON_SCENE_CUT_H
+#pragma once
 
 #include "../geometry/geometry.h"
 #include "scene_groups.h"
@@ -18,5 +17,3 @@ bool scene_cut_mesh(const struct scene *s, const struct scene_body *b, struct tr
 /* In 2D: an open line that spans a period, as a bed does, keeps what lies within it, for its images
  * go on there. One that comes back through a periodic side stays as it is. */
 void scene_cut_at_periods(const struct scene *s, struct scene_wall *w);
-
-#endif

@@ -1,8 +1,7 @@
 /* scene_facts.h - what keys of the scene's groups may need of a run: facts that a program finds
  * out, for the conditions of params_use.h. A program has those that it does not judge.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_FACTS_H
-#define COMMON_SCENE_FACTS_H
+#pragma once
 
 #include "../params/params.h"
 #include "scene_groups.h"
@@ -62,5 +61,3 @@ bool scene_shows(const struct scene *s, const char *field);
  * `program' has. */
 void scene_check_shown(const struct scene *s, const struct params *p, const char *program,
                        const char *known, struct faults *f);
-
-#endif

@@ -1,7 +1,6 @@
 /* scene_files.h - what files beside a case add to the scene, and what follows from its keys alone:
  * the same for every program of a job, before scene_check. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_FILES_H
-#define COMMON_SCENE_FILES_H
+#pragma once
 
 #include "motion_files.h"
 #include "scene_groups.h"
@@ -11,5 +10,3 @@
  * is the last. On all ranks alike. */
 void scene_files_read(struct scene *s, const char *dir, struct motion_files *files,
                       const struct params *p, struct faults *f);
-
-#endif

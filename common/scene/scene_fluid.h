@@ -1,8 +1,7 @@
 /* scene_fluid.h - where the fluid of a scene is at the start, which way is up, and on which side of
  * its walls the fluid lies. Functions of the scene alone, local to a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_FLUID_H
-#define COMMON_SCENE_FLUID_H
+#pragma once
 
 #include "exact.h"
 #include "scene_groups.h"
@@ -54,5 +53,3 @@ bool scene_in_tanks(const struct scene *s, const double *x);
  * outside, a wall where it actually is if that is one side only. What was turned is marked in the
  * scene. */
 void scene_orient(struct scene *s);
-
-#endif

@@ -2,8 +2,7 @@
  * and prisms. Area or volume are those of the form within 1e-3, not of a polygon inscribed
  * in it, and the extent along the axes is exact.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_FORMS_H
-#define COMMON_SCENE_FORMS_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -21,5 +20,3 @@ void scene_forms_fit(struct scene *s, double edge);
 /* In 3D: the triangles of a body of simple form, normals out, connected, not yet placed; the
  * caller owns them. Round ones have edges of about `facet', m, where that is not 0. */
 struct trimesh scene_form_mesh(const struct scene_body *b, double facet);
-
-#endif

@@ -2,8 +2,7 @@
  * are relative to the size of the lines, so that they hold for millimetres and kilometres alike.
  * Local to a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_GEOMETRY_H
-#define COMMON_SCENE_GEOMETRY_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -58,5 +57,3 @@ bool line_pierces(const struct line *a, const struct line *b, double at[2]);
 bool line_overlaps(const struct line *a, const struct line *b, double at[2]);
 /* Reverses the order of the points. */
 void points_reverse(struct param_points *p);
-
-#endif

@@ -3,8 +3,7 @@
  * afterwards by the functions named. Sizes are in SI units, arrays of three hold zeros where 2D has
  * no third component.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_GROUPS_H
-#define COMMON_SCENE_GROUPS_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -298,5 +297,3 @@ void scene_groups(struct scene *s, struct param_group *groups);
 /* Adds the faults between keys (max > min, L > 0, ...), then fills in what follows from several
  * keys. Call on all ranks alike. */
 void scene_check(struct scene *s, const struct params *p, struct faults *f);
-
-#endif

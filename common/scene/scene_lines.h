@@ -1,8 +1,7 @@
 /* scene_lines.h - polylines of walls in the plane: which of their sides is the fluid's, and what
  * open ones leave out behind them. Local to a rank.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_LINES_H
-#define COMMON_SCENE_LINES_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -17,5 +16,3 @@ bool scene_has_open_lines(const struct scene *s);
  * continues straight beyond an end on a side of the domain; beyond another end nothing is behind
  * it. */
 bool scene_is_behind_lines(const struct scene *s, const double *x);
-
-#endif

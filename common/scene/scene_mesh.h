@@ -1,8 +1,7 @@
 /* scene_mesh.h - the triangles of a scene's walls, bodies and shapes: read, welded, repaired and
  * given the sense that they must have. Every rank holds all of them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_MESH_H
-#define COMMON_SCENE_MESH_H
+#pragma once
 
 #include "../geometry/geometry.h"
 #include "scene_groups.h"
@@ -77,5 +76,3 @@ enum scene_matter scene_matter(const struct scene *s, const struct exact *e, con
 void scene_meshes_say(const struct scene *s);
 /* Writes the figures of each mesh to the summary, as mesh.NAME.triangles. */
 void scene_meshes_summary(const struct scene *s, struct summary *to);
-
-#endif

@@ -3,8 +3,7 @@
  * of a time, s, which rises, and a value: linear between the rows, constant before the first and
  * after the last.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_OPENINGS_H
-#define COMMON_SCENE_OPENINGS_H
+#pragma once
 
 #include "exact.h"
 #include "motion_files.h"
@@ -49,5 +48,3 @@ double openings_discharge_speed(const struct scene *s);
 void openings_describe_outside(const char *side, double stands, bool falls);
 /* Logs what each inlet and outlet under a free surface does. */
 void openings_describe(const struct scene *s);
-
-#endif

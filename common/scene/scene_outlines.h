@@ -1,7 +1,6 @@
 /* scene_outlines.h - points of walls, bodies and shapes from files (key outline).
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_OUTLINES_H
-#define COMMON_SCENE_OUTLINES_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -15,5 +14,3 @@ void scene_outlines_read(struct scene *s, const char *dir, const struct params *
 /* Scales, rotates and shifts n corners x and makes them the points of TO. */
 void scene_outline_place(const struct scene_surface *is, int n, const double (*x)[2],
                          struct param_points *to);
-
-#endif

@@ -1,8 +1,7 @@
 /* scene_probe.h - what gauges measure: their columns, and the section of one that measures a
  * discharge.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_PROBE_H
-#define COMMON_SCENE_PROBE_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -27,5 +26,3 @@ struct probe_section {
     int n;                         /* of extents: dim - 1 */
 };
 struct probe_section probe_section_of(const struct scene_probe *g, int dim);
-
-#endif

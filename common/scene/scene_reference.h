@@ -3,8 +3,7 @@
  * pressures, and gravity across bounded axes only adds a hydrostatic pressure that is linear in x.
  * A solver that subtracts both works with pressures as small as those that move the fluid.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_REFERENCE_H
-#define COMMON_SCENE_REFERENCE_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -34,5 +33,3 @@ static inline double scene_reference_at(const struct scene_reference *r, int dim
 /* The pressure at the middle of an opening minus the reference there, Pa. */
 double scene_reference_left(const struct scene *s, const struct scene_reference *r,
                             const struct scene_wall *w);
-
-#endif

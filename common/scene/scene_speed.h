@@ -1,8 +1,7 @@
 /* scene_speed.h - estimates the velocities of a scene before anything is computed: the scale of
  * sound speeds, time steps and limits.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_SPEED_H
-#define COMMON_SCENE_SPEED_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -38,5 +37,3 @@ struct scene_speed scene_speed_of(const struct scene *s, double file, double spa
 /* Height of the highest water of the shapes, m against gravity; -INFINITY without gravity or
  * shapes. */
 double scene_water_top(const struct scene *s);
-
-#endif

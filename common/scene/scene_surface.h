@@ -1,8 +1,7 @@
 /* scene_surface.h - the keys by which walls, bodies and shapes take their surface from a file,
  * triangles in 3D, an outline in the plane, and put it, or their points, in its place.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_SURFACE_H
-#define COMMON_SCENE_SURFACE_H
+#pragma once
 
 #include "../params/params.h"
 
@@ -42,5 +41,3 @@ struct scene_surface {
         SURFACE_ROW(T, weld, PARAM_REAL, "m", "0.0", 0, 1e6,                                       \
                     "vertices of the mesh closer than this are one; 0: 1e-6 of its diagonal",      \
                     USED(WITH(mesh, "no mesh is given")))
-
-#endif

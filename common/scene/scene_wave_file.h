@@ -1,7 +1,6 @@
 /* scene_wave_file.h - the file of waves (waves.file, SWD) of a case.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_WAVE_FILE_H
-#define COMMON_SCENE_WAVE_FILE_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -9,5 +8,3 @@
  * height and length. Faults go to f. Before scene_check; call on all ranks alike. */
 void scene_wave_file_read(struct scene *s, const char *dir, const struct params *p,
                           struct faults *f);
-
-#endif

@@ -7,8 +7,7 @@
  * comes back. Closed sides behind the zones keep the volume of water, and the waves are made
  * without net transport; on a current: scene_currents.h.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_SCENE_WAVES_H
-#define COMMON_SCENE_WAVES_H
+#pragma once
 
 #include "../waves/waves.h"
 #include "scene_groups.h"
@@ -50,5 +49,3 @@ int scene_zone_box(const struct scene *s, const struct scene_wall *w, double lo[
 void scene_waves_window(const struct scene *s, const struct scene_wall *only, double window[2][2]);
 /* What the group waves asks for, in the terms of waves.h, for all zones together. */
 struct wave_spec scene_waves_spec(const struct scene *s);
-
-#endif

@@ -10,8 +10,7 @@
  * the paddle, for of waves with k d > pi/2, d its distance, more than their height comes back;
  * those are a few particles long.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_WAVE_ABSORBER_H
-#define COMMON_WAVE_ABSORBER_H
+#pragma once
 
 #include "scene_groups.h"
 
@@ -46,5 +45,3 @@ double wave_absorber_wanted(struct wave_absorber *a, double t, double X, double 
 /* Reflection coefficient for linear waves of the angular frequency omega, rad/s: height that comes
  * back over height that arrives. */
 double wave_absorber_returns(const struct wave_absorber *a, double omega);
-
-#endif

@@ -10,8 +10,7 @@
  * with the water on its other side, towards which the waves run, moves with them as they arrive and
  * so lets them pass: a tank may have one at either end.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_WAVE_MAKER_H
-#define COMMON_WAVE_MAKER_H
+#pragma once
 
 #include "motion_files.h"
 #include "scene_groups.h"
@@ -45,5 +44,3 @@ struct waves;
 /* Fraction of the waves' amplitude that the paddle makes at time t, s: they grow from 0
  * (waves.start). */
 double wave_maker_grown(const struct waves *w, double t);
-
-#endif

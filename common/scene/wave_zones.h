@@ -1,7 +1,6 @@
 /* wave_zones.h - evaluates the zones of scene_waves.h during a run.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COMMON_WAVE_ZONES_H
-#define COMMON_WAVE_ZONES_H
+#pragma once
 
 #include "../files/files.h"
 #include "scene_groups.h"
@@ -26,5 +25,3 @@ double wave_zones_column(const struct wave_zones *z, int n, double (*x)[3], doub
 void wave_zones_restart(struct wave_zones *z, struct h5 *f);
 /* Whether some zone makes waves, i.e. does work on the water. */
 bool wave_zones_drive(const struct wave_zones *z);
-
-#endif

@@ -1,7 +1,6 @@
 /* fv_case.h - a run from its case: faults of the case, the state at the start or from a restart
  * file. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_CASE_H
-#define FV_CASE_H
+#pragma once
 
 #include "../boundary/fv_boundary.h"
 #include "../fv.h"
@@ -92,5 +91,3 @@ void fv_shape_velocity(const struct fv *s, const double *x, const double *h, dou
 void fv_project_start(struct fv *s);
 /* After u and U have been set: ghosts, limits, the pressure that goes with them. */
 void fv_start(struct fv *s);
-
-#endif

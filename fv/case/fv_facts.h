@@ -1,8 +1,7 @@
 /* fv_facts.h - what keys of the groups fv and blocks may need of a run, beside the facts of a
  * scene, and the tests of their conditions, in fv_unused.c. SPDX-License-Identifier: BSD-3-Clause
  */
-#ifndef FV_FACTS_H
-#define FV_FACTS_H
+#pragma once
 
 #include "../../common/scene/scene.h"
 
@@ -36,5 +35,3 @@ bool mesh_has_moving_side(const void *run, const void *block);
 bool mesh_has_bed(const void *run, const void *block);
 /* blocks.spin: each number belongs to a wall, of i_min or i_max. */
 bool mesh_spin_fits(const void *run, const void *block);
-
-#endif

@@ -1,8 +1,7 @@
 /* block.h - a rank's part of a Cartesian grid, uniform or with layers of unequal height along y:
  * positions, storage with ghost layers, halo.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_BLOCK_H
-#define FV_BLOCK_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -133,5 +132,3 @@ void block_pack_from(const struct block *b, int first, const double *f, double *
             for (int64_t c = block_at(b, -(more), j, its_layer_##c), len = (b)->n[0] + 2 * (more), \
                          its_once_##c = 1;                                                         \
                  its_once_##c; its_once_##c = 0)
-
-#endif

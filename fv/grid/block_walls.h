@@ -1,7 +1,6 @@
 /* block_walls.h - the closed sides of blocks as faces in space. Every rank knows all of them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_BLOCK_WALLS_H
-#define FV_BLOCK_WALLS_H
+#pragma once
 
 #include "mesh.h"
 
@@ -33,5 +32,3 @@ struct wall_face {
 };
 /* The i-th of all faces; false: there are fewer. */
 bool block_walls_face(const struct block_walls *w, int64_t i, struct wall_face *to);
-
-#endif

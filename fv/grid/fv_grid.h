@@ -1,7 +1,6 @@
 /* fv_grid.h - the door of this folder, the one header of it that others include: cells: parts,
  * blocks, layers, motion, overlaps. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_GRID_DOOR_H
-#define FV_GRID_DOOR_H
+#pragma once
 
 #include "block.h"
 #include "block_walls.h"
@@ -14,5 +13,3 @@
 #include "overset.h"
 #include "rows.h"
 #include "side_kinds.h"
-
-#endif

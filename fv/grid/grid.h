@@ -2,8 +2,7 @@
  * their positions, sizes and neighbours, and need not tell uniform cells, layers and blocks apart.
  * A "place" c is the index of a cell in a field, ghosts included.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_GRID_H
-#define FV_GRID_H
+#pragma once
 
 #include "block.h"
 #include "mesh.h"
@@ -115,5 +114,3 @@ static inline bool grid_is_computed(const struct grid *g, int64_t c)
 {
     return !g->mesh || g->mesh->status[c] == CELL_COMPUTED;
 }
-
-#endif

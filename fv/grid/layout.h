@@ -1,8 +1,7 @@
 /* layout.h - how the ranks that wrote a restart file divided its grid, so that any number of ranks
  * can read it: boxes of cells with their ghosts, each a range of records in the file's datasets.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_LAYOUT_H
-#define FV_LAYOUT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -40,4 +39,3 @@ bool layout_fits(const struct layout *l, int grid, const int cells[3]);
  * Collective. */
 bool layout_read(const struct layout *l, struct h5 *f, const char *name, int ncomp,
                  const struct layout_box *mine, const bool *wraps, double *to);
-#endif

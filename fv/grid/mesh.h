@@ -3,8 +3,7 @@
  * Every rank knows the vertices of all blocks and what each cell is; fields are local: a rank's
  * parts of blocks, each with ghosts, one behind the other in one array.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_MESH_H
-#define FV_MESH_H
+#pragma once
 
 #include "../../common/run/run.h"
 #include "mesh_blocks.h"
@@ -257,5 +256,3 @@ void mesh_halo_create(struct mesh *m);
 void mesh_halo(struct mesh *m, int nf, double *const *f);
 /* The same and the fringe of overlaps, whose ghosts follow it. Collective. */
 void mesh_fill(struct mesh *m, int nf, double *const *f);
-
-#endif

@@ -1,7 +1,6 @@
 /* mesh_blocks.h - the blocks as the case has them: plain data that case/ writes and hands down.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_MESH_BLOCKS_H
-#define FV_MESH_BLOCKS_H
+#pragma once
 
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
@@ -61,5 +60,3 @@ bool mesh_blocks_move(const struct mesh_blocks *all);
 /* Adds a fault at the block's key. */
 void mesh_fault(const struct run *r, struct faults *f, const struct mesh_block_params *b,
                 const char *key, const char *fmt, ...) __attribute__((format(printf, 5, 6)));
-
-#endif

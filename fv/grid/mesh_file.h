@@ -1,7 +1,6 @@
 /* mesh_file.h - vertices of a block from a file: HDF5, or Plot3D as text or binary.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_MESH_FILE_H
-#define FV_MESH_FILE_H
+#pragma once
 
 #include "mesh.h"
 
@@ -9,5 +8,3 @@
  * caller (mem_free). Rank 0 reads; collective over r->comm. */
 double *mesh_file_read(const struct run *r, struct faults *f, const struct mesh_block_params *p,
                        int *cells);
-
-#endif

@@ -4,8 +4,7 @@
  * edges, so that those of a cell sum to zero: a uniform flow stays uniform whatever the motion
  * (geometric conservation).
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_MESH_MOTION_H
-#define FV_MESH_MOTION_H
+#pragma once
 
 #include "../../common/scene/scene.h"
 #include "mesh.h"
@@ -37,5 +36,3 @@ void mesh_motion_velocity(const struct mesh_block *b, const double *x, double *w
 void mesh_motion_made(const struct mesh_block *b, const double *x, double *to);
 /* The inverse: where the point now is that the block had at `made', m. */
 void mesh_motion_now(const struct mesh_block *b, const double *made, double *to);
-
-#endif

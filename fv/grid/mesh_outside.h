@@ -2,8 +2,7 @@
  * "outflow") under a free surface: water as high as that in them at the start, or nothing. For
  * walls on the sides of the domain scene_openings.h does the same.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_MESH_OUTSIDE_H
-#define FV_MESH_OUTSIDE_H
+#pragma once
 
 #include "mesh.h"
 
@@ -22,5 +21,3 @@ void mesh_outside_find(const struct run *r, const struct mesh *m,
                        struct mesh_outside of[MESH_OUTSIDES]);
 /* Logs them. */
 void mesh_outside_describe(const struct run *r, const struct mesh *m);
-
-#endif

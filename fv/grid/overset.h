@@ -1,8 +1,7 @@
 /* overset.h - blocks that overlap (Chimera grids): what is cut out, which cells are interpolated
  * (the fringe), and from which donors.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_OVERSET_H
-#define FV_OVERSET_H
+#pragma once
 
 #include "mesh.h"
 
@@ -58,5 +57,3 @@ bool overset_sample_beyond(const struct mesh *m, int block, const int *cell, con
 const bool *mesh_twice(const struct run *r, struct mesh *m, bool stays);
 /* The bins of the search alone, for gauges. */
 struct overset *overset_search(const struct run *r, const struct mesh *m);
-
-#endif

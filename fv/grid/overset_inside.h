@@ -1,7 +1,6 @@
 /* overset_inside.h - what the files of overset.h share; private to them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_OVERSET_INSIDE_H
-#define FV_OVERSET_INSIDE_H
+#pragma once
 
 #include "overset.h"
 
@@ -67,5 +66,3 @@ static inline bool overset_leads_on(const struct mesh_block *b, int side)
 
 /* overset_cut.c: counts computed and interpolated cells of all blocks again. */
 void overset_count(struct mesh *m);
-
-#endif

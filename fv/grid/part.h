@@ -1,7 +1,6 @@
 /* part.h - a rank's part of a block of cells, and where its cells lie in the fields.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_PART_H
-#define FV_PART_H
+#pragma once
 
 #include <stdint.h>
 
@@ -123,5 +122,3 @@ static const int no_layers[3] = {0, 0, 0};
             for ((i)[0] = 0; (i)[0] < (p)->n[0]; (i)[0]++)                                         \
                 for (int64_t c = part_at(p, (i)[0], (i)[1], (i)[2]), its_once_##c = 1;             \
                      its_once_##c; its_once_##c = 0)
-
-#endif

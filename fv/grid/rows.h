@@ -1,8 +1,7 @@
 /* rows.h - layers of cells of unequal height along y: equal ones at the top, where a partner or a
  * surface needs them, and growing ones below.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_ROWS_H
-#define FV_ROWS_H
+#pragma once
 
 enum {
     GHOSTS = 3,      /* layers of cells around those of a rank */
@@ -46,5 +45,3 @@ void rows_average(const double e[5], double from, double to, double w[4]);
 struct rows *rows_create(int n, int even, double bottom, const double *h, int lo, int own);
 /* Frees the layers and sets *r to NULL; *r may be NULL. */
 void rows_free(struct rows **r);
-
-#endif

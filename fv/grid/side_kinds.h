@@ -1,7 +1,6 @@
 /* side_kinds.h - what is behind a side, of a block or of the uniform grid.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_SIDE_KINDS_H
-#define FV_SIDE_KINDS_H
+#pragma once
 
 #include "../../common/scene/scene.h"
 
@@ -49,5 +48,3 @@ static inline enum mesh_side side_of_wall(const struct scene_wall *w)
         return MESH_SLIP;
     return w->kind == WALL_INFLOW && w->has_level ? MESH_OUTFLOW : kinds[w->kind];
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* even_value.h - values of fields at a place in uniform cells or layers.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_EVEN_VALUE_H
-#define FV_EVEN_VALUE_H
+#pragma once
 
 #include "../fv.h"
 
@@ -16,5 +15,3 @@ void even_host(const struct fv *s, const int *i, const double *w, int host[3]);
  * how far x is from theirs towards the next, in steps. false: there are not so many. */
 bool even_value(const struct fv *s, const double *q, const double *x, const int *i, const double *w,
                 double *value);
-
-#endif

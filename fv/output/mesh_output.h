@@ -1,8 +1,7 @@
 /* mesh_output.h - what outputs have of blocks beyond those of uniform cells: values at points,
  * positions of blocks that move, the mesh in words and in the summary.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_MESH_OUTPUT_H
-#define FV_MESH_OUTPUT_H
+#pragma once
 
 #include "../fv.h"
 #include "../grid/fv_grid.h"
@@ -53,5 +52,3 @@ void mesh_places_row(const struct fv *s, struct figures *to);
 /* Adds to the summary what it has of blocks alone: cells and net flux of overlaps, iterations of
  * the start, solves that were repeated. Collective. */
 void mesh_summarise(struct fv *s);
-
-#endif

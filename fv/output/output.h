@@ -1,7 +1,6 @@
 /* output.h - series, summary, gauges, snapshots, restart files, pictures of a case.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_OUTPUT_H
-#define FV_OUTPUT_H
+#pragma once
 
 #include "../fv.h"
 
@@ -67,5 +66,3 @@ double surface_level(const struct fv *s, const double *x);
 void newton_row(const struct newton *w, struct figures *to);
 /* Adds iterations and halvings to the summary; steps: of this process, all: of the run. */
 void newton_summarise(const struct newton *w, double steps, double all, struct summary *to);
-
-#endif

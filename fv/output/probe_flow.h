@@ -1,7 +1,6 @@
 /* probe_flow.h - what flows through the section of a discharge gauge, from samples of the velocity
  * and the distance to the surface over it. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_PROBE_FLOW_H
-#define FV_PROBE_FLOW_H
+#pragma once
 
 #include "../fv.h"
 
@@ -54,5 +53,3 @@ struct probe_reader {
 extern const struct probe_reader even_reader, mesh_reader;
 /* Whether a body or a partner is there, whose cells are not computed. */
 bool mesh_is_out(const struct fv *s, const double *x);
-
-#endif

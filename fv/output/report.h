@@ -1,7 +1,6 @@
 /* report.h - errors and energies in the series and in the summary.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_REPORT_H
-#define FV_REPORT_H
+#pragma once
 
 #include "../fv.h"
 
@@ -15,5 +14,3 @@ void fv_energies(struct fv *s, double sum[3]);
 void fv_errors(struct fv *s, struct norm n[NORMS]);
 /* How the run steps: "rk3, three projections a step". */
 const char *report_method(const struct fv_params *prm);
-
-#endif

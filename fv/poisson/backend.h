@@ -3,8 +3,7 @@
  * rank's matrix rows: one row per cell of its parts, in their order, x fastest. A: minus the sum of
  * the fluxes of psi out of a computed cell.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_BACKEND_H
-#define FV_BACKEND_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -53,5 +52,3 @@ struct poisson {
     double shift;
     double *b, *x, *psi;
 };
-
-#endif

@@ -1,8 +1,7 @@
 /* gcr.h - generalised conjugate residuals with any preconditioner, for matrices that need not be
  * symmetric (Eisenstat, Elman & Schultz, SIAM J. Numer. Anal. 20, 1983).
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_GCR_H
-#define FV_GCR_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -34,5 +33,3 @@ void gcr_create(void *owner, struct gcr *g, MPI_Comm comm, int n, void *of,
 int gcr_solve(struct gcr *g, const double *b, double *x, double goal, int most, double *left);
 /* Euclidean norm over all ranks. Collective. */
 double gcr_norm(const struct gcr *g, const double *x);
-
-#endif

@@ -1,7 +1,6 @@
 /* halving.h - one multigrid cycle for the pressure under a free surface on uniform cells and
  * layers, whose matrix is another one in each step. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_HALVING_H
-#define FV_HALVING_H
+#pragma once
 
 #include "../grid/fv_grid.h"
 
@@ -23,5 +22,3 @@ int *halving_run(struct halving *h, int j, int k);
 void halving_set_matrix(struct halving *h);
 /* x = one cycle on r, a linear and symmetric map; both are 0 where no row is. */
 void halving_cycle(struct halving *h, double *r, double *x);
-
-#endif

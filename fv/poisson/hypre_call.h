@@ -1,8 +1,7 @@
 /* hypre_call.h - calls of hypre. The library combines all errors in one flag; "not converged" is
  * left for the caller to judge, any other error ends the run through abort_run().
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_HYPRE_CALL_H
-#define FV_HYPRE_CALL_H
+#pragma once
 
 #include <HYPRE_utilities.h>
 
@@ -15,5 +14,3 @@
         if (HYPRE_GetError())                                                                      \
             abort_run("%s: hypre error %d", #call, (int)HYPRE_GetError());                         \
     } while (0)
-
-#endif

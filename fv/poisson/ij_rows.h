@@ -1,8 +1,7 @@
 /* ij_rows.h - matrices and vectors of hypre's IJ interface over n rows of each rank, of which the
  * first has a number among all. All calls that create or assemble are collective over comm.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_IJ_ROWS_H
-#define FV_IJ_ROWS_H
+#pragma once
 
 #include <HYPRE_IJ_mv.h>
 
@@ -101,5 +100,3 @@ static inline void vector_get(struct vector *v, double *values)
     if (v->n > 0)
         HYPRE(HYPRE_IJVectorGetValues(v->ij, v->n, NULL, values));
 }
-
-#endif

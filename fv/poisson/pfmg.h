@@ -1,8 +1,7 @@
 /* pfmg.h - one cycle of hypre's multigrid PFMG over boxes of cells in one index space: 5-point
  * stencils (3D: 7) on all levels.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_PFMG_H
-#define FV_PFMG_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -31,5 +30,3 @@ void pfmg_put(struct pfmg *p, int box, int outer[2][3], double *r);
 void pfmg_get(struct pfmg *p, int box, int outer[2][3], double *x);
 /* Computes one cycle from a zero start: a linear map of the right-hand side. */
 void pfmg_cycle(struct pfmg *p);
-
-#endif

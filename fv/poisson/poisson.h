@@ -2,8 +2,7 @@
  * (backend.h). Imposed cells take no part in it; closed and imposed sides have no flux of psi.
  * Collective over s->comm.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_POISSON_H
-#define FV_POISSON_H
+#pragma once
 
 #include "../fv.h"
 
@@ -26,5 +25,3 @@ void poisson_rebuild(struct fv *s);
 void poisson_renew(struct fv *s, bool hierarchy);
 /* Sets the shift of poisson_cycle, 1/m^2; 0 at the start. */
 void poisson_shift(struct fv *s, double shift);
-
-#endif

@@ -1,8 +1,7 @@
 /* wet_boxes.h - boxes of cells that hold all of this rank's water, so that the pressure solver has
  * no more air than lies beside it in a tile.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_WET_BOXES_H
-#define FV_WET_BOXES_H
+#pragma once
 
 #include "../fv.h"
 
@@ -19,5 +18,3 @@ void wet_boxes_run(const unsigned char *layer, int n, int run[2]);
 /* Finds the boxes; without a surface, without water, or with a periodic axis they are all cells of
  * the rank. Returns whether they differ from before on some rank. Collective. */
 bool wet_boxes_find(const struct fv *s, void *owner, struct wet_boxes *w);
-
-#endif

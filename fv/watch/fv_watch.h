@@ -1,9 +1,6 @@
 /* fv_watch.h - the door of this folder, the one header of it that others include: limits of the
  * step, and what a sound run keeps small. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_WATCH_DOOR_H
-#define FV_WATCH_DOOR_H
+#pragma once
 
 #include "limits.h"
 #include "watches.h"
-
-#endif

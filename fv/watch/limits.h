@@ -1,8 +1,7 @@
 /* limits.h - what bounds a time step: crossing cells, forces that will speed the flow up, an
  * outflow, viscosity and waves of a free surface; and the velocity that a scene will have.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_LIMITS_H
-#define FV_LIMITS_H
+#pragma once
 
 #include "../fv.h"
 
@@ -51,5 +50,3 @@ double limits_follow(double *reference, double most);
  * end, and what to do. */
 void limits_explain(const struct fv_params *p, enum limit by, double before, double after,
                     bool surface, char *text, size_t size);
-
-#endif

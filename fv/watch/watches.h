@@ -1,8 +1,7 @@
 /* watches.h - figures that a sound flow keeps small: energy gained beyond its budget, waves of two
  * cells, sudden growth of the largest velocity, volume that the level set lost and got back.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef FV_WATCHES_H
-#define FV_WATCHES_H
+#pragma once
 
 #include "../../common/run/run.h"
 #include "../fv.h"
@@ -85,5 +84,3 @@ struct watches *fv_watches_create(const struct fv *s);
 void fv_watches_look(struct fv *s, struct diagnosis *d);
 /* Measures once more at the end of the run and writes the summary. */
 void fv_watches_end(struct fv *s);
-
-#endif

@@ -1,7 +1,6 @@
 /* amount.h - compares the water that the first particles hold with that in the shapes.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_AMOUNT_H
-#define SPH_AMOUNT_H
+#pragma once
 
 #include "lattice.h"
 
@@ -10,5 +9,3 @@
  * whose volumes are scaled to the room, nor for regions with open sides, which are filled up.
  * Collective. */
 void amount_check(struct sph *s, const struct lattice *l);
-
-#endif

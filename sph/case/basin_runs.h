@@ -1,7 +1,6 @@
 /* basin_runs.h - what the sources of basins share: runs of cells, the waters that they make up, and
  * what is beside a cell. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_BASIN_RUNS_H
-#define SPH_BASIN_RUNS_H
+#pragma once
 
 #include "../../common/scene/scene.h"
 #include "lattice.h"
@@ -50,5 +49,3 @@ const struct basin_run *basin_run_at(const struct basins *b, int64_t cell);
 /* What is next to cell ic on an axis, which has no water. */
 enum beyond { BEYOND_AIR, BEYOND_WALL, BEYOND_OPEN };
 enum beyond basin_look(const struct basins *b, const int *ic, int axis, int way);
-
-#endif

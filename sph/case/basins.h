@@ -1,8 +1,7 @@
 /* basins.h - which waters of the first lattice are connected, and the level that each of its
  * columns has.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_BASINS_H
-#define SPH_BASINS_H
+#pragma once
 
 #include "lattice.h"
 
@@ -21,5 +20,3 @@ int basins_pockets(const struct basins *b, int64_t *cells, double *where);
 double basins_suction(const struct basins *b, double *where);
 /* Height against gravity where p = 0 for the water of this cell, m; NAN: it falls freely. */
 double basins_level(const struct basins *b, int64_t cell);
-
-#endif

@@ -1,7 +1,6 @@
 /* basins_shut.h - waters of the start that nothing but walls and bodies bounds.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_BASINS_SHUT_H
-#define SPH_BASINS_SHUT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,5 +14,3 @@ bool basins_all_shut(struct basins *b);
  * shut_water.h) and its middle, m; 0: there are no more. Their cells, ascending, into cell[]. */
 int64_t basins_shut_in(struct basins *b, int k, unsigned *beside, double *where);
 void basins_cells_shut_in(struct basins *b, int k, int64_t *cell);
-
-#endif

@@ -1,7 +1,6 @@
 /* fill.h - creates the first particles, on a lattice where the shapes have fluid.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_FILL_H
-#define SPH_FILL_H
+#pragma once
 
 struct fill; /* the lattice and its waters, for the finer levels; NULL: there is none */
 struct sph;
@@ -15,5 +14,3 @@ void fill_check(struct sph *s, const struct fill *f);
 /* Creates the first particles of the finer levels from the coarser ones, with the field of the
  * case. Collective. */
 void fill_finer(struct sph *s, const struct fill *f);
-
-#endif

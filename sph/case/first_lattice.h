@@ -1,8 +1,7 @@
 /* first_lattice.h - the lattice of the first particles of a level: its cells, where walls and
  * bodies leave room for a particle, and the particle there.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_FIRST_LATTICE_H
-#define SPH_FIRST_LATTICE_H
+#pragma once
 
 #include "../sph.h"
 #include "lattice.h"
@@ -37,5 +36,3 @@ bool first_has_room(const struct sph *s, const double *x);
 int first_add(struct sph *s, const struct exact *e, int64_t id, const double *x, double volume);
 /* Removes this rank's particles that packing has pressed into seams of walls narrower than dx. */
 void first_clear_seams(struct sph *s);
-
-#endif

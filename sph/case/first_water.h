@@ -1,7 +1,6 @@
 /* first_water.h - the water of the start by samples of the scene, before any particle is there.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_FIRST_WATER_H
-#define SPH_FIRST_WATER_H
+#pragma once
 
 struct run;
 struct sph_params;
@@ -17,5 +16,3 @@ struct first_water first_water_look(const struct run *r, const struct sph_params
 /* Warns where open lines leave out water that the shapes draw: more than half of it, or, with
  * nothing above it, 2 %. */
 void first_water_warn(const struct run *r, const struct sph_params *used, struct first_water is);
-
-#endif

@@ -1,8 +1,7 @@
 /* lattice.h - the cells of the first particles: which are filled, and between which neighbours a
  * wall stands.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_LATTICE_H
-#define SPH_LATTICE_H
+#pragma once
 
 #include "../sph.h"
 
@@ -53,5 +52,3 @@ static inline bool lattice_is_cut(const struct lattice *l, int64_t cell, int axi
 {
     return l->cut[axis] && lattice_bit(l->cut[axis], cell);
 }
-
-#endif

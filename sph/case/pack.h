@@ -1,7 +1,6 @@
 /* pack.h - rearranges the first particles between walls so that they fill the room uniformly.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_PACK_H
-#define SPH_PACK_H
+#pragma once
 
 struct sph;
 
@@ -10,5 +9,3 @@ void pack_start(struct sph *s, int steps);
 /* The same for a finer level, without its edge, after it was created from a level that was
  * rearranged. Collective. */
 void pack_finer(struct sph *level);
-
-#endif

@@ -1,7 +1,6 @@
 /* rims.h - open edges of meshes that the first particles reach.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_RIMS_H
-#define SPH_RIMS_H
+#pragma once
 
 #include "lattice.h"
 
@@ -9,5 +8,3 @@
  * water that comes round the edge finds no wall on its back. Holes smaller than dx do not count,
  * nor edges on sides of the domain or on other meshes. */
 void rims_check(const struct sph *s, const struct lattice *l);
-
-#endif

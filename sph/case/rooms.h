@@ -1,8 +1,7 @@
 /* rooms.h - the rooms into which meshes separate the first lattice: where they leave a particle
  * room, between which neighbours they stand, and whether a room is on the fluid's side of them all.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_ROOMS_H
-#define SPH_ROOMS_H
+#pragma once
 
 #include "lattice.h"
 
@@ -28,5 +27,3 @@ bool rooms_are_wet(const struct sph *s, const double *x);
 bool rooms_are_before(const struct sph *s, const double *x);
 /* Ends the run if a and b, of one room, lie on two sides of a mesh that is open and not thin. */
 void rooms_refuse_sheet(const struct sph *s, const double *a, const double *b);
-
-#endif

@@ -1,8 +1,7 @@
 /* sph_params.h - the parameters of groups sph and apr: tables, faults between keys, defaults that
  * follow from other keys.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SPH_PARAMS_H
-#define SPH_SPH_PARAMS_H
+#pragma once
 
 #include "../particles/sph_particles.h"
 
@@ -18,4 +17,3 @@ void sph_meshes_read(struct scene *s, const char *case_dir, const struct params 
                      struct faults *f);
 /* Adds the faults between keys. Call on all ranks alike. */
 void sph_params_check(const struct run *r, struct faults *f);
-#endif

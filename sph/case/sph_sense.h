@@ -1,8 +1,7 @@
 /* sph_sense.h - faults and warnings of scenes that are valid by themselves, but which particles
  * cannot represent. given: the parameters as the case has them; used: the result of sph_params_of.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SPH_SENSE_H
-#define SPH_SPH_SENSE_H
+#pragma once
 
 #include "../particles/sph_particles.h"
 
@@ -29,5 +28,3 @@ bool sph_falls_stopped(const struct scene *c, const double *x, const double *d);
 /* sph_body_paths.c, 2D: adds faults for motion files, and for bodies that leave the domain or meet
  * walls and each other. */
 void sph_bodies_check(const struct run *r, const struct sph_params *used, struct faults *f);
-
-#endif

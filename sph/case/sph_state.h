@@ -1,7 +1,6 @@
 /* sph_state.h - makes and frees the state of a run.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_STATE_H
-#define SPH_STATE_H
+#pragma once
 
 #include "../sph.h"
 
@@ -9,5 +8,3 @@
  * sph_params_of, copied. NULL: f does not fit, which has been logged. Owned by the caller
  * (FREE). Collective over r->comm. */
 struct sph *sph_create(struct run *r, const struct sph_params *prm, struct h5 *f);
-
-#endif

@@ -1,7 +1,6 @@
 /* sph_unused.h - finds keys that a run of particles would not use.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SPH_UNUSED_H
-#define SPH_SPH_UNUSED_H
+#pragma once
 
 #include "../particles/sph_particles.h"
 
@@ -10,5 +9,3 @@
 void sph_unused_check(const struct run *r, const struct param_group groups[2],
                       const struct sph_params *given, const struct sph_params *used,
                       struct faults *f);
-
-#endif

@@ -1,8 +1,7 @@
 /* surface_rows.h - places the first particles so that lattice rows end at the free surface of the
  * shapes, whatever its slope.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SURFACE_ROWS_H
-#define SPH_SURFACE_ROWS_H
+#pragma once
 
 #include "../../common/scene/scene.h"
 #include "../sph.h"
@@ -21,5 +20,3 @@ double surface_rows_shift(const struct sph *s, const struct exact *e, const doub
 /* For a finer level after its creation: near a free surface children are arranged as the rows of
  * their parents end; they are replaced by a lattice of their own spacing with rows of its own. */
 void surface_rows_renew(struct sph *s);
-
-#endif

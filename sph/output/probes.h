@@ -1,7 +1,6 @@
 /* probes.h - gauges and the forces on bodies: columns of series.csv.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_PROBES_H
-#define SPH_PROBES_H
+#pragma once
 
 #include "../sph.h"
 #include "../walls/sph_walls.h"
@@ -14,5 +13,3 @@ void probes_sample(struct sph *s);
 /* Force of the fluid on body k and its moment about the centre: the momentum that went there in the
  * last step (forces.h); before the first step by body_average. Collective. */
 struct force probes_force(struct sph *s, int k);
-
-#endif

@@ -1,7 +1,6 @@
 /* restart_eos.h - a run that goes on with another equation of state keeps its pressures.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_RESTART_EOS_H
-#define SPH_RESTART_EOS_H
+#pragma once
 
 #include "../sph.h"
 
@@ -15,5 +14,3 @@ struct h5;
  * mass. Without it all pressures would change with c0^2 at once. After all else has been read.
  * Collective. */
 void restart_eos(struct sph *s, struct h5 *f);
-
-#endif

@@ -1,7 +1,6 @@
 /* shore.h - the gauge of a shoreline: where the water ends on a beach.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SHORE_H
-#define SPH_SHORE_H
+#pragma once
 
 #include "../sph.h"
 
@@ -9,5 +8,3 @@
  * sides through columns that hold half a layer of particles at least; of two edges the higher one.
  * NAN: no edge before the ends of the region, or no water at x. Collective. */
 double shore_height(struct sph *s, double x);
-
-#endif

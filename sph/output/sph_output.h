@@ -1,8 +1,7 @@
 /* sph_output.h - snapshots, restart files, rows of the series, the summary; the functions of struct
  * program that write. All are collective.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_OUTPUT_H
-#define SPH_OUTPUT_H
+#pragma once
 
 #include "../sph.h"
 
@@ -18,5 +17,3 @@ void sph_finish(void *s);
 void sph_tell(void *s, struct summary *report);
 /* sph_lines.c: extrema of velocity on the centre lines into the summary; 2D. */
 void sph_summarise_extrema(const struct sph *s);
-
-#endif

@@ -1,8 +1,7 @@
 /* wall_files.h - meshes of walls and bodies for ParaView, beside the snapshots, and what restart
  * files keep of them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_WALL_FILES_H
-#define SPH_WALL_FILES_H
+#pragma once
 
 #include "../sph.h"
 
@@ -13,5 +12,3 @@ void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, cons
  * the case, and logs if they are not. Collective. */
 void wall_files_save(const struct sph *s, struct h5 *f);
 bool wall_files_fit(const struct sph *s, struct h5 *f);
-
-#endif

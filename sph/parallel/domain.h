@@ -3,8 +3,7 @@
  * periodic images. Collective over s->run->comm where no other is said. Finer levels share the cuts
  * of the coarsest.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_DOMAIN_H
-#define SPH_DOMAIN_H
+#pragma once
 
 #include "../sph.h"
 
@@ -45,5 +44,3 @@ void domain_share(struct sph *s, const double *rows, int width, double *ghosts);
  * cuts. */
 void domain_save(const struct sph *s, struct h5 *f);
 bool domain_load(struct sph *s, struct h5 *f);
-
-#endif

@@ -2,8 +2,7 @@
  * How much of the section the particles fill there is free of the effects of ground and surface on
  * them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_LEVEL_WINDOW_H
-#define SPH_LEVEL_WINDOW_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -46,5 +45,3 @@ static inline double level_window_inside(const struct level_window *w, double z,
 /* filled: section that particles fill over that of the room. Whether this is water, not air or a
  * cavity. */
 static inline bool level_window_is_water(double filled) { return fabs(filled - 1.0) < 0.15; }
-
-#endif

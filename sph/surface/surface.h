@@ -2,8 +2,7 @@
  * once a step: the smallest eigenvalue of M [2.42], which the first pass over the pairs sums
  * anyway, and between its bounds a search for neighbours in a cone along the normal [3.12].
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SURFACE_H
-#define SPH_SURFACE_H
+#pragma once
 
 #include "../sph.h"
 
@@ -58,5 +57,3 @@ void transport_finish(struct sph *s);
  * water alike (struct sph_step, carried) that is relative to the stream: what rests in it counts as
  * water at rest. */
 double transport_speed2(const struct sph *s, const double *u);
-
-#endif

@@ -2,8 +2,7 @@
  * that div u alone leaves in the volumes under a free surface. For transport tvs and gravity, in
  * violent flow alone with ALE, without zones otherwise; else the functions do nothing.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_VOLUME_FEEDBACK_H
-#define SPH_VOLUME_FEEDBACK_H
+#pragma once
 
 #include "surface.h"
 
@@ -18,5 +17,3 @@ void volume_feedback_add(struct sph *s);
  * particles whose support meets a wall, so that what the first particles leave free beside walls is
  * filled and the level stays; not with ALE. Lists must be made again. false: nothing was done. */
 bool volume_feedback_fill(struct sph *s);
-
-#endif

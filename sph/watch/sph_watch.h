@@ -2,8 +2,7 @@
  * speed of sound, particles returned from behind walls, particles that pair up or overlap; and when
  * a state cannot be trusted, and why. The figures are those of common/run/watch.h.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_SPH_WATCH_H
-#define SPH_SPH_WATCH_H
+#pragma once
 
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"
@@ -140,5 +139,3 @@ double sph_fault_of(const struct sph *s, const double *y, double *speed, double 
 void sph_fault_diagnose(struct sph *s, struct diagnosis *d);
 /* Fills d->where alone, with the particle that is nearest to its limits. Collective. */
 void sph_fault_place(struct sph *s, struct diagnosis *d);
-
-#endif

@@ -1,7 +1,6 @@
 /* bench.h - the two limits that kernels are held to: of arithmetic and of memory.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_BENCH_H
-#define TESTS_BENCH_H
+#pragma once
 
 #include <math.h>
 
@@ -43,5 +42,3 @@ static inline double bench_triad(struct fv *s)
     }
     return 1e-9 * 30.0 * (double)s->size / best;
 }
-
-#endif

@@ -2,8 +2,7 @@
  * side), dim, back (direction of what it gives), mls, cubic, unit, hash, dt, still (never moves),
  * end (window in which it asks for an orderly end), deadline, patience and late (s), fault (below)
  * at=WINDOW. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_MOCK_FAULT_H
-#define TESTS_MOCK_FAULT_H
+#pragma once
 
 #include <math.h>
 #include <signal.h>
@@ -79,5 +78,3 @@ static bool fault(struct cpl *c, double *v, long n)
         v[0] = NAN;
     return !strcmp(what, "forget");
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* test.h - cmocka and a comparison of doubles (cmocka 1.1.5 compares only as float). Tests run
  * under MPI; an assertion must compare values that are the same on all ranks, else the others wait
  * for ever. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_TEST_H
-#define TESTS_TEST_H
+#pragma once
 
 #include <math.h>
 #include <mpi.h>
@@ -110,5 +109,3 @@ static inline double most_apart(int n, const double *a, const double *b)
         if (!(fabs(a_ - b_) <= e_))                                                                \
             fail_msg("%s = %.17g, wanted %s = %.17g within %g", #a, a_, #b, b_, e_);               \
     } while (0)
-
-#endif

@@ -1,7 +1,6 @@
 /* mesh_files.h - meshes as files of the formats that programs exchange, for the tests that read
  * them. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_MESH_FILES_H
-#define TESTS_MESH_FILES_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,5 +90,3 @@ static inline void write_ply(const struct trimesh *m, const char *name)
         fprintf(f, "3 %d %d %d\n", m->vertex[t][0], m->vertex[t][1], m->vertex[t][2]);
     fclose(f);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* params_case.h - a small table of all kinds of keys, and cases read through it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_PARAMS_CASE_H
-#define TESTS_PARAMS_CASE_H
+#pragma once
 
 #include "../test.h"
 
@@ -148,5 +147,3 @@ void unit_begin(void)
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     path = unit_file("case.cfg");
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* fv_bc_case.h - a vortex in a box with no-slip walls: psi = sin^2(pi x) sin^2(pi y)/pi at the
  * start, its cell averages and fluxes, and the difference of two grids of which one halves the
  * other. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_FV_BC_CASE_H
-#define TESTS_FV_BC_CASE_H
+#pragma once
 
 #include "../../../fv/boundary/bc.h"
 #include "fv_case.h"
@@ -124,5 +123,3 @@ static inline double box_slip_error(int n, const char *graded)
     fv_free(&c.s);
     return row[3];
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* fv_case.h - a small run of the finite-volume solver for the tests of its modules: Taylor-Green of
  * Re 200 in the periodic unit square, 32 x 32 cells, with a case's overrides ("fv.cells=(64,64)").
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_FV_CASE_H
-#define TESTS_FV_CASE_H
+#pragma once
 
 #include <unistd.h>
 
@@ -155,5 +154,3 @@ static inline double fv_case_weighted(const struct fv *s)
 }
 
 static inline double fv_case_order(double coarse, double fine) { return log2(coarse / fine); }
-
-#endif

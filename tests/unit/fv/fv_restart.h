@@ -1,7 +1,6 @@
 /* fv_restart.h - a run that goes on from its restart file beside the run that wrote it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_FV_RESTART_H
-#define TESTS_FV_RESTART_H
+#pragma once
 
 #include "fv_case.h"
 
@@ -53,5 +52,3 @@ static inline int64_t fv_case_restart(fv_case_starter start, int flow, int steps
     remove(path);
     return differ;
 }
-
-#endif

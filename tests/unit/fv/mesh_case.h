@@ -1,7 +1,6 @@
 /* mesh_case.h - a small flow on blocks for the tests: a case with a text of its blocks.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_MESH_CASE_H
-#define TESTS_MESH_CASE_H
+#pragma once
 
 #include <unistd.h>
 
@@ -193,5 +192,3 @@ static inline double mesh_case_energy_share(struct fv *s)
     VALUES_OF(fv_row, s, row);
     return row[0] / (0.5 * s->run->scene.fluid.rho * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* newton_case.h - what the tests of newton on all grids ask of it.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_NEWTON_CASE_H
-#define TESTS_NEWTON_CASE_H
+#pragma once
 
 #include "../../../fv/time/newton.h"
 
@@ -26,5 +25,3 @@ static inline double newton_precond_bends(struct fv *s)
         N_VDestroy(v[m]);
     return error;
 }
-
-#endif

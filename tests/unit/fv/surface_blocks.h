@@ -1,7 +1,6 @@
 /* surface_blocks.h - blocks and water of the tests of a free surface on them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_SURFACE_BLOCKS_H
-#define TESTS_SURFACE_BLOCKS_H
+#pragma once
 
 #include "mesh_case.h"
 
@@ -39,5 +38,3 @@ static inline struct fv *start_blocks(struct mesh_case *c, MPI_Comm comm, const 
         c->run.scene.shapes[c->run.scene.nshapes++] = *water;
     return mesh_case_create(c, NULL);
 }
-
-#endif

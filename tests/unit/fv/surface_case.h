@@ -1,7 +1,6 @@
 /* surface_case.h - small flows with a free surface for the tests of the level set and of the
  * integrators. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_SURFACE_CASE_H
-#define TESTS_SURFACE_CASE_H
+#pragma once
 
 #include "../../../fv/surface/levelset.h"
 #include "fv_case.h"
@@ -26,5 +25,3 @@ static inline struct fv *start(struct fv_case *c, MPI_Comm comm, const char *con
         c->run.scene.shapes[c->run.scene.nshapes++] = *shape;
     return fv_case_start(c, NULL);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* sph_case.h - a small SPH run without a case file, for the tests of its modules.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_SPH_CASE_H
-#define TESTS_SPH_CASE_H
+#pragma once
 
 #include "../../../sph/bodies/body_pace.h"
 #include "../../../sph/case/sph_params.h"
@@ -196,5 +195,3 @@ static inline double sph_case_laplacian(int dim, int cells, int row, int power)
     DROP(c.s);
     return good ? max_anywhere(most) : NAN;
 }
-
-#endif

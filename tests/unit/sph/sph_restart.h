@@ -1,7 +1,6 @@
 /* sph_restart.h - runs that go on from their own restart files beside runs in one piece.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_SPH_RESTART_H
-#define TESTS_SPH_RESTART_H
+#pragma once
 
 #include "sph_case.h"
 
@@ -43,5 +42,3 @@ static inline double *sph_case_twelve(struct sph_case *c, bool restart, int *n)
     assert_true(sph_case_run(c, 6, 100.0));
     return sph_case_end_state(c, n);
 }
-
-#endif

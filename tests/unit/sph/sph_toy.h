@@ -1,7 +1,6 @@
 /* sph_toy.h - particles without a domain, for tests of the pair passes: a jittered lattice in an
  * open box, smooth fields with noise. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef TESTS_SPH_TOY_H
-#define TESTS_SPH_TOY_H
+#pragma once
 
 #include "../../../sph/pairs/neighbours.h"
 #include "../../../sph/pairs/scheme.h"
@@ -113,5 +112,3 @@ static inline void toy_split(struct toy *t, const struct toy *all, double cut)
 }
 
 static inline void toy_free(struct toy *t) { DROP(t->s.list); }
-
-#endif
