@@ -7,7 +7,7 @@
 
 const char *key_text(const char *format, ...)
 {
-    static char text[8][256];
+    static char text[8][2048];
     static int turn;
     char *to = text[turn];
     turn = (turn + 1) % 8;
@@ -16,6 +16,11 @@ const char *key_text(const char *format, ...)
     vsnprintf(to, sizeof text[0], format, args);
     va_end(args);
     return to;
+}
+
+const char *case_path(const char *dir, const char *file)
+{
+    return *file == '/' || !*dir ? key_text("%s", file) : key_text("%s/%s", dir, file);
 }
 
 void text_add(char *text, size_t size, const char *format, ...)

@@ -318,13 +318,12 @@ void accept_check(const struct scene *s, const char *case_dir, const struct para
 {
     for (int k = 0; k < s->naccept; k++) {
         const struct scene_accept *a = s->accept + k;
-        char path[1024 + PARAM_TEXT_SIZE];
+        const char *path = case_path(case_dir, a->reference);
         const char *key = key_text("accept.[%d].reference", k);
         if (!*a->reference) {
             check_number(s, k, p, f);
             continue;
         }
-        snprintf(path, sizeof path, "%s/%s", case_dir, a->reference);
         struct table *t = table_read(path);
         if (!t)
             params_fault(p, f, key, "%s cannot be read, or has no row of numbers", path);
@@ -396,9 +395,7 @@ static struct table *find_series(const char *dir, const char *what)
 {
     static const char *const files[] = {"series.csv", "sph-series.csv", "fv-series.csv"};
     for (int k = 0; k < 3; k++) {
-        char path[1200];
-        snprintf(path, sizeof path, "%s/%s", dir, files[k]);
-        struct table *t = table_read(path);
+        struct table *t = table_read(key_text("%s/%s", dir, files[k]));
         if (t && table_column(t, what) >= 0)
             return t;
         FREE(t);
@@ -410,9 +407,8 @@ static struct table *find_series(const char *dir, const char *what)
  * to the run's units and start first: t = start + unit[0] t_ref, v = unit[1] v_ref. */
 static double compare(const struct scene_accept *a, const char *case_dir, const char *dir)
 {
-    char path[1024 + PARAM_TEXT_SIZE];
-    snprintf(path, sizeof path, "%s/%s", case_dir, a->reference);
-    struct table *ref = table_read(path), *run = find_series(dir, a->what);
+    struct table *ref = table_read(case_path(case_dir, a->reference)),
+                 *run = find_series(dir, a->what);
     double d = NAN;
     if (ref && run) {
         double *room[2] = {NEW(double, 2 * run->nrows), NEW(double, 2 * ref->nrows)};

@@ -222,16 +222,13 @@ static int open_folder(struct life *l, struct h5 **restart)
 static void start_files(struct life *l)
 {
     struct run *r = &l->r;
-    char path[1200];
-    const char *text = l->files.case_text;
     l->files.run = r;
     l->files.program = l->p;
     if (r->rank > 0)
         return;
-    snprintf(path, sizeof path, "%s/%s-case.cfg", r->dir, r->name);
-    FILE *f = fopen(path, "w");
+    FILE *f = fopen(key_text("%s/%s-case.cfg", r->dir, r->name), "w");
     if (f) {
-        fprintf(f, "# the case as %s ran it, with its defaults\n%s", r->name, text);
+        fprintf(f, "# the case as %s ran it, with its defaults\n%s", r->name, l->files.case_text);
         fclose(f);
     }
     files_view(r);
@@ -252,12 +249,11 @@ static void fill_row(struct life *l)
 static void start_series(struct life *l)
 {
     struct run *r = &l->r;
-    char path[1400];
-    files_path(r, "series.csv", path, sizeof path);
+    const char *path = files_path(r, "series.csv");
     l->series = mem_own(l, series_create(r->rank == 0 ? path : NULL, r->scene.domain.dim, l->row->n,
                                          l->row->title, r->restart, r->t));
     l->row->measures = true;
-    snprintf(path, sizeof path, "%s/%s.xdmf", r->dir, r->name);
+    path = key_text("%s/%s.xdmf", r->dir, r->name);
     if (r->rank == 0)
         l->files.xdmf = mem_own(l, xdmf_create(path, r->restart, r->t * (1.0 + 1e-9)));
 }
@@ -368,10 +364,8 @@ static void summarise(struct life *l)
 
 static void write_summary(const struct life *l)
 {
-    char path[1400];
-    files_path(&l->r, "summary.json", path, sizeof path);
     if (l->r.rank == 0)
-        summary_write(l->r.summary, path);
+        summary_write(l->r.summary, files_path(&l->r, "summary.json"));
 }
 
 /* All ranks write the last state under the name _diverged, for a look at what went wrong. */
@@ -536,12 +530,11 @@ static void say_end(const struct life *l)
 /* From the file, so that rows of before a restart count, too. */
 static void judge_gauges(const struct life *l)
 {
-    char path[1400];
-    if (l->r.rank != 0)
+    const struct run *r = &l->r;
+    if (r->rank != 0)
         return;
-    files_path(&l->r, "series.csv", path, sizeof path);
-    wave_gauges_judge(&l->r.scene, path, l->r.dir, l->r.summary);
-    discharge_gauges_judge(&l->r.scene, l->r.mean_discharges, path, l->r.summary);
+    wave_gauges_judge(&r->scene, files_path(r, "series.csv"), r->dir, r->summary);
+    discharge_gauges_judge(&r->scene, r->mean_discharges, files_path(r, "series.csv"), r->summary);
 }
 
 /* From the end of the loop to the exit code. The last row comes even where the interval of rows
@@ -677,7 +670,6 @@ static int live(struct life *l)
 {
     struct run *r = &l->r;
     struct h5 *restart = NULL;
-    char path[1400];
     run_case_dir(l->line.case_file, r->case_dir, sizeof r->case_dir);
     r->motions = mem_own(l, motion_files_create(r->case_dir));
     collect_groups(l);
@@ -700,16 +692,12 @@ static int live(struct life *l)
         return code;
     }
     signals_install(r->name, r->rank);
-    snprintf(path, sizeof path, "%s/.death", r->dir); /* so the coupler calls its notes, too */
+    const char *path = key_text("%s/.death", r->dir); /* so the coupler calls its notes, too */
     if (!r->coupled && r->rank == 0)
         unlink(path); /* of an earlier run */
     MPI_Barrier(r->comm);
     signals_note_path(path);
-    if (r->coupled)
-        snprintf(path, sizeof path, "%s/%s.log", r->dir, r->name);
-    else
-        snprintf(path, sizeof path, "%s/log.txt", r->dir);
-    log_file(path);
+    log_file(r->coupled ? key_text("%s/%s.log", r->dir, r->name) : key_text("%s/log.txt", r->dir));
     banner(l);
     l->p->describe(r);
     r->summary = mem_own(l, summary_create());

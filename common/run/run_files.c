@@ -14,12 +14,10 @@
 
 #include "../files/files.h"
 
-void files_path(const struct run *r, const char *what, char *path, size_t size)
+const char *files_path(const struct run *r, const char *what)
 {
-    if (r->coupled)
-        snprintf(path, size, "%s/%s-%s", r->dir, r->name, what);
-    else
-        snprintf(path, size, "%s/%s", r->dir, what);
+    return r->coupled ? key_text("%s/%s-%s", r->dir, r->name, what)
+                      : key_text("%s/%s", r->dir, what);
 }
 
 /* What any file of a run says of itself. */
@@ -63,8 +61,7 @@ void files_snapshot(struct run_files *f, const char *what)
 /* Rank 0 of a program that runs alone: which restart file counts. */
 static void write_manifest(const struct run *r, int64_t n, const char *file)
 {
-    char path[1100];
-    snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
+    const char *path = key_text("%s/checkpoint.txt", r->dir);
     FILE *f = disk_begin(path);
     fprintf(f, "step %lld\nt %.17g\n%s %s\n", (long long)n, r->t, r->name, file);
     /* on the disk before the name is: else a crash of the machine may leave an empty manifest */
@@ -98,9 +95,8 @@ void files_checkpoint(struct run_files *f, int64_t n, char *file)
 /* Reads "window N", "NAME FILE" of the manifest. */
 static bool read_manifest(const struct run *r, int64_t *window, char *file, size_t size)
 {
-    char path[1100], line[600], key[64], value[300];
-    snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
-    FILE *f = fopen(path, "r");
+    char line[600], key[64], value[300];
+    FILE *f = fopen(key_text("%s/checkpoint.txt", r->dir), "r");
     *window = -1;
     *file = '\0';
     while (f && fgets(line, sizeof line, f)) {
@@ -155,7 +151,7 @@ static bool reads(const struct program *p, struct h5 *h)
  * h5_open's answer names it as missing, not as damaged. */
 struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *window)
 {
-    char file[300], path[1400];
+    char file[300];
     int good = 0;
     *window = -1;
     if (r->rank == 0)
@@ -164,7 +160,7 @@ struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *w
     MPI_Bcast(window, 1, MPI_INT64_T, 0, r->comm);
     MPI_Bcast(file, sizeof file, MPI_CHAR, 0, r->comm);
     if (!good) {
-        snprintf(path, sizeof path, "%s/checkpoint.txt", r->dir);
+        const char *path = key_text("%s/checkpoint.txt", r->dir);
         if (access(path, R_OK) != 0) /* rank 0 says it, where it was read */
             log_say("--restart: %s has no restart files (output.checkpoint asks for them): run "
                     "without --restart",
@@ -174,7 +170,7 @@ struct h5 *files_open_restart(struct run *r, const struct program *p, int64_t *w
                     r->name);
         return NULL;
     }
-    snprintf(path, sizeof path, "%s/%s", r->dir, file);
+    const char *path = key_text("%s/%s", r->dir, file);
     good = r->rank == 0 && (access(path, R_OK) != 0 || disk_sealed(path));
     MPI_Bcast(&good, 1, MPI_INT, 0, r->comm);
     if (!good) {
@@ -319,11 +315,8 @@ void run_prune(const char *dir, const char *name, const char *newest, const char
     DIR *d = opendir(dir);
     for (struct dirent *e; d && (e = readdir(d));) {
         const long long number = checkpoint_number(e->d_name, name);
-        char path[1400];
-        if (number < 0 || number >= last || strcmp(e->d_name, older) == 0)
-            continue;
-        snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
-        unlink(path);
+        if (number >= 0 && number < last && strcmp(e->d_name, older) != 0)
+            unlink(key_text("%s/%s", dir, e->d_name));
     }
     if (d)
         closedir(d);
@@ -361,13 +354,11 @@ static int find_ours(const char *dir, const char *name, bool removed)
     DIR *d = opendir(dir);
     int found = 0;
     for (struct dirent *e; d && (e = readdir(d));) {
-        char path[1400];
         if (!is_ours(e->d_name, name))
             continue;
         found++;
-        snprintf(path, sizeof path, "%s/%s", dir, e->d_name);
         if (removed)
-            unlink(path);
+            unlink(key_text("%s/%s", dir, e->d_name));
     }
     if (d)
         closedir(d);
@@ -380,9 +371,7 @@ static int find_ours(const char *dir, const char *name, bool removed)
  * .NAME.lock. */
 static bool is_taken(const char *dir, const char *name)
 {
-    char path[1400];
-    snprintf(path, sizeof path, "%s/.%s.lock", dir, name);
-    const int at = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int at = open(key_text("%s/.%s.lock", dir, name), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     return at >= 0 && fcntl(at, F_SETLK, &whole) != 0 && (errno == EACCES || errno == EAGAIN);
 }

@@ -34,5 +34,5 @@ bool files_read_clock(struct run_files *f, struct h5 *h);
 void files_tell_difference(const struct run_files *f, struct h5 *h);
 /* Writes view.py, a script for ParaView, into the folder. */
 void files_view(const struct run *r);
-/* Sets path to DIR/NAME-WHAT when coupled, DIR/WHAT when alone. */
-void files_path(const struct run *r, const char *what, char *path, size_t size);
+/* DIR/NAME-WHAT when coupled, DIR/WHAT when alone; valid as key_text is. */
+const char *files_path(const struct run *r, const char *what);

@@ -56,9 +56,7 @@ static void write_scene(FILE *f, const struct scene *s)
 
 void files_view(const struct run *r)
 {
-    char path[1100];
-    snprintf(path, sizeof path, "%s/view.py", r->dir);
-    FILE *f = r->rank == 0 ? fopen(path, "w") : NULL;
+    FILE *f = r->rank == 0 ? fopen(key_text("%s/view.py", r->dir), "w") : NULL;
     if (!f)
         return;
     fputs(begin, f);

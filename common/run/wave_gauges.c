@@ -371,13 +371,12 @@ static void write_spectra(const struct scene *s, const struct scene_gauges *g,
                           const struct history *h, int n, const int *probe, double period,
                           const char *dir)
 {
-    char path[1400];
     double f[SPECTRUM_BINS], S[GAUGE_PROBES][SPECTRUM_BINS];
     const double all = h->t[h->n - 1] - h->t[0];
     const int segments = (int)fmax(1.0, floor(2.0 * all / (12.0 * period)) - 1.0); /* of 12 T */
     for (int i = 0; i < n; i++)
         wave_spectrum(h->n, h->t, h->v[i], segments, f, S[i]);
-    snprintf(path, sizeof path, "%s/spectrum_%s.csv", dir, g->name);
+    const char *path = key_text("%s/spectrum_%s.csv", dir, g->name);
     FILE *file = fopen(path, "w");
     if (!file) {
         log_warn("%s cannot be written", path);

@@ -59,9 +59,8 @@ struct motion_files *motion_files_create(const char *dir)
 static struct motion_file *new_file(struct motion_files *all, const char *file, int columns)
 {
     struct motion_file *m = NEW_IN(all, struct motion_file, 1);
-    const size_t size = strlen(all->dir) + strlen(file) + 2;
-    m->path = NEW_IN(m, char, size);
-    snprintf(m->path, size, "%s/%s", all->dir, file);
+    const char *path = case_path(all->dir, file);
+    m->path = strcpy(NEW_IN(m, char, strlen(path) + 1), path);
     m->columns = columns;
     GROW_IN(all, all->of, all->n, all->n + 1);
     return all->of[all->n++] = m;
@@ -71,10 +70,9 @@ static struct motion_file *new_file(struct motion_files *all, const char *file, 
  * then. */
 const struct motion_file *motion_files_read(struct motion_files *all, const char *file, int columns)
 {
-    char path[1024 + PARAM_TEXT_SIZE];
     if (!all)
         return NULL;
-    snprintf(path, sizeof path, "%s/%s", all->dir, file);
+    const char *path = case_path(all->dir, file);
     for (int k = 0; k < all->n; k++)
         if (all->of[k]->columns == columns && strcmp(all->of[k]->path, path) == 0)
             return all->of[k];

@@ -71,14 +71,11 @@ static bool is_near_origin(const struct trimesh *m, double *far)
 static bool take(const struct reading *r, const struct scene_mesh *m,
                  const struct scene_surface *is, struct trimesh *t, char *why, size_t size)
 {
-    char path[1024 + PARAM_TEXT_SIZE];
     if (!*is->mesh) {
         *t = scene_form_mesh(r->s->bodies + m->index, r->s->facet);
         return true;
     }
-    snprintf(path, sizeof path, "%s%s%s", *is->mesh == '/' ? "" : r->case_dir,
-             *is->mesh == '/' ? "" : "/", is->mesh);
-    return trimesh_read(path, t, why, size);
+    return trimesh_read(case_path(r->case_dir, is->mesh), t, why, size);
 }
 
 /* On rank 0: from the file or the form to a connected mesh in its place; false: why. */

@@ -23,7 +23,7 @@ static bool read_one(const char *dir, const char *group, int k, bool whole,
                      const struct scene_surface *is, struct param_points *to,
                      const struct params *p, struct faults *f)
 {
-    char file[1024 + PARAM_TEXT_SIZE], text[1400];
+    char text[1400];
     struct outline o;
     if (!*is->outline) {
         const struct param_points own = *to;
@@ -31,8 +31,7 @@ static bool read_one(const char *dir, const char *group, int k, bool whole,
         return false;
     }
     const char *key = key_text("%s.[%d].outline", group, k);
-    snprintf(file, sizeof file, "%s%s%s", *is->outline == '/' ? "" : dir,
-             *is->outline == '/' ? "" : "/", is->outline);
+    const char *file = case_path(dir, is->outline);
     if (to->n > 0)
         params_fault(p, f, key, "points are given, too: leave one of them out");
     else if (!outline_read(file, PARAM_POINTS_MAX, whole, &o, text, sizeof text))

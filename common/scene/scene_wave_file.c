@@ -13,8 +13,7 @@ void scene_wave_file_read(struct scene *s, const char *dir, const struct params 
     const double depth = scene_waves_depth(s);
     if (!s->has_waves || w->kind != WAVE_FILE || !(depth > 0.0))
         return; /* without a depth scene_waves_check asks for it */
-    snprintf(w->path, sizeof w->path, "%s%s%s", *w->file == '/' ? "" : dir,
-             *w->file == '/' ? "" : "/", w->file);
+    snprintf(w->path, sizeof w->path, "%s", case_path(dir, w->file));
     if (!*w->file)
         params_fault(p, f, "waves.kind", "which file? give its name as waves.file");
     else if (scene_has_wave_maker(s))

@@ -212,11 +212,9 @@ double *mesh_file_read(const struct run *r, struct faults *f, const struct mesh_
                        int *cells)
 {
     const int dim = r->scene.domain.dim;
-    char path[1400];
+    const char *path = case_path(r->case_dir, p->file);
     double *x = NULL;
     int good = 0;
-    snprintf(path, sizeof path, "%s%s%s", *p->file == '/' ? "" : r->case_dir,
-             *p->file == '/' || !*r->case_dir ? "" : "/", p->file);
     if (r->rank == 0) {
         const size_t m = strlen(p->file);
         x = m > 3 && strcmp(p->file + m - 3, ".h5") == 0 ? read_hdf5(path, dim, cells)

@@ -16,57 +16,55 @@ enum { SURFACES = WALLS_MAX + BODIES_MAX };
 static bool is_shown(const struct wall_mesh *m) { return m->of && !m->image; }
 
 /* Vertices where the mesh is now; rank 0 writes them all. */
-static void write_vertices(const struct sph *s, struct h5 *f, const struct wall_mesh *m,
-                           const char *name)
+static void write_vertices(const struct sph *s, struct h5 *f, const struct wall_mesh *m)
 {
     const int n = s->run->rank == 0 ? m->mesh.nvertices : 0;
     double *x = NEW(double, 3 * (size_t)n);
     for (int v = 0; v < n; v++)
         wall_mesh_to_world(m, m->mesh.x[v], x + 3 * (size_t)v);
-    h5_write_real(f, name, "m", n, 3, x, true);
+    h5_write_real(f, key_text("vertices_%s", m->of->name), "m", n, 3, x, true);
     mem_free(x);
 }
 
 /* Three vertex numbers each; rank 0 writes them all. */
-static void write_triangles(const struct sph *s, struct h5 *f, const struct wall_mesh *m,
-                            const char *name)
+static void write_triangles(const struct sph *s, struct h5 *f, const struct wall_mesh *m)
 {
     const int64_t n = s->run->rank == 0 ? 3 * (int64_t)m->mesh.ntriangles : 0;
     int64_t *v = NEW(int64_t, n);
     for (int64_t k = 0; k < n; k++)
         v[k] = m->mesh.vertex[k / 3][k % 3];
-    h5_write_int(f, name, n, v);
+    h5_write_int(f, key_text("triangles_%s", m->of->name), n, v);
     mem_free(v);
-}
-
-/* Names of the two datasets of a mesh. */
-static void names_of(const struct wall_mesh *m, char x[80], char v[80])
-{
-    snprintf(x, 80, "vertices_%s", m->of->name);
-    snprintf(v, 80, "triangles_%s", m->of->name);
 }
 
 /* Creates NAME_walls.h5. Collective. */
 static void write_meshes(const struct sph *s)
 {
-    char path[1200], x[80], v[80];
-    snprintf(path, sizeof path, "%s/%s_walls.h5", s->run->dir, s->run->name);
-    struct h5 *f = h5_create(s->run->comm, path);
+    struct h5 *f = h5_create(s->run->comm, key_text("%s/%s_walls.h5", s->run->dir, s->run->name));
     for (int k = 0; k < s->walls->nmeshes; k++) {
         const struct wall_mesh *m = s->walls->meshes + k;
         if (!is_shown(m))
             continue;
-        names_of(m, x, v);
-        write_triangles(s, f, m, v);
+        write_triangles(s, f, m);
         if (m->body < 0)
-            write_vertices(s, f, m, x);
+            write_vertices(s, f, m);
     }
     h5_close(&f);
 }
 
+/* The XDMF file, made with the first time; a continued run goes on with it if anything moves. */
+static struct xdmf *view_of(const struct sph *s, bool moving)
+{
+    struct walls *w = s->walls;
+    if (!w->view)
+        w->view = mem_own(w, xdmf_create(key_text("%s/%s_walls.xdmf", s->run->dir, s->run->name),
+                                         s->run->restart && moving, s->t));
+    return w->view;
+}
+
 /* Adds a time to the XDMF file: each mesh with its triangles from NAME_walls.h5 and its vertices
  * from there or from the snapshot `file'. */
-static void show(const struct sph *s, const char *file)
+static void show(const struct sph *s, struct xdmf *view, const char *file)
 {
     char own[80];
     struct xdmf_surface of[SURFACES];
@@ -77,14 +75,15 @@ static void show(const struct sph *s, const char *file)
         if (!is_shown(m))
             continue;
         struct xdmf_surface *to = of + n++;
-        names_of(m, to->vertices, to->triangles);
+        snprintf(to->vertices, sizeof to->vertices, "vertices_%s", m->of->name);
+        snprintf(to->triangles, sizeof to->triangles, "triangles_%s", m->of->name);
         to->name = m->of->name;
         to->vertices_file = m->body < 0 ? own : file;
         to->triangles_file = own;
         to->nvertices = m->mesh.nvertices;
         to->ntriangles = m->mesh.ntriangles;
     }
-    xdmf_surfaces(s->walls->view, s->t, n, of);
+    xdmf_surfaces(view, s->t, n, of);
 }
 
 /* In 2D writes the corners of bodies where they are now into the snapshot, and adds a time to the
@@ -97,21 +96,15 @@ static void show_outlines(struct sph *s, struct h5 *f, const struct xdmf *x, con
     for (int k = 0; k < w->nbodies; k++) {
         const struct param_points *p = &w->bodies[k].is->points;
         double at[PARAM_POINTS_MAX][2];
-        char name[32];
         names[k] = w->bodies[k].is->name;
         n[k] = p->n;
         for (int i = 0; i < p->n; i++)
             body_corner(w->bodies + k, i, at[i]);
-        snprintf(name, sizeof name, "outline_%d", k + 1);
-        h5_write_real(f, name, "m", s->run->rank == 0 ? p->n : 0, 2, &at[0][0], true);
-    }
-    if (x && !w->view) {
-        char path[1200];
-        snprintf(path, sizeof path, "%s/%s_walls.xdmf", s->run->dir, s->run->name);
-        w->view = mem_own(s->walls, xdmf_create(path, s->run->restart, s->t));
+        h5_write_real(f, key_text("outline_%d", k + 1), "m", s->run->rank == 0 ? p->n : 0, 2,
+                      &at[0][0], true);
     }
     if (x)
-        xdmf_outlines(w->view, s->t, file, w->nbodies, names, n);
+        xdmf_outlines(view_of(s, true), s->t, file, w->nbodies, names, n);
 }
 
 /* Nothing is written where no mesh is shown, or none moves after the first time. A continued run
@@ -133,36 +126,22 @@ void wall_files_snapshot(struct sph *s, struct h5 *f, const struct xdmf *x, cons
         write_meshes(s);
     w->shown = true;
     for (int k = 0; k < w->nmeshes; k++) {
-        char places[80], v[80];
-        if (!is_shown(w->meshes + k) || w->meshes[k].body < 0)
-            continue;
-        names_of(w->meshes + k, places, v);
-        write_vertices(s, f, w->meshes + k, places);
+        if (is_shown(w->meshes + k) && w->meshes[k].body >= 0)
+            write_vertices(s, f, w->meshes + k);
     }
-    if (!x)
-        return;
-    if (!w->view) {
-        char path[1200];
-        snprintf(path, sizeof path, "%s/%s_walls.xdmf", s->run->dir, s->run->name);
-        w->view = mem_own(s->walls, xdmf_create(path, s->run->restart && moving, s->t));
-    }
-    show(s, file);
+    if (x)
+        show(s, view_of(s, moving), file);
 }
 
 /* Name of the attribute with a mesh's hash. */
-static void hash_name(const struct wall_mesh *m, char name[80])
-{
-    snprintf(name, 80, "mesh_%s", m->of->name);
-}
+static const char *hash_name(const struct wall_mesh *m) { return key_text("mesh_%s", m->of->name); }
 
 void wall_files_save(const struct sph *s, struct h5 *f)
 {
     for (int k = 0; s->walls && k < s->walls->nmeshes; k++) {
-        char name[80];
-        if (!is_shown(s->walls->meshes + k))
-            continue;
-        hash_name(s->walls->meshes + k, name);
-        h5_attribute_int(f, name, (int64_t)s->walls->meshes[k].of->hash);
+        const struct wall_mesh *m = s->walls->meshes + k;
+        if (is_shown(m))
+            h5_attribute_int(f, hash_name(m), (int64_t)m->of->hash);
     }
 }
 
@@ -171,12 +150,9 @@ bool wall_files_fit(const struct sph *s, struct h5 *f)
 {
     for (int k = 0; s->walls && k < s->walls->nmeshes; k++) {
         const struct wall_mesh *m = s->walls->meshes + k;
-        char name[80];
         int64_t then;
-        if (!is_shown(m))
-            continue;
-        hash_name(m, name);
-        if (h5_read_attribute_int(f, name, &then) && then == (int64_t)m->of->hash)
+        if (!is_shown(m) ||
+            (h5_read_attribute_int(f, hash_name(m), &then) && then == (int64_t)m->of->hash))
             continue;
         log_say("the restart file is of another mesh %s: its file, or scale, rotate, translate or "
                 "weld have changed; start anew, or bring the old ones back",

@@ -47,6 +47,11 @@ quiet = '-p', 'output.snapshots=false'
 ends(0, 'swing')
 count(5, 'out/swing/toy_0*.h5')
 well = summary('out/swing')
+# files that a case names by a path from the root
+write('half.csv', 't,E\n0,5\n1,5.001\n')
+write('root.cfg', CASE[:CASE.index('accept')] + 'accept: ( { what = "energy"; column = "E"; reference = "%s"; '
+      'measure = "peak"; tolerance = 0.01; } );\n' % os.path.abspath('half.csv'))
+ends(0, 'root.cfg', *quiet)
 # a series has as many columns as the program adds
 ends(0, 'swing', *quiet, '-p', 'toy.columns=1000', '-o', 'wide')
 holds({len(line.split(',')) for line in open('wide/series.csv')} == {1002}, 'wide/series.csv')
