@@ -1,4 +1,4 @@
-/* lookup.h - the place of a number in a table whose rows ascend.
+/* lookup.h - the place of a number in a table whose rows ascend; their order.
  * SPDX-License-Identifier: BSD-3-Clause */
 #pragma once
 
@@ -21,4 +21,11 @@ static inline double lookup_linear(const double (*rows)[2], int n, double x)
         return 0.0;
     const double(*at)[2] = rows + lookup_row(rows[0], 2, n - 1, x);
     return at[0][1] + (x - at[0][0]) / (at[1][0] - at[0][0]) * (at[1][1] - at[0][1]);
+}
+
+/* For qsort of numbers (double), the least first. */
+static inline int lookup_ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }

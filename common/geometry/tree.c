@@ -423,23 +423,14 @@ static bool segment_meets(const struct node *b, const double *from, const double
     return enter <= leave * (1.0 + 1e-12) + 1e-12;
 }
 
-/* Share of the way a -> a + way at which it meets a triangle, edges with it (Moeller & Trumbore, J.
- * Graphics Tools 2, 1997); INFINITY: it does not, or lies in its plane. */
+/* Share of the way a -> a + way at which it meets a triangle, edges with it; INFINITY: it does not,
+ * or lies in its plane. */
 static double crossing(const struct trimesh *m, int triangle, const double *a, const double *way)
 {
-    const int *v = m->vertex[triangle];
     const double edge = 1e-9;
-    double d[3], e[3], p[3], q[3], s[3];
-    vec3_from(m->x[v[0]], m->x[v[1]], d);
-    vec3_from(m->x[v[0]], m->x[v[2]], e);
-    vec3_cross(way, e, p);
-    const double det = vec3_dot(d, p);
-    if (fabs(det) <= 1e-14 * vec3_length(d) * vec3_length(e) * vec3_length(way))
+    double u, w, at;
+    if (!trimesh_meet(m, triangle, a, way, 1e-14, &u, &w, &at))
         return INFINITY;
-    vec3_from(m->x[v[0]], a, s);
-    const double u = vec3_dot(s, p) / det;
-    vec3_cross(s, d, q);
-    const double w = vec3_dot(way, q) / det, at = vec3_dot(e, q) / det;
     return u >= -edge && w >= -edge && u + w <= 1.0 + edge && at >= 0.0 && at <= 1.0 ? at
                                                                                      : INFINITY;
 }

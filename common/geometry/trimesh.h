@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "../base/base.h"
+
 /* A mesh. x and vertex are the data, all else follows from them by trimesh_connect and is out of
  * date after a change of them. The arrays are owned; zeroed memory is an empty mesh. */
 struct trimesh {
@@ -96,3 +98,25 @@ struct trimesh trimesh_within(const struct trimesh *m, const double lo[3], const
  * its section, normals out. false, and the mesh stays as it is but for those vertices: nothing is
  * beyond, or all of it, or the section is none of simple loops. */
 bool trimesh_end(struct trimesh *m, int axis, double at, bool high, double near);
+
+/* Where the line from a along `way' meets the plane of a triangle: the share `at' of the way, and
+ * the weights u and w of its second and third corner there (Moeller & Trumbore, J. Graphics Tools
+ * 2, 1997). false: the line lies in the plane, as far as `flat' tells. */
+static inline bool trimesh_meet(const struct trimesh *m, int triangle, const double *a,
+                                const double *way, double flat, double *u, double *w, double *at)
+{
+    const int *v = m->vertex[triangle];
+    double d[3], e[3], p[3], q[3], s[3];
+    vec3_from(m->x[v[0]], m->x[v[1]], d);
+    vec3_from(m->x[v[0]], m->x[v[2]], e);
+    vec3_cross(way, e, p);
+    const double det = vec3_dot(d, p);
+    if (fabs(det) <= flat * vec3_length(d) * vec3_length(e) * vec3_length(way))
+        return false;
+    vec3_from(m->x[v[0]], a, s);
+    vec3_cross(s, d, q);
+    *u = vec3_dot(s, p) / det;
+    *w = vec3_dot(way, q) / det;
+    *at = vec3_dot(e, q) / det;
+    return true;
+}

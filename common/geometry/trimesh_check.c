@@ -13,20 +13,11 @@
  * walls of a tank do, are no crossing. */
 static bool pierces(const struct trimesh *m, int triangle, const double *a, const double *b)
 {
-    const int *v = m->vertex[triangle];
     const double in = 1e-7;
-    double way[3], d[3], e[3], p[3], q[3], s[3];
+    double way[3], u, w, at;
     vec3_from(a, b, way);
-    vec3_from(m->x[v[0]], m->x[v[1]], d);
-    vec3_from(m->x[v[0]], m->x[v[2]], e);
-    vec3_cross(way, e, p);
-    const double det = vec3_dot(d, p);
-    if (fabs(det) <= 1e-9 * vec3_length(d) * vec3_length(e) * vec3_length(way))
-        return false;
-    vec3_from(m->x[v[0]], a, s);
-    vec3_cross(s, d, q);
-    const double u = vec3_dot(s, p) / det, w = vec3_dot(way, q) / det, at = vec3_dot(e, q) / det;
-    return u > in && w > in && u + w < 1.0 - in && at > in && at < 1.0 - in;
+    return trimesh_meet(m, triangle, a, way, 1e-9, &u, &w, &at) && u > in && w > in &&
+           u + w < 1.0 - in && at > in && at < 1.0 - in;
 }
 
 /* An edge of either through the other. */

@@ -182,12 +182,6 @@ void mesh_exchange(const struct mesh *m, struct mesh_exchange *x, int nf, double
 }
 
 /* Whether i is a cell of the part, not a ghost. */
-static bool is_own(const struct part *p, const int *i)
-{
-    return i[0] >= 0 && i[0] < p->n[0] && i[1] >= 0 && i[1] < p->n[1] && i[2] >= 0 &&
-           i[2] < p->n[2];
-}
-
 /* Requests of all ghosts of this rank that are cells elsewhere, or on this rank itself. */
 void mesh_halo_create(struct mesh *m)
 {
@@ -199,7 +193,7 @@ void mesh_halo_create(struct mesh *m)
         PART_ALL (p, i, c) {
             int at[3] = {p->lo[0] + i[0], p->lo[1] + i[1], p->lo[2] + i[2]}, k = p->block;
             double move[3] = {0.0, 0.0, 0.0};
-            if (is_own(p, i) || !mesh_resolve(m, &k, at, move))
+            if (part_has(p, i) || !mesh_resolve(m, &k, at, move))
                 continue;
             struct mesh_request *r = request + n++;
             *r = (struct mesh_request){.in = c};

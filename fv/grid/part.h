@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: BSD-3-Clause */
 #pragma once
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* EVEN: all cells are equal boxes along the axes; UPRIGHT: boxes along the axes of any size;
@@ -68,6 +69,12 @@ static inline void part_clip(const struct part *p, int j, int k, int ends[2])
 static inline int64_t part_at(const struct part *p, int i, int j, int k)
 {
     return p->base + (i + p->g[0]) + p->stride[1] * (j + p->g[1]) + p->stride[2] * (k + p->g[2]);
+}
+/* Whether i (int[3]) is one of its cells, not a ghost. */
+static inline bool part_has(const struct part *p, const int *i)
+{
+    return i[0] >= 0 && i[0] < p->n[0] && i[1] >= 0 && i[1] < p->n[1] && i[2] >= 0 &&
+           i[2] < p->n[2];
 }
 /* The cell at index c, the inverse of part_at. */
 static inline void part_index(const struct part *p, int64_t c, int *at)

@@ -75,12 +75,6 @@ static void add_faces(struct flow_ends *e, int dim, const struct section_place *
     }
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Where the section goes from cell to cell along tangent k. */
 static struct flow_ends ends_of(const struct fv *s, const struct scene_probe *g,
                                 const struct probe_section *c, int k)
@@ -104,7 +98,7 @@ static struct flow_ends ends_of(const struct fv *s, const struct scene_probe *g,
         p = q;
     }
     add_end(&e, c->length[k]);
-    qsort(e.end, (size_t)e.n + 1, sizeof *e.end, ascending);
+    qsort(e.end, (size_t)e.n + 1, sizeof *e.end, lookup_ascending);
     return e;
 }
 

@@ -52,12 +52,6 @@ struct flow_samples flow_samples_create(const struct fv *s, const struct scene_p
     return flow_samples_between(s->dim, g, &c, of);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Faces along axis a of cells from one coordinate to another; their numbers, of layers from 0. */
 static void faces_between(const struct block *b, int a, double low, double high, int at[2])
 {
@@ -92,7 +86,7 @@ static struct flow_ends ends_in_cells(const struct block *b, const struct scene_
                 e.end[++e.n] = place;
         }
     }
-    qsort(e.end, (size_t)e.n + 1, sizeof *e.end, ascending);
+    qsort(e.end, (size_t)e.n + 1, sizeof *e.end, lookup_ascending);
     return e;
 }
 

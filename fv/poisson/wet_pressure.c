@@ -63,14 +63,6 @@ static bool find_cell(const struct mesh *m, int *block, int *at)
     return mesh_resolve(m, block, at, move);
 }
 
-static bool is_ghost(const struct part *p, const int *i)
-{
-    bool ghost = false;
-    for (int a = 0; a < 3; a++)
-        ghost = ghost || i[a] < 0 || i[a] >= p->n[a];
-    return ghost;
-}
-
 /* Where ghosts have their row from. */
 static void make_ghosts(struct fv *s, struct wet_pressure *p)
 {
@@ -84,7 +76,7 @@ static void make_ghosts(struct fv *s, struct wet_pressure *p)
             int block = part->block, at[3];
             for (int a = 0; a < 3; a++)
                 at[a] = part->lo[a] + i[a];
-            if (!is_ghost(part, i) || !find_cell(m, &block, at))
+            if (part_has(part, i) || !find_cell(m, &block, at))
                 continue;
             request[n] = (struct mesh_request){.in = c};
             mesh_owner(m, block, at, &request[n].rank, &request[n].out);

@@ -79,14 +79,6 @@ static void lower(struct step_limit *l, double dt, enum limit by)
 
 /* --- the scene --- */
 
-static double size_of(const double *v, int dim)
-{
-    double sum = 0.0;
-    for (int a = 0; a < dim; a++)
-        sum += v[a] * v[a];
-    return sqrt(sum);
-}
-
 /* Largest side of the domain, m. */
 static double length_of(const struct scene *s)
 {
@@ -119,8 +111,7 @@ double limits_reference(const struct run *r)
         held.fluid.gravity[a] = s->domain.periodic[a] ? s->fluid.gravity[a] : 0.0;
     const struct scene_speed v = scene_speed_of(&held, 0.0, 0.0);
     const double flows = v.moves || scene_has_surface(s) || r->coupled ? v.speed : 0.0;
-    return fmax(fmax(flows, size_of(s->initial.velocity, s->domain.dim)),
-                1e-3 * length_of(s) / s->time.end);
+    return fmax(fmax(flows, vec3_length(s->initial.velocity)), 1e-3 * length_of(s) / s->time.end);
 }
 
 /* Of the field alone: what carries it changes nothing. Beltrami flow on 8^3 cells, from U h/nu =
@@ -222,7 +213,7 @@ static double viscous_time(double nu, const double *h, int dim)
 static void lower_surface(struct step_limit *l, const struct scene *s, const struct fv_params *p,
                           double shortest, const double *h)
 {
-    const double g = size_of(s->fluid.gravity, s->domain.dim), cfl = limits_cfl(p),
+    const double g = vec3_length(s->fluid.gravity), cfl = limits_cfl(p),
                  part[] = {fmin(cfl, 1.0), cfl / BDF2_CFL, cfl};
     lower(l, g > 0.0 ? WAVES * part[p->integrator] * sqrt(shortest / g) : INFINITY, LIMIT_WAVES);
     if (p->integrator != INTEGRATOR_NEWTON)
@@ -232,7 +223,7 @@ static void lower_surface(struct step_limit *l, const struct scene *s, const str
 /* Spacing that tells the shortest waves of an even grid. */
 static double shortest_of(const struct scene *s, const struct fv_params *p, const double *h)
 {
-    const double g = size_of(s->fluid.gravity, s->domain.dim);
+    const double g = vec3_length(s->fluid.gravity);
     double shortest = INFINITY;
     for (int a = 0; a < s->domain.dim; a++)
         if (p->integrator == INTEGRATOR_RK3 || fabs(s->fluid.gravity[a]) < 0.7 * g)
@@ -304,7 +295,7 @@ static void warn_transient(const struct run *r, const struct fv_params *p, doubl
  */
 static double longest_period(const struct scene *s)
 {
-    const double g = size_of(s->fluid.gravity, s->domain.dim);
+    const double g = vec3_length(s->fluid.gravity);
     const int up = scene_still_axis(s);
     double low, high, k = INFINITY;
     if (up < 0)

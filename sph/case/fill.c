@@ -124,8 +124,7 @@ static void cut_links(const struct sph *s, struct lattice *l)
 {
     double lo[3], hi[3];
     int first[3], last[3];
-    domain_bounds(s->domain, lo, hi);
-    first_lattice_own(s, l, lo, hi, first, last);
+    first_lattice_own(s->domain, l, s->dim, lo, hi, first, last);
     rooms_cut_links(s, l, first, last);
     for (int a = 0; a < 3; a++)
         lattice_share(l, l->cut[a], s->run->comm);

@@ -134,13 +134,14 @@ struct lattice first_lattice_create(const struct sph *s)
 }
 
 /* A cell more on either side, as lo and hi carry rounding. */
-void first_lattice_own(const struct sph *s, const struct lattice *l, const double *lo,
-                       const double *hi, int *first, int *last)
+void first_lattice_own(const struct domain *part, const struct lattice *l, int dim, double lo[3],
+                       double hi[3], int first[3], int last[3])
 {
+    domain_bounds(part, lo, hi);
     for (int a = 0; a < 3; a++) {
         first[a] = 0;
         last[a] = 1;
-        if (a >= s->dim)
+        if (a >= dim)
             continue;
         first[a] = (int)fmax(0.0, floor((lo[a] - l->origin[a]) / l->dx) - 1.0);
         last[a] = (int)fmin(l->n[a], ceil((hi[a] - l->origin[a]) / l->dx) + 1.0);
@@ -154,8 +155,7 @@ void first_lattice_each_own(struct sph *s, const struct lattice *l,
 {
     double lo[3], hi[3];
     int first[3], last[3];
-    domain_bounds(s->domain, lo, hi);
-    first_lattice_own(s, l, lo, hi, first, last);
+    first_lattice_own(s->domain, l, s->dim, lo, hi, first, last);
     for (int k = first[2]; k < last[2]; k++)
         for (int j = first[1]; j < last[1]; j++)
             for (int i = first[0]; i < last[0]; i++) {
@@ -176,8 +176,7 @@ void first_lattice_each_near(const struct sph *s, const struct domain *part,
     struct lattice l = first_lattice_create(s);
     double lo[3], hi[3], x[3];
     int first[3], last[3], ic[3];
-    domain_bounds(part, lo, hi);
-    first_lattice_own(s, &l, lo, hi, first, last);
+    first_lattice_own(part, &l, s->dim, lo, hi, first, last);
     for (ic[2] = first[2]; ic[2] < last[2]; ic[2]++)
         for (ic[1] = first[1]; ic[1] < last[1]; ic[1]++)
             for (ic[0] = first[0]; ic[0] < last[0]; ic[0]++) {

@@ -15,9 +15,10 @@ double first_lattice_cells(double lo, double hi, double dx);
 double first_lattice_begin(const struct scene *c, int a, double lo, double hi, double dx);
 /* The lattice of level s, with no cell filled; freed by FREE. */
 struct lattice first_lattice_create(const struct sph *s);
-/* Range first <= i < last of cells whose centre may be in a rank's part, from lo to hi, m. */
-void first_lattice_own(const struct sph *s, const struct lattice *l, const double *lo,
-                       const double *hi, int *first, int *last);
+/* A rank's part, from lo to hi, m, and the range first <= i < last of cells whose centre may be in
+ * it. */
+void first_lattice_own(const struct domain *part, const struct lattice *l, int dim, double lo[3],
+                       double hi[3], int first[3], int last[3]);
 /* Calls `at' for each cell whose centre is in this rank's part. */
 void first_lattice_each_own(struct sph *s, const struct lattice *l,
                             void (*at)(struct sph *s, const struct lattice *l, int64_t cell,
