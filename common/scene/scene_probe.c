@@ -2,7 +2,8 @@
 #include "scene_probe.h"
 
 #include <math.h>
-#include <stdio.h>
+
+#include "../files/files.h"
 
 bool probe_is_point(const struct scene_probe *g)
 {
@@ -22,16 +23,16 @@ int probe_columns(const struct scene_probe *g, int dim)
     return g->kind == PROBE_VELOCITY ? dim : 1;
 }
 
-void probe_heading(const struct scene_probe *g, int dim, int column, char *text, size_t size)
+void probe_row(const struct scene_probe *g, int dim, const double *v, struct figures *to)
 {
-    if (g->kind == PROBE_VELOCITY)
-        snprintf(text, size, "%s %c [m/s]", g->name, "uvw"[column]);
-    else
-        snprintf(text, size, "%s [%s]", g->name,
-                 g->kind == PROBE_PRESSURE    ? "Pa"
-                 : g->kind != PROBE_DISCHARGE ? "m"
-                 : dim == 2                   ? "m^2/s"
-                                              : "m^3/s");
+    for (int a = 0; a < dim && g->kind == PROBE_VELOCITY; a++)
+        FIGURE(to, v[a], "%s %c [m/s]", g->name, "uvw"[a]);
+    if (g->kind != PROBE_VELOCITY)
+        FIGURE(to, *v, "%s [%s]", g->name,
+               g->kind == PROBE_PRESSURE    ? "Pa"
+               : g->kind != PROBE_DISCHARGE ? "m"
+               : dim == 2                   ? "m^2/s"
+                                            : "m^3/s");
 }
 
 /* In 2D the normal points to the right of the line from at to `to'; in 3D along the axis that both

@@ -13,9 +13,10 @@
 bool probe_is_point(const struct scene_probe *g);
 /* Whether the scene has a gauge of this kind (enum probe_kind). */
 bool probe_any(const struct scene *s, int kind);
-/* Number of columns of series.csv that a gauge has, and the heading of one of them, "NAME [Pa]". */
+/* Number of columns of series.csv that a gauge has; adds them, "NAME [Pa]", with their values v. */
 int probe_columns(const struct scene_probe *g, int dim);
-void probe_heading(const struct scene_probe *g, int dim, int column, char *text, size_t size);
+struct figures;
+void probe_row(const struct scene_probe *g, int dim, const double *v, struct figures *to);
 
 /* The section of a discharge: in 2D the line from `at' to `to', counted positive towards its
  * right-hand side; in 3D the rectangle with these corners, normal to an axis and counted positive

@@ -43,14 +43,12 @@ static int read_out(const struct fv *s, const struct scene_probe *g, const doubl
     const int nq = probe_columns(g, s->dim);
     const bool point = probe_is_point(g), out = to->measures && s->m && mesh_is_out(s, g->at),
                dry = point && (out || !(sum[nq] < 0.0));
-    for (int a = 0; a < nq; a++) {
-        char title[PARAM_TEXT_SIZE + 24];
-        double value = dry ? NAN : sum[a];
-        probe_heading(g, s->dim, a, title, sizeof title);
-        if (g->kind == PROBE_PRESSURE && !out)
-            value = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->partners.pressure;
-        FIGURE(to, value, "%s", title);
-    }
+    double values[3];
+    for (int a = 0; a < nq; a++)
+        values[a] = dry ? NAN : sum[a];
+    if (g->kind == PROBE_PRESSURE && !out)
+        *values = dry ? 0.0 : *sum + fv_still_pressure(s, g->at) + s->partners.pressure;
+    probe_row(g, s->dim, values, to);
     return nq + point;
 }
 

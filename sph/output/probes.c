@@ -130,23 +130,17 @@ static void velocity_at(struct sph *s, const struct scene_probe *g, double *u)
         u[a] = sums[3] > 0.05 ? sums[a] / sums[3] : NAN;
 }
 
-/* The columns of a gauge. */
 static void gauge_row(struct sph *s, const struct scene_probe *g, struct figures *to)
 {
-    double u[3] = {0.0, 0.0, 0.0};
-    char title[PARAM_TEXT_SIZE + 24];
-    if (g->kind == PROBE_VELOCITY && to->measures)
-        velocity_at(s, g, u);
-    for (int a = 0; a < probe_columns(g, s->dim); a++) {
-        probe_heading(g, s->dim, a, title, sizeof title);
-        FIGURE(to,
-               g->kind == PROBE_VELOCITY    ? u[a]
-               : g->kind == PROBE_LEVEL     ? level_gauge(s, g->at)
+    double v[3] = {0.0, 0.0, 0.0};
+    if (to->measures && g->kind == PROBE_VELOCITY)
+        velocity_at(s, g, v);
+    else if (to->measures)
+        v[0] = g->kind == PROBE_LEVEL       ? level_gauge(s, g->at)
                : g->kind == PROBE_SHORE     ? shore_height(s, g->at[0])
                : g->kind == PROBE_DISCHARGE ? discharge_gauge(s, g)
-                                            : pressure_at(s, g),
-               "%s", title);
-    }
+                                            : pressure_at(s, g);
+    probe_row(g, s->dim, v, to);
 }
 
 struct force probes_force(struct sph *s, int k)
