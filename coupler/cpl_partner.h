@@ -1,8 +1,7 @@
 /* cpl_partner.h - cpl.h behind the struct partner that common/run/run.h takes; shared by sph and
  * fv.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_CPL_PARTNER_H
-#define COUPLER_CPL_PARTNER_H
+#pragma once
 
 #include "../common/run/run.h"
 #include "cpl.h"
@@ -21,5 +20,3 @@ static inline void partner_check(struct cpl *c, int code)
     if (code)
         abort_run("coupling: %s", cpl_strerror(c));
 }
-
-#endif

@@ -3,8 +3,7 @@
  * same declarations and its own points and values; rank 0 alone sends what concerns the whole
  * program.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_CPL_CLIENT_H
-#define COUPLER_CPL_CLIENT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -121,5 +120,3 @@ void client_need(struct cpl *c, struct message *m);
 void client_pack_ticks(const struct cpl *c, struct pack *p);
 /* Frees what fields and sets hold. */
 void client_free_fields(struct cpl *c);
-
-#endif

@@ -2,8 +2,7 @@
  * linear [6.6], exact on 1, x, y, xy, order 2; cubic, exact on cubics whose cell averages are
  * given, order 4. Equations: Chiron, thesis, Ecole Centrale de Nantes 2017, section 6.3. Part of
  * libcpl.a, no MPI. SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_CPL_PATCH_H
-#define COUPLER_CPL_PATCH_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -36,5 +35,3 @@ void patch_eval(const struct client_patch *p, double t, long n, const double *x,
                 double *grad);
 /* Frees the arrays and leaves an empty patch. */
 void patch_clear(struct client_patch *p);
-
-#endif

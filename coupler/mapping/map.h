@@ -6,8 +6,7 @@
  * With R = 1.095 h (2D) or 1.118 h (3D) a Shepard sum is therefore a cell average up to fourth
  * order, where enough sources fit in.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_MAP_H
-#define COUPLER_MAP_H
+#pragma once
 
 #include <stdint.h>
 
@@ -58,5 +57,3 @@ double map_kernel(int dim, double q, double R);
 void map_cloud_room(struct map_cloud *c, int dim, long ncomp, long n);
 /* Frees the arrays and leaves an empty cloud. */
 void map_cloud_free(struct map_cloud *c);
-
-#endif

@@ -1,8 +1,7 @@
 /* near.h - the points of a cloud that lie within R of a position, found by cells in the order of
  * their global number. Shared by all mappings.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_NEAR_H
-#define COUPLER_NEAR_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -47,5 +46,3 @@ int reach_nearest(int dim, const struct reach *r, const struct map_cloud *c, con
  * are 0. */
 bool map_weights(int dim, double R, bool mls, const struct reach *r, const struct map_cloud *c,
                  const double *x, double *w);
-
-#endif

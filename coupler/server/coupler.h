@@ -3,8 +3,7 @@
  * them bring fields together, each for its share of the targets. A tick counts coupling steps: tick
  * k is the start of step k.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_COUPLER_H
-#define COUPLER_COUPLER_H
+#pragma once
 
 #include "../../common/run/run.h"
 #include "../cpl.h"
@@ -209,5 +208,3 @@ void report_told(struct wire *w, struct message *m, struct told *t);
 void report_progress(struct coupler *c);
 /* Writes summary.json, judges the case's criteria and returns the job's exit code. */
 int report_summary(struct coupler *c, double coupler_cpu);
-
-#endif

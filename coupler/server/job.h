@@ -3,8 +3,7 @@
  * declare (cpl.h). A case with a group sph or fv is a scene that all programs share; the coupler
  * then reads the scene, too, to compare the sums of all programs with its exact solution.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_JOB_H
-#define COUPLER_JOB_H
+#pragma once
 
 #include "../../common/params/params.h"
 #include "../../common/scene/scene.h"
@@ -33,5 +32,3 @@ bool job_wants(const struct job *j, const char *program);
 /* Copies the next name of a list of names separated by spaces, from *at on, which moves; the name
  * is empty if it is too long. false: there is no more. */
 bool job_next_program(const char **at, char name[HANDSHAKE_NAME]);
-
-#endif

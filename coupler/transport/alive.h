@@ -4,8 +4,7 @@
  * of all others; times are the watcher's own. Where the disk is not shared, files of other hosts
  * are never seen, and their processes are not judged. Part of libcpl.a: depends on MPI alone.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_ALIVE_H
-#define COUPLER_ALIVE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -25,5 +24,3 @@ void alive_end(void);
  * disk only sixteen times in the patience; a pause of this process itself (suspended with the whole
  * job) restarts the clock. */
 bool alive_silent(char *text, int size);
-
-#endif

@@ -4,8 +4,7 @@
  * whether the processes of its own host still live. State is static, one per process, since signal
  * handlers have no argument. Part of libcpl.a: depends on MPI alone.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_FAILURE_H
-#define COUPLER_FAILURE_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -42,5 +41,3 @@ bool failure_read(char *text, int size);
 /* Writes a note, prints reason and note on stderr, leaves the others a moment for their logs and
  * ends the job with MPI_Abort and this exit code. */
 _Noreturn void failure_die(int code, const char *reason);
-
-#endif

@@ -2,8 +2,7 @@
  * within a deadline; then there are one communicator per program and one intercommunicator per
  * solver with "coupler". Part of libcpl.a: depends on MPI alone.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_HANDSHAKE_H
-#define COUPLER_HANDSHAKE_H
+#pragma once
 
 #include <mpi.h>
 
@@ -30,5 +29,3 @@ struct handshake {
  * without them. */
 int handshake(MPI_Comm world, const char *name, double deadline_s, int version,
               struct handshake *h);
-
-#endif

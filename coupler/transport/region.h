@@ -2,8 +2,7 @@
  * the region is sent anew only when targets leave it. For points it is cells of space around the
  * targets, for grids boxes of cells, one per asking rank. Part of libcpl.a: no MPI.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_REGION_H
-#define COUPLER_REGION_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -47,5 +46,3 @@ void region_pack(struct pack *p, const struct region *r);
 struct region region_take(struct wire *w, struct message *m);
 /* Frees the arrays and leaves a region that wants nothing. */
 void region_free(struct region *r);
-
-#endif

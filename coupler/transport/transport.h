@@ -1,13 +1,10 @@
 /* transport.h - the door of this folder, the one header of it that others include: what libcpl
  * sends and how it fails: connection, regions, signs of life, failure reports.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef CPL_TRANSPORT_DOOR_H
-#define CPL_TRANSPORT_DOOR_H
+#pragma once
 
 #include "alive.h"
 #include "failure.h"
 #include "handshake.h"
 #include "region.h"
 #include "wire.h"
-
-#endif

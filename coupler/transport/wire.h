@@ -3,8 +3,7 @@
  * Bytes are those of the sender: all hosts must have the same byte order. Messages of one sender to
  * one receiver keep their order. Part of libcpl.a: depends on MPI alone.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef COUPLER_WIRE_H
-#define COUPLER_WIRE_H
+#pragma once
 
 #include <mpi.h>
 #include <stdbool.h>
@@ -141,5 +140,3 @@ void message_free(struct message **m);
 /* Starts a wait; backoff_sleep sleeps once. */
 void backoff_begin(struct backoff *n);
 void backoff_sleep(struct backoff *n);
-
-#endif

@@ -2,8 +2,7 @@
  *   p = rho0 c0^2/gamma ((rho/rho0)^gamma - 1),   c = c0 (rho/rho0)^((gamma - 1)/2).
  * Pressures in Pa, 0 at rho0; densities in kg/m^3.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_EOS_H
-#define SPH_EOS_H
+#pragma once
 
 #include <math.h>
 
@@ -38,5 +37,3 @@ static inline double eos_p_from_constant(double p, double rho0, double c0, doubl
     const double r = gamma == 1.0 ? exp(s) : pow(t > 1e-3 ? t : 1e-3, 1.0 / 6.0);
     return eos_p(rho0 * r, rho0, c0, gamma);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* params_derived.h - what follows from the parameters and the scene: the region of the particles
  * and its sides, bounds of the time step. Pure functions that read no file.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_PARAMS_DERIVED_H
-#define SPH_PARAMS_DERIVED_H
+#pragma once
 
 #include "../sph.h"
 
@@ -42,5 +41,3 @@ double sph_params_cfl_bound(const struct sph_params *prm, int dim);
  * that speed, m/s. limited_by, if not NULL, gets "sound" or "viscosity". */
 double sph_params_dt(const struct sph_params *prm, double nu, double signal,
                      const char **limited_by);
-
-#endif

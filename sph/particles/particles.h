@@ -2,8 +2,7 @@
  * records of nstate doubles, so that a Runge-Kutta stage is one loop; packed records ("lines") are
  * what the loops over pairs load.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_PARTICLES_H
-#define SPH_PARTICLES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -145,5 +144,3 @@ double particles_share(const struct sph *s, const double *x);
 void particles_lines(struct sph *s);
 /* The same for the state y0 + part (y - y0). */
 void particles_lines_between(struct sph *s, double part);
-
-#endif

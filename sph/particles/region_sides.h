@@ -1,7 +1,6 @@
 /* region_sides.h - sides of the region where fluid comes and goes, and gauges near them.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_REGION_SIDES_H
-#define SPH_REGION_SIDES_H
+#pragma once
 
 #include "../sph.h"
 
@@ -13,5 +12,3 @@ bool region_side_passes(const struct sph *s, int side);
  * inside sides of which `is' is true, clear of the rows that are born and removed there. x outside
  * of the region is left alone. */
 double region_clear(const struct sph *s, int a, double x, bool (*is)(const struct sph *, int));
-
-#endif

@@ -1,7 +1,6 @@
 /* state_sums.h - mass, volume, energy and momentum of the state, and its vorticity.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_STATE_SUMS_H
-#define SPH_STATE_SUMS_H
+#pragma once
 
 struct sph;
 
@@ -17,5 +16,3 @@ double sph_energy(const struct sph *s, const double *y, double *kinetic);
 /* Curl of u of local particle i, 1/s, from slope, which must be of the present state. In 2D w[2]
  * only, the others are 0. */
 void sph_vorticity(const struct sph *s, int i, double w[3]);
-
-#endif

@@ -2,8 +2,7 @@
  * each particle, whose sum drifts as the packing settles; after each step all volumes are scaled by
  * one factor.
  * SPDX-License-Identifier: BSD-3-Clause */
-#ifndef SPH_VOLUME_H
-#define SPH_VOLUME_H
+#pragma once
 
 struct sph;
 
@@ -17,5 +16,3 @@ void volume_change(struct sph *s, double by);
 void volume_keep(struct sph *s);
 /* After an exchange of particles at the end of a step: remembers the present sum instead. */
 void volume_renew(struct sph *s);
-
-#endif
