@@ -1,7 +1,6 @@
 /* fv_errors.c - what the series and the summary hold on all grids: errors against exact cell
  * averages, energies, over the computed cells.
  * SPDX-License-Identifier: BSD-3-Clause */
-#include "report.h"
 
 #include "../boundary/fv_boundary.h"
 #include "../coupling/fv_coupling.h"

@@ -172,11 +172,9 @@ static const char first_snapshot[] = "fv_000000.h5";
 /* Corners of the domain, for whoever draws. */
 static void write_frame(const struct fv *s, struct h5 *f)
 {
-    static const char *const lo[] = {"xmin", "ymin", "zmin"}, *const hi[] = {"xmax", "ymax",
-                                                                             "zmax"};
     for (int a = 0; a < s->b.dim; a++) {
-        h5_attribute_real(f, lo[a], s->b.origin[a]);
-        h5_attribute_real(f, hi[a], s->b.origin[a] + s->b.length[a]);
+        h5_attribute_real(f, key_text("%cmin", "xyz"[a]), s->b.origin[a]);
+        h5_attribute_real(f, key_text("%cmax", "xyz"[a]), s->b.origin[a] + s->b.length[a]);
     }
     if (s->b.rows)
         h5_write_real(f, "rows", "m", s->run->rank == 0 ? s->b.cells[1] + 1 : 0, 1, s->b.rows->edge,

@@ -4,4 +4,3 @@
 
 #include "mesh_output.h"
 #include "output.h"
-#include "report.h"

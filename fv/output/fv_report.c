@@ -1,6 +1,6 @@
-/* fv_report.c - rows of the series (fv_row) and the summary (fv_finish), both collective.
- * SPDX-License-Identifier: BSD-3-Clause */
-#include "report.h"
+/* fv_report.c - rows of the series (fv_row) and the summary (fv_finish), both collective; what
+ * outputs keep from row to row. SPDX-License-Identifier: BSD-3-Clause */
+#include "output.h"
 
 #include "../../common/scene/scene.h"
 #include "../operators/fv_operators.h"
@@ -8,7 +8,20 @@
 #include "../time/fv_time.h"
 #include "../watch/fv_watch.h"
 #include "mesh_output.h"
-#include "output.h"
+
+/* The search of blocks for gauges is made once; blocks that move are searched in their own frame
+ * (overset_search.c). */
+struct fv_output *output_create(const struct fv *s)
+{
+    struct fv_output *o = NEW(struct fv_output, 1);
+    o->begun = s->run->step;
+    if (s->m && s->run->scene.nprobes > 0) {
+        o->search = mem_own(o, overset_search(s->run, s->m));
+        o->samples = NEW_IN(o, struct block_samples, s->run->scene.nprobes);
+        o->faces = NEW_IN(o, struct face_weights, s->run->scene.nprobes);
+    }
+    return o;
+}
 
 /* For the description of the run. */
 const char *report_method(const struct fv_params *prm)
@@ -65,6 +78,15 @@ static void summarise_errors(struct fv *s)
         norm_tell(r->summary, norm_names[k], n + k, k < 2 ? units[k] : 0.0);
 }
 
+/* Counts are since the start. */
+static void newton_row(const struct newton *w, struct figures *to)
+{
+    FIGURE(to, w->norm, "residual [-]");
+    FIGURE(to, w->dtau, "pseudo step [s]");
+    FIGURE(to, (double)w->newtons, "newton iterations [-]");
+    FIGURE(to, (double)w->krylovs, "krylov vectors [-]");
+}
+
 /* Kinetic energy, largest speed, divergence, the error if there is an exact field, forces on walls;
  * what newton and a free surface add; gauges, watches. */
 void fv_row(void *state, struct figures *to)
@@ -92,6 +114,18 @@ void fv_row(void *state, struct figures *to)
     }
     fv_probes_row(s, to);
     watches_row(s->watches, to);
+}
+
+/* Iterations and halvings, a step: of this process, of the run where `all' is; V-cycles of this
+ * process alone. */
+static void newton_summarise(const struct newton *w, double steps, double all, struct summary *to)
+{
+    const double newtons = w->newtons > 0 ? (double)w->newtons : 1.0;
+    summary_real(to, "newton_iterations", (double)w->newtons / all);
+    summary_real(to, "krylov_per_newton", (double)w->krylovs / newtons);
+    summary_real(to, "v_cycles", (double)w->cycles / steps);
+    summary_int(to, "halved_steps", w->halvings);
+    summary_real(to, "newton_residual", w->norm);
 }
 
 /* Rates per cell and step over the timers of the steps, in all and outside of the pressure solver,

@@ -4,7 +4,7 @@
 #include "../fv.h"
 #include "../grid/fv_grid.h"
 #include "mesh_output.h"
-#include "report.h"
+#include "output.h"
 
 #include "../../common/run/run.h"
 #include "../../common/scene/scene.h"

@@ -14,7 +14,7 @@ struct fv_output {
     int64_t begun;        /* step of the run that this process began with */
 };
 
-/* output_state.c: what outputs of this grid need; owned by the caller (FREE). Collective. */
+/* fv_report.c: what outputs of this grid need; owned by the caller (FREE). Collective. */
 struct fv_output *output_create(const struct fv *s);
 
 /* The fields of a snapshot, m/s, Pa, 1/s. */
@@ -26,7 +26,7 @@ void output_fill(struct fv *s, enum output_field what, double *const q[3]);
 void fv_snapshot(void *s, struct h5 *f, struct xdmf *x, const char *file);
 void fv_checkpoint(void *s, struct h5 *f);
 bool fv_restore(struct fv *s, struct h5 *f);
-/* fv_report.c: row and finish of struct program. */
+/* row and finish of struct program. */
 void fv_row(void *s, struct figures *to);
 void fv_finish(void *s);
 /* Sums over what no partner counts, for the coupler; see program.tell. */
@@ -62,7 +62,13 @@ void surface_summarise(struct fv *s);
  * the column of cells there on top of what x stands on. This rank's part of it. Collective. */
 double surface_level(const struct fv *s, const double *x);
 
-/* newton_report.c: adds newton's columns of the series, counts as sums since the start. */
-void newton_row(const struct newton *w, struct figures *to);
-/* Adds iterations and halvings to the summary; steps: of this process, all: of the run. */
-void newton_summarise(const struct newton *w, double steps, double all, struct summary *to);
+/* Error norms: of velocity, pressure and vorticity. */
+enum { NORMS = 3 };
+
+/* fv_errors.c: kinetic energy over the computed cells by averages, the exact field's, and what
+ * velocities within cells add to the first, J/kg m^dim. */
+void fv_energies(struct fv *s, double sum[3]);
+/* Errors against the exact field now, of all ranks, in the fields' own units. Collective. */
+void fv_errors(struct fv *s, struct norm n[NORMS]);
+/* How the run steps: "rk3, three projections a step". */
+const char *report_method(const struct fv_params *prm);

@@ -154,14 +154,12 @@ static void write_field(const struct sph *s, struct h5 *f, const struct field *k
  */
 static void write_region(const struct sph *s, struct h5 *f)
 {
-    static const char *const lo[3] = {"xmin", "ymin", "zmin"}, *const hi[3] = {"xmax", "ymax",
-                                                                               "zmax"};
     h5_attribute_real(f, "dx", s->dx);
     if (s->zones) /* Pa: what it adds to a partner's pressure */
         h5_attribute_real(f, "gauge", s->zones->gauge);
     for (int a = 0; a < s->dim; a++) {
-        h5_attribute_real(f, lo[a], s->lo[a]);
-        h5_attribute_real(f, hi[a], s->hi[a]);
+        h5_attribute_real(f, key_text("%cmin", "xyz"[a]), s->lo[a]);
+        h5_attribute_real(f, key_text("%cmax", "xyz"[a]), s->hi[a]);
     }
 }
 
@@ -247,12 +245,10 @@ enum { NUMBERS = sizeof numbers / sizeof numbers[0], NUMBERS_OF_FLOW = 13 };
 /* The member itself. */
 static double *number(struct sph *s, int k) { return (double *)((char *)s + numbers[k].offset); }
 
-/* A dataset of one level: the first has plain names. Valid until the next call. */
+/* A dataset of one level: the first has plain names. Valid as key_text. */
 static const char *name(const struct sph *s, const char *plain)
 {
-    static char text[64];
-    snprintf(text, sizeof text, "%s_%d", plain, s->level);
-    return s->level > 0 ? text : plain;
+    return s->level > 0 ? key_text("%s_%d", plain, s->level) : plain;
 }
 
 /* Writes the surface's class of each particle: a coupling step begins with what the last step has
