@@ -297,6 +297,12 @@ void sph_meshes_warn(const struct run *r, const struct sph_params *used)
         if (scene_surface_of(c, m->owner, m->index)->weld > 0.01 * dx)
             log_warn("mesh %s: weld = %g m is more than sph.dx/100: it may close what is open",
                      m->name, scene_surface_of(c, m->owner, m->index)->weld);
+        if (m->owner == MESH_OF_BODY && m->mesh.closed && scene_mesh_thin(c, m))
+            log_warn(
+                "mesh %s is closed and has thin = true: beside its edges the force on it errs, "
+                "by a third and more, and under water the run may end. Leave thin out, with "
+                "0.7 sph.R_dx sph.dx = %.2g m below its thickness",
+                m->name, 0.7 * used->R_dx * dx);
         warn_gaps(r, m, dx);
     }
     if (c->meshes)

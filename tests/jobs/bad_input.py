@@ -702,6 +702,8 @@ else:
     tells('mesh', 's/solid.stl/inside_out.stl/', 'mesh inside_out: 1 of its 1 part(s) inside out in the file: turned', 'fluid outside')
     tells('mesh', 's/solid.stl/three.stl/', 'mesh three: 36 triangles in 3 parts', 'triangles pierce others, the first at', 'face others across less than 2 dx')
     tells('mesh', 's/dx = 0.05/dx = 0.1/; s/solid.stl/drum.stl/', 'edges of 0.0.* finer than the particles')
+    tells('mesh', 's/{ mesh = "solid.stl"; }/{ side = "z_max"; }/; s/shapes:/bodies: ( { mesh = "solid.stl"; thin = true; } ); shapes:/',
+          'mesh body is closed and has thin = true: .*Leave thin out')
     # a gauge that the file's 7 digits put behind a body's face is on it, however fine the particles
     tells('mesh', r'/^ *{ mesh/d; s/,$/);/; s/dx = 0.05/dx = 0.01/; s/^sph/bodies: ( { mesh = "solid.stl"; } );\nprobes: ( { name = "p"; at = (0.69999995, 0.5, 0.4); } );\n&/', 'mesh body')
     tells('mesh', 's/solid.stl"/&; weld = 0.01/', 'weld = 0.01 m is more than sph.dx.100')
